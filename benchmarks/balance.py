@@ -67,9 +67,9 @@ def picture() -> None:
     """Draw the ZMPs of skin and ankles over time."""
     from plantar.plotting import save_figure
     from plantar.recordings.recording import read_mcap
-    from sim.figures.zmp_figure import draw_zmps
-    from sim.run.runner import run_scene
-    from sim.run.scene import load_scene
+    from plantar.sim.figures.zmp_figure import draw_zmps
+    from plantar.sim.run.runner import run_scene
+    from plantar.sim.run.scene import load_scene
 
     with tempfile.TemporaryDirectory() as folder:
         run_scene(load_scene("balance"), 3, record=Path(folder) / "run.mcap")

@@ -29,15 +29,15 @@ import mujoco
 import numpy as np
 
 from plantar.atomic import write_text
-from sim.companion.dynamics import MujocoDynamics
-from sim.companion.machine import load_machine
-from wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
-from wholebody.fusion.hierarchy import fuse
-from wholebody.stack import TaskStack
-from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
-from wholebody.tasks.center_of_mass import CenterOfMass
-from wholebody.tasks.posture import Posture
-from wholebody.tasks.support import Standing, Support
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.machine import load_machine
+from plantar.wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
+from plantar.wholebody.fusion.hierarchy import fuse
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from plantar.wholebody.tasks.center_of_mass import CenterOfMass
+from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.support import Standing, Support
 
 STATES = 50
 """Random states that are compared."""
@@ -58,9 +58,9 @@ _READING = """Read it so:
   companion is Python but for MuJoCo and one kernel. Of a 9-joint arm a tick is mostly Python's calls, and tsid is
   faster; of a whole body it is arithmetic, and both take about as long.
 - tsid has two levels. Every further one costs the companion about 10 us of an arm; where a task is silent, nothing.
-- "With limits" is `wholebody.fusion.hierarchical_qp`: first without its shortcut, so that every level is solved though
-  no limit acts, then with a torque limit a tenth below what the stack needs. With the shortcut a tick on which no limit
-  acts costs what the plain hierarchy does and some 10 us. tsid holds limits on its first level only.
+- "With limits" is `plantar.wholebody.fusion.hierarchical_qp`: first without its shortcut, so that every level is solved
+  though no limit acts, then with a torque limit a tenth below what the stack needs. With the shortcut a tick on which
+  no limit acts costs what the plain hierarchy does and some 10 us. tsid holds limits on its first level only.
 - daqp meets mink's constraints to 1e-6 of the largest velocity, quadprog to 1e-9: the free base has no cost of its own.
 """
 
@@ -312,7 +312,7 @@ class Kinematic:
 
 def against_mink(case, mink):
     """Largest difference of velocities as a share of the largest one, and times of a tick in us."""
-    from wholebody.tasks.task import Demand
+    from plantar.wholebody.tasks.task import Demand
 
     step = 0.01
     kinematic = Kinematic(case.robot)

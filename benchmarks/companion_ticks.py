@@ -18,13 +18,13 @@ from resumable import write_table
 
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin, SkinReading
-from sim.companion.experiments.multi_contact import MultiContact
-from sim.companion.runner import Companion
-from sim.run.scene_kind import open_scene
-from wholebody.dynamics import RobotDynamics
-from wholebody.tasks.interaction import DirectInteraction
-from wholebody.tasks.skin_interaction import SkinInteraction
-from wholebody.tasks.task import Demand
+from plantar.sim.companion.experiments.multi_contact import MultiContact
+from plantar.sim.companion.runner import Companion
+from plantar.sim.run.scene_kind import open_scene
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.skin_interaction import SkinInteraction
+from plantar.wholebody.tasks.task import Demand
 
 HERE = Path(__file__).parent
 ROUNDS = 400

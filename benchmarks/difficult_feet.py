@@ -24,8 +24,8 @@ from typing import Any
 from resumable import commit, write_table
 
 from plantar.errors import PlantarError
-from shoes import ShoeParameters, build_shoe, export_shoe
-from shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes import ShoeParameters, build_shoe, export_shoe
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
 
 FOLDER = Path(__file__).parent
 sys.path.insert(0, str(FOLDER.parent / "tests" / "shoes"))

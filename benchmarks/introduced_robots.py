@@ -72,7 +72,7 @@ def introduce(data: Path) -> None:
         data: Folder that holds the models.
     """
     for name, model in MODELS.items():
-        command = [sys.executable, "cli.py", "robot", str(data / model), "-o", str(robot_file(name).parent)]
+        command = [sys.executable, "-m", "plantar", "robot", str(data / model), "-o", str(robot_file(name).parent)]
         subprocess.run(command, cwd=FOLDER.parent, check=True, stdout=subprocess.DEVNULL)
 
 

@@ -1,4 +1,5 @@
-"""Run time against error of one inverse-kinematics tick: the Newton step of `sim.model.inverse_kinematics` beside mink.
+"""Run time against error of one inverse-kinematics tick: the Newton step of `plantar.sim.model.inverse_kinematics`
+beside mink.
 
 Both follow the commands of the same four-step walk at 200 Hz, one step a tick, warm-started from the last tick.
 
@@ -14,10 +15,10 @@ import mujoco
 import numpy as np
 
 from plantar.atomic import write_text
-from sim.model.world import build_leg_model, robot_spec
-from sim.robots import load_robot
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.model.world import build_leg_model, robot_spec
+from plantar.sim.robots import load_robot
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 SIDES = ("left", "right")
 

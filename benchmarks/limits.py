@@ -15,7 +15,7 @@ from pathlib import Path
 
 from resumable import write_table
 
-from sim.sweep import LimitSearch, plan_from_texts, run_sweep
+from plantar.sim.sweep import LimitSearch, plan_from_texts, run_sweep
 
 FOLDER = Path(__file__).parent
 PUSHES = ("direction=forward,backward,left,right", "push.step=3,4")

@@ -13,8 +13,8 @@ from typing import Any
 
 from resumable import FEW, Benchmark, Case, count, latest, origin, rows_of, write_table
 
-from sim.plant.draw import RANGES
-from sim.plant.settings import RANDOM, Plant
+from plantar.sim.plant.draw import RANGES
+from plantar.sim.plant.settings import RANDOM, Plant
 
 FOLDER = Path(__file__).parent
 ROBOTS = ("h1", "hrp2kai")

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
-from gait.analysis.analyse import Analysis, analyse
-from gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.errors import PlantarError
+from plantar.gait.analysis.analyse import Analysis, analyse
+from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 
 FORCE, PRESSURE = 30.0, 10e3
 """pressuRe's force in N between steps of insoles, and the pressure in Pa from which a cell of theirs is loaded."""

@@ -13,7 +13,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
-from gait.balance.ankle_strategy import (
+from plantar.atomic import write_text
+from plantar.gait.balance.ankle_strategy import (
     AnkleRules,
     dcm_after_double_support,
     dcm_after_single_support,
@@ -24,25 +25,24 @@ from gait.balance.ankle_strategy import (
     target_dcms,
     within_support,
 )
-from gait.estimate.command_frame import CommandFrame
-from gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
-from gait.estimate.wrench_filter import WrenchFilter, WrenchFilterRules
-from gait.feet.swing_fit import SwingFit, SwingFitRules
-from gait.plan.feet_view import FeetView
-from gait.plan.footsteps import straight_plan
-from gait.plan.phases import Timing
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.dsp_opt import DspProblem, DspWeights, solve_dsp
-from gait.propose.proposer import Pendulum, Tick
-from gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
-from gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
-from plantar.atomic import write_text
+from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
+from plantar.gait.estimate.wrench_filter import WrenchFilter, WrenchFilterRules
+from plantar.gait.feet.swing_fit import SwingFit, SwingFitRules
+from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.footsteps import straight_plan
+from plantar.gait.plan.phases import Timing
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.dsp_opt import DspProblem, DspWeights, solve_dsp
+from plantar.gait.propose.proposer import Pendulum, Tick
+from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
+from plantar.gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
 from plantar.mechanics.external_wrench import vrp_offset
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from plantar.sensing.net_wrench import NetWrenchRules, net_wrench
 from plantar.sides import SIDES
-from sim.judging.capture_limit import CaptureLimits
-from sim.judging.periodic_walk import PeriodicWalk, capture_map
+from plantar.sim.judging.capture_limit import CaptureLimits
+from plantar.sim.judging.periodic_walk import PeriodicWalk, capture_map
 
 OMEGA, MASS, PERIOD = 3.44, 86.0, 0.005
 COUNT = 2000

@@ -48,8 +48,8 @@ class Cost(NamedTuple):
 
 def cost(scene: str, robot: str, settings: tuple[str, ...]) -> Cost:
     """Run a scene once."""
-    from sim.run.runner import Simulation
-    from sim.run.scene import load_scene
+    from plantar.sim.run.runner import Simulation
+    from plantar.sim.run.scene import load_scene
 
     simulation = Simulation(load_scene(scene, settings, robot), 1)
     start = time.process_time()

@@ -133,8 +133,8 @@ def run_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
     Returns:
         Its row.
     """
-    from sim.run.runner import Simulation
-    from sim.run.scene import load_scene
+    from plantar.sim.run.runner import Simulation
+    from plantar.sim.run.scene import load_scene
 
     simulation = Simulation(load_scene(case.scene, case.settings, case.file or case.robot), seed)
     with TemporaryDirectory() as folder:

@@ -19,11 +19,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.analysis.analyse import analyse
-from gait.analysis.options import AnalysisOptions
-from gait.analysis.study.compare_conditions import Comparison, compare_conditions
-from gait.analysis.study.one_recording import RecordingResult, measure_recording
-from gait.analysis.study.participants import Participation
+from plantar.gait.analysis.analyse import analyse
+from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.study.compare_conditions import Comparison, compare_conditions
+from plantar.gait.analysis.study.one_recording import RecordingResult, measure_recording
+from plantar.gait.analysis.study.participants import Participation
 from plantar.layouts.layout_file import write_layout
 from plantar.sides import SIDES
 

@@ -4,9 +4,9 @@
 Hands push with a half sine of 0.1 s at the height of the CoM, in 8 directions at 8 phases of a step (its double
 support, then its single one), in place and at 0.2 m/s. Each cell is bisected over impulses of 5 to 60 N s, first with
 85 % of the bound; a row of survival_map.csv is a run, appended as it ends, and a run that was stopped goes on where it
-was. The bound is `sim.judging.capture_limit` with the controller's own limits: region and acceleration of the swing
-foot, times of a step, and the soles. Where the 85 % fail with a joint at its torque limit, the run is repeated with
-that joint's motor four times as strong, and if that fails, too, with all motors.
+was. The bound is `plantar.sim.judging.capture_limit` with the controller's own limits: region and acceleration of the
+swing foot, times of a step, and the soles. Where the 85 % fail with a joint at its torque limit, the run is repeated
+with that joint's motor four times as strong, and if that fails, too, with all motors.
 """
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ CELLS = [Cell(v, w, a, p) for v in VARIANTS for w in LENGTHS for a in DIRECTIONS
 @functools.lru_cache
 def simulation() -> Any:
     """H1 in the scene, for its timing and limits."""
-    from sim.run.runner import Simulation
-    from sim.run.scene import load_scene
+    from plantar.sim.run.runner import Simulation
+    from plantar.sim.run.scene import load_scene
 
     return Simulation(load_scene("push-step", ["push.impulse=0", "push.small=0", "push.verdict=walk"]), 0)
 
@@ -91,11 +91,11 @@ def settings(cell: Cell, impulse: float) -> tuple[str, ...]:
 @functools.lru_cache
 def bounds(walk: str) -> dict[tuple[int, float], float]:
     """The largest push in N s that any footsteps, timing and ZMP capture, by direction and phase."""
-    from gait.contact.foot_contacts import middle_of_sole
-    from gait.propose.ssp_opt import footstep_region, touching_distance
+    from plantar.gait.contact.foot_contacts import middle_of_sole
+    from plantar.gait.propose.ssp_opt import footstep_region, touching_distance
     from plantar.mechanics.lip import pendulum_frequency
-    from sim.judging.capture_limit import CaptureLimits
-    from sim.judging.periodic_walk import PeriodicWalk, capture_map
+    from plantar.sim.judging.capture_limit import CaptureLimits
+    from plantar.sim.judging.periodic_walk import PeriodicWalk, capture_map
 
     known = simulation()
     chosen, robot = known.settings, known.robot
@@ -183,7 +183,7 @@ def following(cell: Cell, known: dict[str, tuple[bool, str]]) -> Case | None:
 
 def stronger(joint: str) -> Path:
     """File of an H1 whose motors of one kind, or all, are four times as strong."""
-    from sim.robots.robot_file import load_robot
+    from plantar.sim.robots.robot_file import load_robot
 
     kinds = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll")
     kind = "all" if joint == ALL else joint.split("_", 1)[1]

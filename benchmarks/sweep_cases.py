@@ -11,7 +11,7 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
-from sim.sweep import Sweep, run_sweep
+from plantar.sim.sweep import Sweep, run_sweep
 
 __all__ = ["FIRST", "Row", "SweepCase", "completed", "median_and_range", "rows_of_cases", "run_cases", "write_rows"]
 

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from resumable import write_table
 
-from sim.sweep import plan_from_texts, run_sweep
+from plantar.sim.sweep import plan_from_texts, run_sweep
 
 FOLDER = Path(__file__).parent
 SCENE, SEEDS = "flat", 24

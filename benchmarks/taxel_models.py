@@ -17,9 +17,9 @@ from resumable import write_table
 from plantar.geometry.polygon import area, centroid
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.partial_contact import PartialContact
-from sim.robots.robot_file import load_robot
-from sim.sensing.elastic_pressure import ElasticPressure
-from sim.sensing.sole_pressure import SolePressure
+from plantar.sim.robots.robot_file import load_robot
+from plantar.sim.sensing.elastic_pressure import ElasticPressure
+from plantar.sim.sensing.sole_pressure import SolePressure
 
 EDGES = 200
 LOAD, NOISE = 800.0, 0.3

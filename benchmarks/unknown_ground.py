@@ -133,9 +133,9 @@ def forces() -> None:
     """Draw the ground force on the slab, without and with."""
     from tempfile import TemporaryDirectory
 
-    from sim.figures.run_figure import plot_landing_forces
-    from sim.run.runner import run_scene
-    from sim.run.scene import load_scene
+    from plantar.sim.figures.run_figure import plot_landing_forces
+    from plantar.sim.run.runner import run_scene
+    from plantar.sim.run.scene import load_scene
 
     with TemporaryDirectory() as folder:
         runs = {name: Path(folder) / f"{name}.mcap" for name in ("off", "on")}

@@ -13,13 +13,12 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-import sim
-from plantar import FeetPercept, Percept, Reading, SolePose, fit_ground_plane, read_layout
+from plantar import FeetPercept, Percept, Reading, SolePose, fit_ground_plane, read_layout, sim
 from plantar.geometry.inscribed import inscribed_rectangle
 from plantar.geometry.outline import concave_outline
 from plantar.geometry.polygon import area
 from plantar.plotting import COLOURS, new_figure, save_figure
-from sim.sensing.sole_pressure import SolePressure
+from plantar.sim.sensing.sole_pressure import SolePressure
 
 FORCE, TOUCH = COLOURS["left"], COLOURS["right"]  # Fig. 40: force in blue, pre-touch in red
 NEAR = 0.015  # m: what counts as pre-touch in these pictures

@@ -9,11 +9,11 @@ from pathlib import Path
 
 os.environ.setdefault("MUJOCO_GL", "egl")
 
-from shoes.found_foot import shoe_for_surface
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
-from sim.survey.check import check_robot
-from sim.survey.introduce import introduce
+from plantar.shoes.found_foot import shoe_for_surface
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
+from plantar.sim.survey.check import check_robot
+from plantar.sim.survey.introduce import introduce
 
 
 def main(model: str, folder: str) -> bool:

@@ -8,9 +8,9 @@ import sys
 
 import numpy as np
 
-from sim.plant.draw import drawn_plant
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.plant.draw import drawn_plant
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 seed = int(sys.argv[1]) if len(sys.argv) > 1 else 0
 SHORT = ["steps=2", "settle=0.5"]

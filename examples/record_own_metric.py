@@ -10,8 +10,8 @@ from tempfile import mkdtemp
 
 import numpy as np
 
-from gait.analysis.parameters import analyse_foot
 from plantar.formats import read_recording
+from plantar.gait.analysis.parameters import analyse_foot
 
 if len(sys.argv) > 1:
     path = Path(sys.argv[1])

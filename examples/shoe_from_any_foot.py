@@ -10,8 +10,8 @@ from tempfile import TemporaryDirectory
 import trimesh
 from shapely import Polygon
 
-from shoes import fit_taxels, foot_from_dimensions, foot_from_mesh, foot_from_outline
-from shoes.foot.source import foot_of_robot
+from plantar.shoes import fit_taxels, foot_from_dimensions, foot_from_mesh, foot_from_outline
+from plantar.shoes.foot.source import foot_of_robot
 
 box = foot_from_dimensions("a box", length=0.25, width=0.10, corner_radius=0.02)
 

@@ -9,9 +9,9 @@ from tempfile import TemporaryDirectory
 
 from ezdxf.filemanagement import new
 
-from shoes import fit_taxels
-from shoes.foot.source import read_foot
-from shoes.order import FootSource
+from plantar.shoes import fit_taxels
+from plantar.shoes.foot.source import read_foot
+from plantar.shoes.order import FootSource
 
 corners = [(-100, -40), (120, -40), (120, 40), (-100, 40)]  # mm; x to the toes, y to the left
 MODEL = """<mujoco><worldbody><body name="pelvis" pos="0 0 0.5"><geom size="0.05"/>

@@ -9,14 +9,14 @@ what touches the arm moves it in the null space of the tip alone, which does not
 import mujoco
 import numpy as np
 
-from sim.body_skin.sensing import SkinSensing, SkinSensor
-from sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
-from sim.companion.dynamics import MujocoDynamics
-from sim.companion.machine import load_machine
-from wholebody.stack import TaskStack
-from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
-from wholebody.tasks.interaction import DirectInteraction
-from wholebody.tasks.posture import Posture
+from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.machine import load_machine
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.posture import Posture
 
 machine = load_machine("planar-arm")
 alone = machine.spec().compile()

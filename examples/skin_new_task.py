@@ -10,12 +10,12 @@ import mujoco
 import numpy as np
 
 from plantar.mechanics.rotation import heading
-from sim.companion.dynamics import MujocoDynamics
-from sim.companion.machine import load_machine
-from wholebody.stack import TaskStack
-from wholebody.tasks.cartesian_pose import CartesianPose
-from wholebody.tasks.posture import Posture
-from wholebody.tasks.task import Demand, Task
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.machine import load_machine
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose
+from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.task import Demand, Task
 
 
 class Tray(Task):

@@ -13,9 +13,9 @@ import numpy as np
 
 from plantar import Percept, Reading, read_layout
 from plantar.plotting import COLOURS, new_figure, save_figure
-from shoes import build_shoe, export_shoe, foot_from_dimensions
-from shoes.cells.cell_file import read_cell
-from sim.sensing.sole_pressure import SolePressure
+from plantar.shoes import build_shoe, export_shoe, foot_from_dimensions
+from plantar.shoes.cells.cell_file import read_cell
+from plantar.sim.sensing.sole_pressure import SolePressure
 
 foot = foot_from_dimensions("robot", length=0.2, width=0.09, corner_radius=0.03)
 LOAD, COP = 250.0, (0.02, 0.01)  # N; m forward and left

@@ -5,8 +5,8 @@ python examples/walk_guided.py [SEED]
 
 import sys
 
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 seed = int(sys.argv[1]) if len(sys.argv) > 1 else 0
 short = ["steps=8", "way=0.15", "toward=backward", "within=0"]  # 0.15 m, beginning 2 s after the start

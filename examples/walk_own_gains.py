@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from tempfile import mkdtemp
 
-from sim.sweep import Sweep, run_sweep
+from plantar.sim.sweep import Sweep, run_sweep
 
 
 def main():

@@ -9,8 +9,8 @@ it into joint angles. Nothing here but MuJoCo's own step knows the true state.
 import mujoco
 import numpy as np
 
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 parts = Simulation(load_scene("flat", ["steps=4", "settle=0.5"]))  # builds and wires the parts; its loop is not used
 world, sensors, controller, servos = parts.world, parts.sensors, parts.controller, parts.servos

@@ -8,11 +8,11 @@ At the third step somebody asks to set the foot 4 cm further forward. A proposer
 
 from dataclasses import replace
 
-from gait.controller import Start, WalkingController
-from gait.plan.plan_change import PlanChange
-from gait.propose.proposer import Priority, was_applied
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.gait.controller import Start, WalkingController
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.propose.proposer import Priority, was_applied
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 
 class Further:

@@ -6,8 +6,8 @@ python examples/walk_own_terrain.py
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 SCENE = """
 name = "plank"

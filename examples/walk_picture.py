@@ -16,9 +16,9 @@ import numpy as np
 from plantar import Percept, Reading
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recordings.recording import read_mcap
-from sim.figures.render import Camera, View
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.figures.render import Camera, View
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 SCENES = {  # settings, seed, moment in s at which both feet are loaded, viewing direction
     "flat": (["steps=8"], 0, 6.88, 140.0),

@@ -5,8 +5,8 @@ python examples/walk_push.py [SEED]
 
 import sys
 
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 seed = int(sys.argv[1]) if len(sys.argv) > 1 else 0
 push = ["steps=4", "settle=1.0", "impulse=25", "direction=backward", "push.step=1"]  # 25 N s from the front

@@ -18,8 +18,8 @@ Data flows layout -> reading -> percept. The ten names that most people need:
     '440 N, 71 mm in front of the ankle'
 
 Recordings: `plantar.formats.read_recording` reads a file of any known maker, `plantar.recordings.recorder.Recorder`
-writes one while a robot runs, and `gait.analysis` measures the steps in it. A stream is read reading by reading with
-`Percept`, or with `walking_tick`, which gives a controller what it needs of a foot in one call of 5 us;
+writes one while a robot runs, and `plantar.gait.analysis` measures the steps in it. A stream is read reading by
+reading with `Percept`, or with `walking_tick`, which gives a controller what it needs of a foot in one call of 5 us;
 `TaxelActivation` and `StuckMonitor` remember from one reading to the next. A file that is larger than memory goes
 through `batch.blocks`.
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 import typer
 
-import cli
 import plantar
+from plantar import cli
 
 PLANTAR = [str(Path(sys.executable).parent / "plantar")]
 COMMANDS = typer.main.get_command(cli.app).commands  # type: ignore[attr-defined]

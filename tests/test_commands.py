@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-import cli
+from plantar import cli
 
 SHORT = ["--set", "steps=2", "--set", "settle=0.2"]
 

@@ -70,17 +70,30 @@ def test_recordings_are_analysed_compared_and_studied(environment: dict[str, str
     (tmp_path / "study").mkdir()
     for name in ("a.asc", "b.asc"):
         run(environment, tmp_path, ROOT / "examples" / "insole_walk.py", f"study/{name}")
-    run(environment, tmp_path, "-m", "cli", "analyze", "study/a.asc", "--export", "npz", "--export", "csv", "-o", "one")
-    run(environment, tmp_path, "-m", "cli", "analyze", "--compare", "study/a.asc", "study/b.asc", "-o", "both")
-    run(environment, tmp_path, "-m", "cli", "analyze", "study", "-o", "all")
+    run(
+        environment,
+        tmp_path,
+        "-m",
+        "plantar",
+        "analyze",
+        "study/a.asc",
+        "--export",
+        "npz",
+        "--export",
+        "csv",
+        "-o",
+        "one",
+    )
+    run(environment, tmp_path, "-m", "plantar", "analyze", "--compare", "study/a.asc", "study/b.asc", "-o", "both")
+    run(environment, tmp_path, "-m", "plantar", "analyze", "study", "-o", "all")
     made = {str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*.html")}
     assert {"one/report.html", "both/report.html", "all/study.html"} <= made
 
 
 def test_a_sensor_is_recorded_and_viewed(environment: dict[str, str], tmp_path: Path) -> None:
     run(environment, tmp_path, ROOT / "examples" / "record_own_sensor.py", "run.mcap")
-    run(environment, tmp_path, "-m", "cli", "analyze", "run.mcap", "-o", "walk")
-    run(environment, tmp_path, "-m", "cli", "view", "run.mcap", "-o", "view.html")
+    run(environment, tmp_path, "-m", "plantar", "analyze", "run.mcap", "-o", "walk")
+    run(environment, tmp_path, "-m", "plantar", "view", "run.mcap", "-o", "view.html")
     assert (tmp_path / "view.html").stat().st_size > 100_000
 
 

@@ -91,7 +91,7 @@ def test_an_example_of_the_readme_runs(user, number):
 
 def test_the_table_of_commands_is_the_command_lines():
     listed = set(re.findall(r"^\| `plantar (\w+)` \|", README, re.MULTILINE))
-    helped = run([sys.executable, "-m", "cli", "--help"], ROOT).stdout.partition("Commands:")[2]
+    helped = run([sys.executable, "-m", "plantar", "--help"], ROOT).stdout.partition("Commands:")[2]
     assert listed == set(re.findall(r"^  (\w+)  ", helped, re.MULTILINE))
 
 

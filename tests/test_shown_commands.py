@@ -18,16 +18,16 @@ import numpy as np
 import pytest
 import typer
 
-import cli
+from plantar import cli
 from plantar.errors import PlantarError
 from plantar.formats import read_recording
-from shoes import ShoeParameters
-from shoes.cells.cell_file import read_cell
-from sim.companion.machine import load_machine
-from sim.robots import load_robot
-from sim.run.listing import listed
-from sim.run.scene_kind import full_setting_name, open_scene
-from sim.run.setting_list import settings_of_robot
+from plantar.shoes import ShoeParameters
+from plantar.shoes.cells.cell_file import read_cell
+from plantar.sim.companion.machine import load_machine
+from plantar.sim.robots import load_robot
+from plantar.sim.run.listing import listed
+from plantar.sim.run.scene_kind import full_setting_name, open_scene
+from plantar.sim.run.setting_list import settings_of_robot
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
@@ -147,7 +147,7 @@ def shown_model(page: str) -> str:
 
 
 def test_a_robot_that_is_shown_is_read(tmp_path: Path) -> None:
-    for layout in (ROOT / "sim" / "robots" / "h1").glob("layout_*.json"):
+    for layout in (ROOT / "plantar" / "sim" / "robots" / "h1").glob("layout_*.json"):
         shutil.copy(layout, tmp_path)
     (tmp_path / "jvrc1.xml").write_text("<mujoco/>")
     for text in (shown_model("simulation.md"), re.sub(r"^# (?=\w+ = [^.\[])", "", shown_model("simulation.md"))):
@@ -172,7 +172,7 @@ def desk(tmp_path_factory: pytest.TempPathFactory) -> Path:
     import trimesh
     from ezdxf.filemanagement import new
 
-    from sim.model.world import robot_spec
+    from plantar.sim.model.world import robot_spec
 
     folder = tmp_path_factory.mktemp("desk")
     box = trimesh.creation.box(extents=(0.22, 0.09, 0.06))

@@ -17,7 +17,7 @@ HEAVY = {"cadquery", "OCP", "trimesh", "mujoco", "mink", "matplotlib", "shapely"
 LIST_MODULES = """
 import sys
 sys.argv = ["plantar", *sys.argv[1:]]
-import cli
+from plantar import cli
 try:
     cli.main()
 except SystemExit as stop:
@@ -48,7 +48,9 @@ def test_help_loads_nothing_heavy():
 
 
 def test_the_help_of_every_command_loads_nothing_heavy():
-    commands = subprocess.run([sys.executable, "-m", "cli", "--help"], capture_output=True, text=True, cwd=ROOT).stdout
+    commands = subprocess.run(
+        [sys.executable, "-m", "plantar", "--help"], capture_output=True, text=True, cwd=ROOT
+    ).stdout
     names = re.findall(r"^  (\w+)  ", commands.partition("Commands:")[2], re.MULTILINE)
     assert {"shoe", "analyze", "list"} <= set(names)
     assert {name: loaded_by(name, "--help") & HEAVY for name in names} == {name: set() for name in names}
@@ -72,7 +74,7 @@ def test_the_public_names_load_numpy_only_when_used():
 def test_help_starts_within_0_4_s():
     """The best of five runs, so that a busy machine does not decide; 0.06 s where this was written."""
     console_script = Path(sys.executable).parent / "plantar"
-    command = [str(console_script)] if console_script.exists() else [sys.executable, "-m", "cli"]
+    command = [str(console_script)] if console_script.exists() else [sys.executable, "-m", "plantar"]
     assert os.access(command[0], os.X_OK)
     best = min(seconds(*command, "--help") for _ in range(5))
     bare = min(seconds(sys.executable, "-c", "pass") for _ in range(5))

@@ -25,8 +25,8 @@ from plantar.settings.schema import Settings, choice, number
 from plantar.mechanics.lip import pendulum_frequency
 from plantar.geometry import polygon
 from plantar import Percept, Reading, SoleLayout, hex_layout, inscribed_circle
-from shoes.units import to_m
-from sim.run.scene import Scene, load_scene
+from plantar.shoes.units import to_m
+from plantar.sim.run.scene import Scene, load_scene
 
 layout: SoleLayout = hex_layout([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]])
 percept = Percept(layout, Reading(time=0.0, force=np.zeros(len(layout))))
@@ -54,8 +54,8 @@ import numpy as np
 from plantar.settings.schema import Settings, number
 from plantar.mechanics.lip import pendulum_frequency
 from plantar import Percept, Reading, hex_layout, no_such_name  # attr-defined
-from shoes.units import to_m
-from sim.run.scene import load_scene
+from plantar.shoes.units import to_m
+from plantar.sim.run.scene import load_scene
 
 layout = hex_layout([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]])
 percept = Percept(layout, Reading(time=0.0, force="none"))  # arg-type
@@ -83,9 +83,8 @@ def editable(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("editable")
     source = folder / "source"
     left_out = shutil.ignore_patterns("__pycache__", "*.so", "*.pyd", "*.egg-info")
-    for part in ("plantar", "shoes", "gait", "sim"):
-        shutil.copytree(ROOT / part, source / part, ignore=left_out)
-    for name in ("cli.py", "setup.py", "pyproject.toml", "README.md", "LICENSE"):
+    shutil.copytree(ROOT / "plantar", source / "plantar", ignore=left_out)
+    for name in ("setup.py", "pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(ROOT / name, source)
     (folder / "blocked").mkdir()
     (folder / "blocked" / "Cython.py").write_text("raise ImportError")

@@ -79,12 +79,11 @@ def ends(path: Path) -> set[str]:
 
 def tracked() -> list[Path]:
     """Files of the distribution in the checkout."""
-    parts = ("plantar", "shoes", "gait", "sim", "wholebody")
     built = {"__pycache__", *EXTENSION_SUFFIXES}
-    inside = [p for part in parts for p in (ROOT / part).rglob("*") if p.is_file() and not built & {*p.parts, *ends(p)}]
+    inside = [p for p in (ROOT / "plantar").rglob("*") if p.is_file() and not built & {*p.parts, *ends(p)}]
     return [
         p.relative_to(ROOT)
-        for p in [*inside, *(ROOT / n for n in ("cli.py", "setup.py", "pyproject.toml", "README.md", "LICENSE"))]
+        for p in [*inside, *(ROOT / n for n in ("setup.py", "pyproject.toml", "README.md", "LICENSE"))]
     ]
 
 
@@ -133,7 +132,7 @@ def test_the_sdist_holds_what_its_tests_need(tmp_path):
     [built] = tmp_path.glob("*.tar.gz")
     with tarfile.open(built) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-    for folder in ("tests", "examples", "docs", "tools", "plantar", "shoes", "gait", "wholebody", "sim"):
+    for folder in ("tests", "examples", "docs", "tools", "plantar"):
         files = [p for p in (source / folder).rglob("*") if p.is_file() and not ends(p) & {".so", ".pyd", ".c"}]
         missing = {p.relative_to(source).as_posix() for p in files} - names
         assert missing == set()
@@ -150,11 +149,12 @@ def test_the_wheel_holds_code_and_data(wheel):
         for p in tracked()
         if len(p.parts) > 1 and (p.suffix in {".py", ".pxd", *data} or p.name == "py.typed")
     }
-    assert names - extensions_in(wheel) == wanted | {"cli.py"}
+    assert names - extensions_in(wheel) == wanted
+    assert {n.partition("/")[0] for n in names} == {"plantar"}
     assert {n.partition(".")[0] for n in extensions_in(wheel)} == kernels_that_compile()
-    assert {f"{part}/py.typed" for part in ("plantar", "shoes", "gait", "wholebody", "sim")} <= names
-    assert any(n.startswith("sim/robots/") and n.endswith(".toml") for n in names)
-    assert any(n.startswith("sim/scenes/") and n.endswith(".toml") for n in names)
+    assert "plantar/py.typed" in names
+    assert any(n.startswith("plantar/sim/robots/") and n.endswith(".toml") for n in names)
+    assert any(n.startswith("plantar/sim/scenes/") and n.endswith(".toml") for n in names)
 
 
 def test_the_wheel_names_its_license_and_its_extras(wheel):
@@ -168,7 +168,8 @@ def test_the_wheel_names_its_license_and_its_extras(wheel):
 
 
 def test_it_runs_from_the_environment_and_not_from_the_checkout(installed, tmp_path):
-    code = "import cli, plantar, shoes, gait, sim\nfor m in (cli, plantar, shoes, gait, sim): print(m.__file__)"
+    code = "from plantar import cli, gait, shoes, sim, wholebody\n"
+    code += "for m in (cli, gait, shoes, sim, wholebody): print(m.__file__)"
     files = run(installed / "python", "-c", code, cwd=tmp_path).stdout.splitlines()
     assert len(files) == 5
     assert all(Path(f).is_relative_to(installed.parent) for f in files), files
@@ -192,6 +193,20 @@ def test_without_a_compiler_it_installs_and_works(tmp_path):
         archive.extractall(tmp_path / "installed")
     code = "from plantar import kernels, polygon; print(polygon.area([[0, 0], [2, 0], [2, 1]]), kernels.compiled)"
     assert run(sys.executable, "-c", code, cwd=tmp_path / "installed").stdout.split() == ["1.0", "False"]
+
+
+def test_a_users_own_files_are_left_alone(installed, tmp_path):
+    """A user's folder may hold the names that the checkout has at its top, and be on the path."""
+    for folder in ("sim", "gait", "wholebody"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "__init__.py").write_text(f"raise SystemExit('{folder} of the user was run')")
+    for name in ("cli", "shoes"):
+        (tmp_path / f"{name}.py").write_text(f"raise SystemExit('{name} of the user was run')")
+    for command in ([installed / "plantar"], [installed / "python", "-m", "plantar"]):
+        for words in (["--version"], ["list", "scenes"], ["list", "robots"], ["shoe", "--help"]):
+            run(*command, *words, cwd=tmp_path, PYTHONPATH=str(tmp_path))
+    code = "import plantar.percepts.batch, plantar.gait.controller, plantar.sim.run.runner, plantar.wholebody.stack"
+    run(installed / "python", "-c", code, cwd=tmp_path, PYTHONPATH=str(tmp_path))
 
 
 def test_help_and_lists(installed, tmp_path):

@@ -19,9 +19,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ROOT / "out" / "pages"
-PACKAGES = ("plantar", "shoes", "gait", "wholebody", "sim")
-HIDDEN = {"plantar.bench", "plantar.kernels"}
-"""Rooms that are no interface: measurements, and what is called through `plantar.geometry` and `plantar.percepts`."""
+PACKAGES = ("plantar", "plantar.shoes", "plantar.gait", "plantar.wholebody", "plantar.sim")
+HIDDEN = {"plantar.bench", "plantar.kernels", "plantar.cli", *PACKAGES[1:]}
+"""Rooms without a page: measurements, what is called through `plantar.geometry` and `plantar.percepts`, the command
+line, and packages, which have a list of their own."""
 
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)((?:#[^)]*)?)\)")
 
@@ -91,7 +92,7 @@ def _of_the_site(page: Path, path: str) -> str | None:
 def settings_page() -> str:
     """Every setting with default, unit and range."""
     from plantar.settings.setting_text import setting_rows
-    from sim.run.setting_list import settings_of_robot
+    from plantar.sim.run.setting_list import settings_of_robot
 
     rows = setting_rows(settings_of_robot(None, None))
     tables: dict[str, list[str]] = {}
@@ -158,7 +159,7 @@ def write_api() -> None:
     index = ["# API", "", "A package is laid out by question, one folder (a room) or one file each.", ""]
     for package in PACKAGES:
         index += [f"## {package}", "", "| room | what it is |", "|---|---|"]
-        for room, path in _rooms(ROOT / package, package):
+        for room, path in _rooms(ROOT.joinpath(*package.split(".")), package):
             modules = _modules(path, room)
             if not modules:
                 continue

@@ -15,8 +15,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from sim.robots import load_robot
-from sim.robots.biped import BipedParameters, biped_mjcf
+from plantar.sim.robots import load_robot
+from plantar.sim.robots.biped import BipedParameters, biped_mjcf
 
 WAIST_Z, TORSO_Z = -0.02, 0.02  # m: waist in the base, torso in the waist
 CHEST_Z, SHOULDER = 0.10, (0.0, 0.245, 0.50)  # m: lower edge of the chest and left arm in the torso

@@ -43,8 +43,8 @@ def digests(walk: tuple[str, str, tuple[str, ...]]) -> dict[str, list[str]]:
     Returns:
         For each topic a digest for each second that it covers.
     """
-    from sim.run.runner import run_scene
-    from sim.run.scene import load_scene
+    from plantar.sim.run.runner import run_scene
+    from plantar.sim.run.scene import load_scene
 
     scene, robot, settings = walk
     with tempfile.TemporaryDirectory() as folder:

@@ -18,8 +18,8 @@ os.environ.setdefault("MUJOCO_GL", "egl")
 import cv2
 from PIL import Image
 
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 SEED, STEPS = 3, 16
 BEGIN, CYCLE = 14.6, 4.8  # s: both feet are on the beam by then; four steps

@@ -130,7 +130,7 @@ def packaged_files(package: str, pattern: str) -> list[Path]:
         Their paths, sorted.
 
     Example:
-        >>> [path.name for path in packaged_files("sim", "scenes/beam*.toml")]
+        >>> [path.name for path in packaged_files("plantar.sim", "scenes/beam*.toml")]
         ['beam-forward.toml', 'beam-yaw.toml', 'beam.toml']
         >>> packaged_files("no_such_package", "*")
         []
@@ -150,7 +150,7 @@ def described_files(paths: Iterable[Path]) -> dict[Path, str]:
         The lines by path; empty where a file gives none or cannot be read.
 
     Example:
-        >>> [*described_files(packaged_files("sim", "scenes/beam.toml")).values()][0][:14]
+        >>> [*described_files(packaged_files("plantar.sim", "scenes/beam.toml")).values()][0][:14]
         '50 side steps '
     """
     found = {}

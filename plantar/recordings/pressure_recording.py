@@ -173,7 +173,7 @@ class PressureRecording:
         rate_hz: Frames a second.
         time: Times (n,) in s.
         feet: The feet that were measured, by side. A platform stands under one entry as a whole until
-            `gait.analysis.prints.platform` has told its footprints apart.
+            `plantar.gait.analysis.prints.platform` has told its footprints apart.
         metadata: What the file says beside the data.
         warnings: What was assumed, repaired or left out, one line each.
         kind: What measured.

@@ -76,7 +76,7 @@ def test_the_index_names_every_page_and_every_page_its_command() -> None:
 
 def test_every_case_of_the_tables_is_a_scene_that_loads(resumable: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(FOLDER))
-    from sim.run.scene import load_scene
+    from plantar.sim.run.scene import load_scene
 
     for name in ("balance", "footholds", "push", "unknown_ground", "velocity", "stones", "guide", "force_only"):
         monkeypatch.delitem(sys.modules, name, raising=False)

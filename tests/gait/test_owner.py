@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-import gait
+import plantar
 
-ROOT = Path(gait.__file__).resolve().parent.parent  # of what is imported: the checkout, or where it is installed
+ROOT = Path(plantar.__file__).resolve().parent  # of what is imported: the checkout, or where it is installed
 OWNER = "gait/plan/walk_plan.py"
 PLANNED = {"_view", "_vrps", "_record", "vrps", "schedule", "phases", "steps", "foothold", "timing"}
 """Names by which what is planned can be reached."""

@@ -7,22 +7,22 @@ from dataclasses import replace
 
 import pytest
 
-from gait.balance.dcm_balance import BalanceGains
-from gait.balance.foot_admittance import AdmittanceGains
-from gait.balance.wrench_balance import WrenchBalanceGains
-from gait.contact.ground_map import GroundMapSettings
-from gait.contact.stance_contact import ContactSettings
-from gait.controller_settings import ControllerSettings
-from gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
-from gait.estimate.estimator import EstimatorGains
-from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from gait.feet.foot_motion import Landing
-from gait.feet.ground_conformity import ConformityGains
-from gait.plan.phases import Timing
-from gait.propose.feasibility import FeasibilityRules
-from gait.propose.foothold_rules import FootholdRules
-from gait.propose.slope_inside import SlopeRules
 from plantar.errors import InputError
+from plantar.gait.balance.dcm_balance import BalanceGains
+from plantar.gait.balance.foot_admittance import AdmittanceGains
+from plantar.gait.balance.wrench_balance import WrenchBalanceGains
+from plantar.gait.contact.ground_map import GroundMapSettings
+from plantar.gait.contact.stance_contact import ContactSettings
+from plantar.gait.controller_settings import ControllerSettings
+from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
+from plantar.gait.estimate.estimator import EstimatorGains
+from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
+from plantar.gait.feet.foot_motion import Landing
+from plantar.gait.feet.ground_conformity import ConformityGains
+from plantar.gait.plan.phases import Timing
+from plantar.gait.propose.feasibility import FeasibilityRules
+from plantar.gait.propose.foothold_rules import FootholdRules
+from plantar.gait.propose.slope_inside import SlopeRules
 from plantar.settings.schema import Settings
 
 CLASSES = (

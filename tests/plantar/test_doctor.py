@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-import cli
-from plantar import __version__
+from plantar import __version__, cli
 from plantar.doctor import LIBRARIES, PURPOSES, doctor_text, examine
 
 

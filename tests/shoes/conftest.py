@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from shoes import Foot, ShoeReport, build_shoe, export_shoe, foot_from_dimensions
+from plantar.shoes import Foot, ShoeReport, build_shoe, export_shoe, foot_from_dimensions
 
 Triangles = NDArray[np.float64]
 
@@ -139,7 +139,7 @@ def box() -> Callable[..., Triangles]:
 @pytest.fixture
 def stl(tmp_path: Path) -> Callable[..., Path]:
     """Writes triangles to an STL file and gives its path."""
-    from shoes.papers.stl import write_stl
+    from plantar.shoes.papers.stl import write_stl
 
     def write(triangles: Triangles, name: str = "foot.stl") -> Path:
         with np.errstate(invalid="ignore"):  # a test may write what is not finite

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from plantar import read_layout
 from plantar.errors import FootError, InputError
-from shoes import Foot, ShoeBuild, ShoeParameters, build_shoe, export_shoe, foot_from_dimensions, foot_from_mesh
-from shoes.checks.check import ShoeCheck, check_shoe
-from shoes.foot.foot_mesh import foot_from_triangles
-from shoes.papers.stl import read_stl, write_stl
-from shoes.solid.tray import read_step, write_step
+from plantar.shoes import Foot, ShoeBuild, ShoeParameters, build_shoe, export_shoe, foot_from_dimensions, foot_from_mesh
+from plantar.shoes.checks.check import ShoeCheck, check_shoe
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.papers.stl import read_stl, write_stl
+from plantar.shoes.solid.tray import read_step, write_step
 
 NAMES = (
     "flat_box",
@@ -76,7 +76,7 @@ def test_progress_rises_to_one(small_foot: Foot) -> None:
 
 def test_a_layout_needs_no_cad_kernel() -> None:
     code = (
-        "import sys; from shoes import build_shoe, foot_from_dimensions;"
+        "import sys; from plantar.shoes import build_shoe, foot_from_dimensions;"
         "foot = foot_from_dimensions('a', length=.2, width=.1, sole_center=(0, 0), corner_radius=.01);"
         "build_shoe(foot, layout_only=True);"
         "print([m for m in ('cadquery', 'OCP', 'trimesh', 'mujoco', 'matplotlib') if m in sys.modules])"
@@ -142,7 +142,7 @@ def test_the_papers_shoe(repository: Path) -> None:
     """H1: 42 taxels of 691 mm^2, at most 250 mm long, overhang below 10 mm; the repository holds this layout."""
     import tomllib
 
-    folder = repository / "sim" / "robots" / "h1"
+    folder = repository / "plantar" / "sim" / "robots" / "h1"
     facts = tomllib.loads((folder / "robot.toml").read_text())["foot"]
     foot = foot_from_dimensions(
         "h1",

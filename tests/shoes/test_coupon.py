@@ -10,10 +10,10 @@ import shapely
 import trimesh
 
 from plantar.errors import InputError
-from shoes import Foot, ShoeReport, build_shoe
-from shoes.cells.cell_file import read_cell
-from shoes.coupon import build_coupons, write_coupons
-from shoes.foot.foot import foot_from_dimensions
+from plantar.shoes import Foot, ShoeReport, build_shoe
+from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.coupon import build_coupons, write_coupons
+from plantar.shoes.foot.foot import foot_from_dimensions
 
 from .shoe_witness import hits
 

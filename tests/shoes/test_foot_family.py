@@ -9,9 +9,9 @@ import pytest
 import trimesh
 
 from plantar.errors import FootError
-from shoes import ShoeParameters, ShoeReport, build_shoe, export_shoe
-from shoes.foot.foot import Foot
-from shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes import ShoeParameters, ShoeReport, build_shoe, export_shoe
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
 
 from .foot_family import FAMILY, REFUSED, TURNS, prism, small_turns, turned
 from .shoe_witness import Witness, hits

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 
 from plantar.layouts.layout_file import read_layout
-from shoes.found_foot import shoe_for_surface
+from plantar.shoes.found_foot import shoe_for_surface
 
 
 @pytest.mark.parametrize("gap", [0.0, 0.12])

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 import shapely
 
-from gait.analysis.analyse import analyse, with_layout
 from plantar import Percept, Reading, read_layout
 from plantar.errors import FootError, InputError
-from shoes import ShoeParameters, export_shoe
-from shoes.foot.foot import Foot, foot_from_dimensions
-from shoes.insole import build_insole
-from shoes.parameters import read_parameters
+from plantar.gait.analysis.analyse import analyse, with_layout
+from plantar.shoes import ShoeParameters, export_shoe
+from plantar.shoes.foot.foot import Foot, foot_from_dimensions
+from plantar.shoes.insole import build_insole
+from plantar.shoes.parameters import read_parameters
 
 from .foot_family import prism
 from .shoe_witness import Witness

@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import cli
+from plantar import cli
 from plantar.layouts.layout_file import read_layout
-from shoes import ShoeParameters, build_shoe, export_shoe
-from shoes.cells.cell_file import read_cell
-from shoes.foot.foot import Foot
+from plantar.shoes import ShoeParameters, build_shoe, export_shoe
+from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.foot.foot import Foot
 
 from .foot_family import prism
 from .shoe_witness import Witness

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import InputError
-from shoes.parameters import ShoeParameters, read_parameters
+from plantar.shoes.parameters import ShoeParameters, read_parameters
 
 
 def test_defaults_are_in_their_ranges_and_leave_a_floor() -> None:

@@ -14,7 +14,7 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
-import cli
+from plantar import cli
 
 Shape = Callable[..., NDArray[np.float64]]
 Writer = Callable[..., Path]
@@ -78,7 +78,7 @@ def test_a_robot_gives_its_layouts(run: Run, tmp_path: Path, repository: Path) -
     assert "42 taxels of 691 mm^2" in out
     for side in ("left", "right"):
         made = (tmp_path / "out" / f"layout_{side}.json").read_text()
-        stored = (repository / "sim" / "robots" / "h1" / f"layout_{side}.json").read_text()
+        stored = (repository / "plantar" / "sim" / "robots" / "h1" / f"layout_{side}.json").read_text()
         np.testing.assert_allclose(json.loads(made)["vertices"], json.loads(stored)["vertices"], atol=1e-6)
 
 
@@ -196,8 +196,8 @@ def test_a_robots_model_and_a_drawing_give_layouts(run: Run, stl: Writer, box: S
 
 
 def test_a_step_file_is_a_foot(run: Run, tmp_path: Path) -> None:
-    from shoes.plan.block import Step, box_block
-    from shoes.solid.tray import build_solid, write_step
+    from plantar.shoes.plan.block import Step, box_block
+    from plantar.shoes.solid.tray import build_solid, write_step
 
     write_step(build_solid([Step("add", "a", (box_block((-60, -45, 0), (140, 45, 50)),))]), str(tmp_path / "foot.step"))
     code, out, err = run(tmp_path / "foot.step", "--layout-only", "-o", tmp_path / "out", "--json")
@@ -214,7 +214,8 @@ def test_a_layout_takes_no_cad_kernel_and_little_work(tmp_path: Path) -> None:
 
     code = (
         "import atexit, sys; atexit.register(lambda: print('cadquery' in sys.modules, 'OCP' in sys.modules));"
-        "sys.argv = ['plantar', 'shoe', '--robot', 'h1', '--layout-only', '-o', sys.argv[1]]; import cli; cli.main()"
+        "sys.argv = ['plantar', 'shoe', '--robot', 'h1', '--layout-only', '-o', sys.argv[1]];"
+        "from plantar import cli; cli.main()"
     )
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, check=True)

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shoes.units import MM_PER_M, to_m, to_mm
+from plantar.shoes.units import MM_PER_M, to_m, to_mm
 
 
 @given(st.floats(-1e6, 1e6))

@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
-from sim.model.world import World, build_world
-from sim.robots import Robot, load_robot
-from sim.run.runner import run_scene
-from sim.run.scene import Scene, load_scene
-from sim.terrain import Ground
+from plantar.sim.model.world import World, build_world
+from plantar.sim.robots import Robot, load_robot
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import Scene, load_scene
+from plantar.sim.terrain import Ground
 
 
 @pytest.fixture(scope="session")

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from plantar.recordings.recording import read_mcap
-from sim.figures.run_figure import plot_run
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.figures.run_figure import plot_run
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 SHORT = ["push.count=2", "settle=8"]
 

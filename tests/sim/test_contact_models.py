@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-import cli
-from plantar import HexLattice, InputError, SoleLayout, hex_layout
-from sim.contact_models import (
+from plantar import HexLattice, InputError, SoleLayout, cli, hex_layout
+from plantar.sim.contact_models import (
     CANDIDATES,
     Candidate,
     build_sole,
@@ -23,7 +22,7 @@ from sim.contact_models import (
     study_contact_parameters,
     write_contact_report,
 )
-from sim.contact_models.comparison import PLANE, ContactRow, Rig, full_stance, tip_over
+from plantar.sim.contact_models.comparison import PLANE, ContactRow, Rig, full_stance, tip_over
 
 OUTLINE = [[-0.125, -0.0775], [0.125, -0.0775], [0.125, 0.0775], [-0.125, 0.0775]]
 LAYOUT = hex_layout(OUTLINE)

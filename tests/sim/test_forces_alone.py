@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])

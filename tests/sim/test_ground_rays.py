@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from plantar import hex_layout, kernels
 from plantar.kernels.sensors import ground_rays
-from sim.sensing.proximity import SoleProximity
-from sim.terrain import GROUND_GROUP
+from plantar.sim.sensing.proximity import SoleProximity
+from plantar.sim.terrain import GROUND_GROUP
 
 KINDS = ("plane", "sphere", "ellipsoid", "cylinder", "box")
 REACH = 0.07

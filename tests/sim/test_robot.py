@@ -9,10 +9,10 @@ import pytest
 
 from plantar.errors import RobotError
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from sim.model.world import robot_spec
-from sim.robots import load_robot
-from sim.run.controller_settings import controller_settings
-from sim.run.scene import load_scene
+from plantar.sim.model.world import robot_spec
+from plantar.sim.robots import load_robot
+from plantar.sim.run.controller_settings import controller_settings
+from plantar.sim.run.scene import load_scene
 
 
 def test_hrp2kai_has_the_published_masses_limits_and_heights() -> None:

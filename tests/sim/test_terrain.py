@@ -7,8 +7,20 @@ import numpy as np
 import pytest
 
 from plantar.errors import SceneError
-from sim.run.scene import load_scene
-from sim.terrain import Beam, Block, Course, Flat, Footprint, Partial, Pebbles, PlannedFeet, Stones, Terrain, Uneven
+from plantar.sim.run.scene import load_scene
+from plantar.sim.terrain import (
+    Beam,
+    Block,
+    Course,
+    Flat,
+    Footprint,
+    Partial,
+    Pebbles,
+    PlannedFeet,
+    Stones,
+    Terrain,
+    Uneven,
+)
 
 HALF = (0.125, 0.075)
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from plantar.errors import SceneError
-from sim.run.runner import Simulation, run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import Simulation, run_scene
+from plantar.sim.run.scene import load_scene
 
 WEIGHT = 86.0 * 9.81
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.dynamics import MujocoDynamics
 
 
 @dataclass

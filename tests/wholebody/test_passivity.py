@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
-from wholebody.stack import TaskStack
-from wholebody.tasks.base_avoidance import BaseAvoidance
-from wholebody.tasks.body_compliance import BodyCompliance
-from wholebody.tasks.interaction import DirectInteraction
-from wholebody.tasks.posture import Posture
-from wholebody.tasks.pressure import PressureInteraction
-from wholebody.tasks.proximity import ProximityInteraction
-from wholebody.tasks.self_collision import SelfCollision, Sphere
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.base_avoidance import BaseAvoidance
+from plantar.wholebody.tasks.body_compliance import BodyCompliance
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.pressure import PressureInteraction
+from plantar.wholebody.tasks.proximity import ProximityInteraction
+from plantar.wholebody.tasks.self_collision import SelfCollision, Sphere
 
 STEP = 1e-3
 HAND = "link5"
@@ -103,7 +103,7 @@ SLIDING = """<mujoco><worldbody><body name="base">
 
 
 def test_a_base_is_driven_away_from_an_obstacle_without_gain():
-    from sim.companion.dynamics import MujocoDynamics
+    from plantar.sim.companion.dynamics import MujocoDynamics
 
     turning = SLIDING.format(turn='<joint type="hinge" axis="0 0 1"/>')
     robot = MujocoDynamics(mujoco.MjModel.from_xml_string(turning))
@@ -120,7 +120,7 @@ def test_a_base_is_driven_away_from_an_obstacle_without_gain():
 
 def test_a_wall_that_is_seen_square_on_gives_back_what_it_took():
     """What is seen at a slant is pushed along the taxel's axis, not the wall's: T 3.30 is no potential there."""
-    from sim.companion.dynamics import MujocoDynamics
+    from plantar.sim.companion.dynamics import MujocoDynamics
 
     robot = MujocoDynamics(mujoco.MjModel.from_xml_string(SLIDING.format(turn="")))
     works = []

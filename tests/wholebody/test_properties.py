@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from wholebody.fusion.hierarchy import DAMPED, fuse
-from wholebody.tasks.cartesian_pose import CartesianPose
-from wholebody.tasks.center_of_mass import CenterOfMass
-from wholebody.tasks.point_force import PointForce
-from wholebody.tasks.posture import Posture
-from wholebody.tasks.self_collision import SelfCollision, Sphere
-from wholebody.tasks.support import Standing, Support
+from plantar.wholebody.fusion.hierarchy import DAMPED, fuse
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose
+from plantar.wholebody.tasks.center_of_mass import CenterOfMass
+from plantar.wholebody.tasks.point_force import PointForce
+from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.self_collision import SelfCollision, Sphere
+from plantar.wholebody.tasks.support import Standing, Support
 
 SIZES = (3, 4, 5, 6, 7, 9, 12, 16, 20, 24, 30, 36)
 

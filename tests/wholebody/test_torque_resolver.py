@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError
-from wholebody.torque_resolver import ResolverSettings, TorqueResolver
+from plantar.wholebody.torque_resolver import ResolverSettings, TorqueResolver
 
 FREE = ResolverSettings(damping=0.0, velocity_pull=0.0, largest_lag=10.0, largest_acceleration=1e6)
 

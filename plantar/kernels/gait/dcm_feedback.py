@@ -1,7 +1,7 @@
 """Kernel of the DCM feedback: where the desired ZMP lies, and how the CoM reference yields to the ZMP's error.
 
-Plain Python that also compiles ahead of time (`dcm_feedback.pxd` gives the C types). `gait.balance` says where each
-equation comes from, and which law has which part.
+Plain Python that also compiles ahead of time (`dcm_feedback.pxd` gives the C types). `plantar.gait.balance` says where
+each equation comes from, and which law has which part.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """The kernel of a floating base that is estimated from leg kinematics, IMU and what the soles carry.
 
-Plain Python that also compiles ahead of time (`floating_base.pxd` gives the C types). `gait.estimate.estimator` is the
-public face: it says where each equation comes from. Feet are numbered in the order of `plantar.sides.SIDES`.
+Plain Python that also compiles ahead of time (`floating_base.pxd` gives the C types).
+`plantar.gait.estimate.estimator` is the public face: it says where each equation comes from. Feet are numbered in the
+order of `plantar.sides.SIDES`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Kernel of a gyro's bias by feet that stand still, and of which feet do.
 
-`gait.estimate.gyro_bias` and `gait.estimate.steady_load` are the public faces: they say what is compared, and why. Feet
-are numbered in the order of `plantar.sides.SIDES`.
+`plantar.gait.estimate.gyro_bias` and `plantar.gait.estimate.steady_load` are the public faces: they say what is
+compared, and why. Feet are numbered in the order of `plantar.sides.SIDES`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The kernel that keeps a swing foot where it is wanted in the world while the body leans.
 
 Plain Python that also compiles ahead of time (`lean_correction.pxd` gives the C types).
-`gait.feet.posture_compensation` is the public face, with the equation.
+`plantar.gait.feet.posture_compensation` is the public face, with the equation.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Kernel of the load transfer: a force on the body, shared between two feet.
 
-Plain Python that also compiles ahead of time (`load_transfer.pxd` gives the C types). `gait.balance.load_transfer` is
-the public face: it says how, and why.
+Plain Python that also compiles ahead of time (`load_transfer.pxd` gives the C types).
+`plantar.gait.balance.load_transfer` is the public face: it says how, and why.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Kernel of foot damping: one sole that yields until it carries what it shall.
 
 Plain Python that also compiles ahead of time (`sole_admittance.pxd` gives the C types).
-`gait.balance.foot_admittance` is the public face: it says why, and lets two feet share a load.
+`plantar.gait.balance.foot_admittance` is the public face: it says why, and lets two feet share a load.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The kernel of a swing foot's fitted path (K 13-16): ridge regression of three axes through both ends of the path.
 
-Plain Python that also compiles ahead of time (`swing_fit.pxd` gives the C types). `gait.feet.swing_fit` is the public
-face, with units and an example.
+Plain Python that also compiles ahead of time (`swing_fit.pxd` gives the C types). `plantar.gait.feet.swing_fit` is the
+public face, with units and an example.
 """
 
 from __future__ import annotations

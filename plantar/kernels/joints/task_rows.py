@@ -5,8 +5,9 @@ c goes along v. A point p of the body goes along v + w x (p - c). These are the 
 are the CoM of each tree, and the results are those of its `mj_jac` to the last bit: the same sums in the same order.
 Which velocities move a body, its chain, is found once.
 
-Plain Python that also compiles ahead of time (`task_rows.pxd` gives the C types); the tasks in `sim.model.tasks` are
-the public face. Each object has arrays of its own to write to, zero to begin with, and views of those that it reads.
+Plain Python that also compiles ahead of time (`task_rows.pxd` gives the C types); the tasks in
+`plantar.sim.model.tasks` are the public face. Each object has arrays of its own to write to, zero to begin with, and
+views of those that it reads.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
 
 In mass-weighted coordinates y = L^T q'', M = L L^T. A row of a Jacobian becomes L^-1 J^T, each level's rows are brought
 to triangular form by Householder reflections of what the levels before left, and y is kept in the basis that these
-make. `wholebody.fusion.hierarchy` says what that is for. Plain Python that also compiles ahead of time
+make. `plantar.wholebody.fusion.hierarchy` says what that is for. Plain Python that also compiles ahead of time
 (`task_space.pxd` gives the C types).
 """
 

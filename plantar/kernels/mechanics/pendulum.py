@@ -1,7 +1,7 @@
 """The kernel of a pendulum over a VRP that moves along a line: VRP, DCM and CoM at one time, with their rates.
 
-Plain Python that also compiles ahead of time (`pendulum.pxd` gives the C types). `gait.plan.vrp_plan` is the public
-face, with the equations.
+Plain Python that also compiles ahead of time (`pendulum.pxd` gives the C types). `plantar.gait.plan.vrp_plan` is the
+public face, with the equations.
 """
 
 from __future__ import annotations

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.activity import activity_of, progression_doubts, sway_measures
-from gait.analysis.analyse import metrics_of
-from gait.analysis.options import AnalysisOptions
-from gait.analysis.parameters import analyse_feet
-from gait.analysis.steps.baseline import without_baselines
 from plantar.errors import InputError
 from plantar.formats.nominal_insole import nominal_insole
+from plantar.gait.analysis.activity import activity_of, progression_doubts, sway_measures
+from plantar.gait.analysis.analyse import metrics_of
+from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.steps.baseline import without_baselines
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, StatedEvents
 from plantar.sides import SIDES
 

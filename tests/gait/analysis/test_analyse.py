@@ -15,12 +15,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-import cli
-from gait.analysis.analyse import analyse_recording, metrics_of
-from gait.analysis.parameters import analyse_foot
-from plantar import FormatError, InputError, LayoutError, write_layout
+from plantar import FormatError, InputError, LayoutError, cli, write_layout
 from plantar.formats import read_recording
 from plantar.formats.nominal_insole import nominal_insole
+from plantar.gait.analysis.analyse import analyse_recording, metrics_of
+from plantar.gait.analysis.parameters import analyse_foot
 from plantar.plotting import thinned
 from plantar.recordings.recorder import Recorder
 
@@ -136,7 +135,7 @@ def test_command_prints_one_json_object(tmp_path: Path, run: tuple[Path, Any]) -
 
 
 def plantar(*arguments: str) -> subprocess.CompletedProcess[str]:
-    code = "import cli, sys; sys.argv[0] = 'plantar'; cli.main()"
+    code = "import sys; from plantar import cli; sys.argv[0] = 'plantar'; cli.main()"
     return subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=False)
 
 

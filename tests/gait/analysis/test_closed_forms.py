@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.parameters import analyse_feet
-from gait.analysis.prints.footprint import Footprint, footprint_of_pixels
-from gait.analysis.prints.platform import told_apart
-from gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
-from gait.analysis.steps.foot_gait import FootGait
-from gait.analysis.steps.force_curve import force_measures
 from plantar.formats.grid_cells import grid_cells
+from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_pixels
+from plantar.gait.analysis.prints.platform import told_apart
+from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.gait.analysis.steps.force_curve import force_measures
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording
 
@@ -167,7 +167,7 @@ def test_toes_and_regions_of_a_drawn_foot(side: Side) -> None:
 
 
 def test_cpei_of_a_bowed_path() -> None:
-    from gait.analysis.steps.cop_path import excursion_index
+    from plantar.gait.analysis.steps.cop_path import excursion_index
 
     for side, outward in (("left", 1.0), ("right", -1.0)):
         print_ = ellipse_print(0.12, 0.045, 0.0, side=side)  # type: ignore[arg-type]

@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-import cli
-from gait.analysis.compare import compare_recordings
-from plantar import FormatError, InputError, write_layout
+from plantar import FormatError, InputError, cli, write_layout
 from plantar.formats.nominal_insole import nominal_insole
+from plantar.gait.analysis.compare import compare_recordings
 
 
 def write_walk(path: Path, sides: tuple[str, ...], gain: float = 1.0, unit: str = "N") -> Path:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import Analysis
-from gait.analysis.custom import custom_measures, mask_cells, mask_measures
-from gait.analysis.pages.sole_figures import axis_is_inside
-from gait.analysis.parameters import analyse_feet
 from plantar import InputError
+from plantar.gait.analysis.analyse import Analysis
+from plantar.gait.analysis.custom import custom_measures, mask_cells, mask_measures
+from plantar.gait.analysis.pages.sole_figures import axis_is_inside
+from plantar.gait.analysis.parameters import analyse_feet
 
 from .walks import made_walk
 

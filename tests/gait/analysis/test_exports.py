@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from cli import app
-from gait.analysis.analyse import Analysis, analyse, metrics_of
-from gait.analysis.exports import export_analysis
-from gait.analysis.parameters import analyse_feet
 from plantar import InputError
+from plantar.cli import app
 from plantar.formats.format import ReadOptions
 from plantar.formats.nominal_insole import nominal_insole
+from plantar.gait.analysis.analyse import Analysis, analyse, metrics_of
+from plantar.gait.analysis.exports import export_analysis
+from plantar.gait.analysis.parameters import analyse_feet
 
 from .walks import made_walk
 

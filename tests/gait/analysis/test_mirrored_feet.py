@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import metrics_of
-from gait.analysis.mirrored_feet import inward_of_toes, mirrored_doubts
-from gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.analyse import metrics_of
+from plantar.gait.analysis.mirrored_feet import inward_of_toes, mirrored_doubts
+from plantar.gait.analysis.parameters import analyse_feet
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, other_side
@@ -62,7 +62,7 @@ def test_one_foot_and_robots_are_not_doubted() -> None:
 
 
 def test_real_feet_are_not_doubted(real_data: Path) -> None:
-    from gait.analysis.analyse import analyse
+    from plantar.gait.analysis.analyse import analyse
 
     for name in ("pedar_walk.asc", "moticon_walk_a.txt", "xsensor_walk.csv", "fscan_walk_left.asf"):
         found = analyse(real_data / "recordings" / name)

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import analyse
-from gait.analysis.steps.swing_levels import swing_levels
 from plantar import PlantarError
 from plantar.formats import read_recording
+from plantar.gait.analysis.analyse import analyse
+from plantar.gait.analysis.steps.swing_levels import swing_levels
 from plantar.sides import Side
 
 EXAMPLES = ("pedar_walk.asc", "emed_step.lst", "fscan_walk_left.asf", "xsensor_walk.csv", "moticon_walk_a.txt")

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import analyse_recording
-from gait.analysis.compare import compare_recordings
+from plantar.gait.analysis.analyse import analyse_recording
+from plantar.gait.analysis.compare import compare_recordings
 
 from .browser import AXE, axe_script, visit
 from .printing import PrintedImage, printed_images

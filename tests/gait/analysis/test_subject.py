@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from cli import app
-from gait.analysis.analyse import metrics_of
-from gait.analysis.body_weight import implied_weight
-from gait.analysis.pages.report import report_page, summary_text
-from gait.analysis.parameters import analyse_feet
-from gait.analysis.steps.baseline import without_baselines
-from gait.analysis.subject import Subject, device_of, mass_doubts
 from plantar import InputError
+from plantar.cli import app
 from plantar.formats.nominal_insole import nominal_insole
+from plantar.gait.analysis.analyse import metrics_of
+from plantar.gait.analysis.body_weight import implied_weight
+from plantar.gait.analysis.pages.report import report_page, summary_text
+from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.steps.baseline import without_baselines
+from plantar.gait.analysis.subject import Subject, device_of, mass_doubts
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout_file import layout_to_dict
 

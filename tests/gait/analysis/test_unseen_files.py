@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import Analysis, analyse
 from plantar.formats.moticon_insole import moticon_insole
+from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.sides import SIDES
 
 from .vendor_texts import Writing, matrix_insoles, moticon, pedar, tekscan, xsensor

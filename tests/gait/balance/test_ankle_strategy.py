@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from gait.balance.ankle_strategy import (
+from plantar.errors import InputError
+from plantar.gait.balance.ankle_strategy import (
     MOST_GROWTH,
     AnkleRules,
     Saturation,
@@ -26,7 +27,6 @@ from gait.balance.ankle_strategy import (
     target_dcms,
     within_support,
 )
-from plantar.errors import InputError
 
 place = st.lists(st.integers(-400, 400), min_size=2, max_size=2).map(lambda mm: np.array(mm) / 1e3)
 push = st.lists(st.integers(-100, 100), min_size=2, max_size=2).map(lambda mm: np.array(mm) / 1e3)

@@ -3,9 +3,9 @@ import math
 import numpy as np
 import pytest
 
-from gait.balance.dcm_balance import BalanceGains, DcmBalance
-from gait.plan.vrp_plan import VrpPlan
 from plantar.errors import InputError
+from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
+from plantar.gait.plan.vrp_plan import VrpPlan
 
 OMEGA, MASS, PERIOD = 3.5, 95.0, 0.005
 BOX = np.array([[-0.1, -0.06], [0.1, -0.06], [0.1, 0.06], [-0.1, 0.06]])

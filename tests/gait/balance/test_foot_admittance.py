@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
 from plantar.errors import InputError
+from plantar.gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
 
 PERIOD = 0.005
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.balance.law import BalanceState, Feet, FootState
-from gait.balance.load_transfer import transferred
-from gait.balance.open_loop import OpenLoop
-from gait.estimate.command_frame import CommandFrame
-from gait.plan.vrp_plan import VrpPlan
+from plantar.gait.balance.law import BalanceState, Feet, FootState
+from plantar.gait.balance.load_transfer import transferred
+from plantar.gait.balance.open_loop import OpenLoop
+from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.gait.plan.vrp_plan import VrpPlan
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import level_rotation
 from plantar.sides import Side

@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 from msgspec.structs import astuple
 
-from gait.balance.balance_laws import balance_gains, balance_law
-from gait.balance.dcm_balance import BalanceGains, DcmBalance
-from gait.balance.law import BalanceState, Feet, FootAction, FootState
-from gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains
-from gait.estimate.command_frame import CommandFrame
-from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError
+from plantar.gait.balance.balance_laws import balance_gains, balance_law
+from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
+from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
+from plantar.gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains
+from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.gait.plan.vrp_plan import LipReference
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
 from plantar.mechanics.wrench_distribution import DistributionState

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gait.contact.ankle_limits import AnkleLimits
+from plantar.gait.contact.ankle_limits import AnkleLimits
 from plantar.geometry.polygon import area, centroid, inner_offset
 
 SOLE = np.array([[-0.1, -0.07], [0.14, -0.07], [0.14, 0.07], [-0.1, 0.07]])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.contact.ankle_reach import borne_part, loaded_middle
+from plantar.gait.contact.ankle_reach import borne_part, loaded_middle
 
 SOLE = np.array([[-0.07, -0.04], [0.18, -0.04], [0.18, 0.04], [-0.07, 0.04]])
 

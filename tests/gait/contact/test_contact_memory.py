@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.contact.contact_memory import ContactMemory
+from plantar.gait.contact.contact_memory import ContactMemory
 from plantar.geometry.polygon import area
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from gait.contact.edge_memory import EdgeMemory
+from plantar.gait.contact.edge_memory import EdgeMemory
 from plantar.mechanics.rotation import level_rotation
 
 LEVEL = level_rotation(0.0)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gait.contact.ground_map import GroundMap, GroundMapSettings, GroundView
 from plantar import Percept, Reading, hex_layout
+from plantar.gait.contact.ground_map import GroundMap, GroundMapSettings, GroundView
 
 LAYOUT = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
 PERIOD = 0.005

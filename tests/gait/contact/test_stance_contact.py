@@ -3,9 +3,9 @@ import math
 import numpy as np
 import pytest
 
-from gait.contact.stance_contact import ContactSettings, StanceContact
 from plantar import hex_layout
 from plantar.errors import InputError
+from plantar.gait.contact.stance_contact import ContactSettings, StanceContact
 from plantar.geometry.polygon import area, centroid
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.reading import Reading

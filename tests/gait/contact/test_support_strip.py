@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gait.contact.support_strip import SupportStrip
+from plantar.gait.contact.support_strip import SupportStrip
 
 FORWARD = np.array([0.0, 1.0])
 

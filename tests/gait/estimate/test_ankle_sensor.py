@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from gait.estimate.ankle_sensor import AnkleSensor, SoleWrench
+from plantar.gait.estimate.ankle_sensor import AnkleSensor, SoleWrench
 
 
 def test_the_foots_weight_is_taken_off_at_any_posture() -> None:

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from gait.estimate.body_sensors import BodySensors
 from plantar import InputError
+from plantar.gait.estimate.body_sensors import BodySensors
 
 SOUND = (np.full(12, -0.3), np.array([0.1, -0.2, 0.0]), np.array([0.0, 0.0, 9.81]))
 

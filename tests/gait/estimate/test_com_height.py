@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gait.estimate.com_height import CoMHeight
+from plantar.gait.estimate.com_height import CoMHeight
 
 
 def test_it_follows_a_step_without_a_jump_in_speed() -> None:

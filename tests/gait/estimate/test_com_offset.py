@@ -7,8 +7,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from gait.estimate.com_offset import com_offset
-from gait.estimate.estimator import Posture
+from plantar.gait.estimate.com_offset import com_offset
+from plantar.gait.estimate.estimator import Posture
 from plantar.mechanics.rotation import level_rotation
 from plantar.sides import SIDES, Side
 

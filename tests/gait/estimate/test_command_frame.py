@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gait.estimate.command_frame import CommandFrame
+from plantar.gait.estimate.command_frame import CommandFrame
 
 numbers = st.floats(-50.0, 50.0)
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.linalg import expm, solve_discrete_are
 
-from gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
 from plantar.errors import InputError
+from plantar.gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
 
 OMEGA, PERIOD = 3.44, 0.005
 NOISE = DcmFilterRules()

@@ -7,8 +7,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from gait.estimate.encoder_offsets import StandingTolerances, encoder_offsets, standing_base
-from gait.estimate.estimator import Posture
+from plantar.gait.estimate.encoder_offsets import StandingTolerances, encoder_offsets, standing_base
+from plantar.gait.estimate.estimator import Posture
 from plantar.sides import SIDES, Side
 
 TOLERANCES = StandingTolerances(offset=3e-3, place=6e-4, turn=1e-3)

@@ -10,10 +10,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
-from gait.estimate.estimator import EstimatorGains, FloatingBaseEstimator, Posture
-from gait.estimate.gyro_bias import GyroBias
 from plantar import InputError, Percept, Reading, SoleLayout, hex_layout
+from plantar.gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
+from plantar.gait.estimate.estimator import EstimatorGains, FloatingBaseEstimator, Posture
+from plantar.gait.estimate.gyro_bias import GyroBias
 from plantar.layouts.layout import Side
 
 PERIOD, OMEGA = 0.005, 3.5

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from gait.estimate.gyro_bias import GyroBias
+from plantar.gait.estimate.gyro_bias import GyroBias
 from plantar.mechanics.rotation import sine_vector
 from plantar.sides import Side
 

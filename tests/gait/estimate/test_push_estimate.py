@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from gait.estimate.push_estimate import PushEstimate, PushRules
+from plantar.gait.estimate.push_estimate import PushEstimate, PushRules
 
 PERIOD = 0.005
 RULES = PushRules()

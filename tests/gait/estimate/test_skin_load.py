@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gait.estimate.skin_load import SkinLoad, at_its_limit, percept_to_its_limit
+from plantar.gait.estimate.skin_load import SkinLoad, at_its_limit, percept_to_its_limit
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
 from plantar.percepts.percept import Percept

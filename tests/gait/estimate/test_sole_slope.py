@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.estimate.sole_slope import SoleSlope
-from gait.feet.landing_compliance import DampingGains, LandingCompliance
+from plantar.gait.estimate.sole_slope import SoleSlope
+from plantar.gait.feet.landing_compliance import DampingGains, LandingCompliance
 from plantar.mechanics.rotation import rotation_from_vector
 from plantar.sides import Side
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gait.estimate.steady_load import SteadyLoad
+from plantar.gait.estimate.steady_load import SteadyLoad
 from plantar.sides import Side
 
 PERIOD, WEIGHT = 0.005, 800.0

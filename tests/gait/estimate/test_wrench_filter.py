@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from gait.estimate.wrench_filter import MOST_OFFSET, WrenchFilter, WrenchFilterRules
 from plantar.errors import InputError
+from plantar.gait.estimate.wrench_filter import MOST_OFFSET, WrenchFilter, WrenchFilterRules
 
 OMEGA, PERIOD = 3.44, 0.005
 

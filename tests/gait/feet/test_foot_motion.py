@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gait.contact.ground_map import GroundMapSettings
-from gait.estimate.command_frame import CommandFrame
-from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from gait.feet.foot_motion import FootMotion, Landing, SoleSense
-from gait.feet.swing_compliance import SwingCompliance
-from gait.feet.swing_fit import SwingFitRules
-from gait.plan.footsteps import Footstep, straight_plan
-from gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
 from plantar import Percept, Reading, hex_layout
+from plantar.gait.contact.ground_map import GroundMapSettings
+from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
+from plantar.gait.feet.foot_motion import FootMotion, Landing, SoleSense
+from plantar.gait.feet.swing_compliance import SwingCompliance
+from plantar.gait.feet.swing_fit import SwingFitRules
+from plantar.gait.plan.footsteps import Footstep, straight_plan
+from plantar.gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
 from plantar.layouts.layout import Side
 
 PERIOD = 0.005

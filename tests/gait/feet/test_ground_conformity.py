@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.contact.ground_map import GroundMapSettings
-from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from gait.feet.foot_motion import FootMotion, Landing
-from gait.feet.ground_conformity import ConformityGains, FootTurn
-from gait.feet.swing_compliance import SwingCompliance
-from gait.plan.footsteps import straight_plan
 from plantar.errors import InputError
+from plantar.gait.contact.ground_map import GroundMapSettings
+from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
+from plantar.gait.feet.foot_motion import FootMotion, Landing
+from plantar.gait.feet.ground_conformity import ConformityGains, FootTurn
+from plantar.gait.feet.swing_compliance import SwingCompliance
+from plantar.gait.plan.footsteps import straight_plan
 from plantar.layouts.tiling import hex_layout
 
 PERIOD = 0.005

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gait.feet.landing_compliance import LandingCompliance
+from plantar.gait.feet.landing_compliance import LandingCompliance
 
 
 def test_a_sole_on_its_toes_turns_its_heel_down() -> None:

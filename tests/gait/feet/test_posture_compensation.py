@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from gait.feet.posture_compensation import PostureCompensation
+from plantar.gait.feet.posture_compensation import PostureCompensation
 
 COM = np.array([0.0, 0.0, 0.8])
 FOOT = np.array([0.1, 0.2, 0.05])

@@ -4,7 +4,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gait.feet.swing import SwingTrajectory
+from plantar.gait.feet.swing import SwingTrajectory
 
 SWING = SwingTrajectory(
     start=np.array([0.0, 0.1, 0.0]),

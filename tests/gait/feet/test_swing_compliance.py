@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.contact.ground_map import GroundMapSettings, GroundView
-from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from gait.feet.swing_compliance import SwingCompliance, turned_to_ground
 from plantar import hex_layout
+from plantar.gait.contact.ground_map import GroundMapSettings, GroundView
+from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
+from plantar.gait.feet.swing_compliance import SwingCompliance, turned_to_ground
 from plantar.mechanics.rotation import vector_from_rotation
 
 LAYOUT = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from msgspec.structs import astuple
 
-from gait.feet.swing_fit import SwingFit, SwingFitRules
 from plantar.errors import InputError
+from plantar.gait.feet.swing_fit import SwingFit, SwingFitRules
 
 PERIOD = 0.005
 

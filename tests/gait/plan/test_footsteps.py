@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gait.plan.footsteps import Footstep, other_side, straight_plan
 from plantar.errors import InputError
+from plantar.gait.plan.footsteps import Footstep, other_side, straight_plan
 
 
 def test_forward_walk_leads_by_one_length_and_closes() -> None:

@@ -3,9 +3,9 @@ from itertools import pairwise
 
 import pytest
 
-from gait.plan.footsteps import straight_plan
-from gait.plan.phases import PhaseKind, Timing, WalkSchedule
 from plantar.errors import InputError
+from plantar.gait.plan.footsteps import straight_plan
+from plantar.gait.plan.phases import PhaseKind, Timing, WalkSchedule
 from plantar.sides import Side
 
 STEPS = straight_plan(5)[1]

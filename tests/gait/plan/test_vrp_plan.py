@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from gait.plan.vrp_plan import VrpPlan
 from plantar import kernels
 from plantar.errors import InputError
+from plantar.gait.plan.vrp_plan import VrpPlan
 from plantar.kernels.mechanics import pendulum
 
 OMEGA = 3.5

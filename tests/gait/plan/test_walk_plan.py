@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gait.plan.footsteps import Footstep, straight_plan
-from gait.plan.phases import PhaseKind, Timing
-from gait.plan.plan_change import AppliedChange, PlanChange
-from gait.plan.vrp_plan import LipReference
-from gait.plan.walk_plan import WalkPlan, vrp_of_step
 from plantar.errors import InputError
+from plantar.gait.plan.footsteps import Footstep, straight_plan
+from plantar.gait.plan.phases import PhaseKind, Timing
+from plantar.gait.plan.plan_change import AppliedChange, PlanChange
+from plantar.gait.plan.vrp_plan import LipReference
+from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
 from plantar.sides import other_side
 
 OMEGA = 3.5

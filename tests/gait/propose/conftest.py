@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gait.estimate.command_frame import CommandFrame
-from gait.plan.feet_view import FeetView
-from gait.plan.footsteps import straight_plan
-from gait.plan.phases import Timing
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.proposer import Tick
+from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.footsteps import straight_plan
+from plantar.gait.plan.phases import Timing
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.proposer import Tick
 from plantar.sides import SIDES
 
 OMEGA = 3.5

@@ -3,10 +3,10 @@ from dataclasses import dataclass
 
 import pytest
 
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.decide import decide
-from gait.propose.proposer import Priority, Tick, was_applied
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.decide import decide
+from plantar.gait.propose.proposer import Priority, Tick, was_applied
 
 
 @dataclass

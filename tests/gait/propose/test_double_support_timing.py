@@ -4,11 +4,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.double_support_timing import DoubleSupportTiming, DoubleSupportTimingRules
-from gait.propose.dsp_opt import DspWeights
-from gait.propose.proposer import Pendulum, Tick
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.double_support_timing import DoubleSupportTiming, DoubleSupportTimingRules
+from plantar.gait.propose.dsp_opt import DspWeights
+from plantar.gait.propose.proposer import Pendulum, Tick
 
 PERIOD = 0.005
 RULES = DoubleSupportTimingRules()

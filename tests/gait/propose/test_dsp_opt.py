@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from gait.balance.ankle_strategy import dcm_after_double_support, double_support_pull
-from gait.propose.dsp_opt import DspProblem, DspWeights, _Cost, _pull_and_rate, solve_dsp
 from plantar.errors import InputError
+from plantar.gait.balance.ankle_strategy import dcm_after_double_support, double_support_pull
+from plantar.gait.propose.dsp_opt import DspProblem, DspWeights, _Cost, _pull_and_rate, solve_dsp
 
 WEIGHTS = DspWeights()
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gait.plan.feet_view import FeetView
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.edge_beside import EdgeBeside
-from gait.propose.proposer import Tick
+from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.edge_beside import EdgeBeside
+from plantar.gait.propose.proposer import Tick
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
 from plantar.sides import SIDES, Side

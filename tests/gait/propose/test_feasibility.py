@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.propose.feasibility import FeasibilityRules, FootholdProbe, room_ahead, way_around
 from plantar import InputError, hex_layout
+from plantar.gait.propose.feasibility import FeasibilityRules, FootholdProbe, room_ahead, way_around
 from plantar.geometry.polygon import area
 
 OUTLINE = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])

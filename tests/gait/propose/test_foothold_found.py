@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gait.contact.foot_contacts import FootholdFound, FootholdSeen
-from gait.contact.support_strip import SupportStrip
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.foothold_found import FootholdCarries
-from gait.propose.foothold_rules import FootholdRules
-from gait.propose.foothold_seen import FootholdSeenAhead
-from gait.propose.proposer import Tick
+from plantar.gait.contact.foot_contacts import FootholdFound, FootholdSeen
+from plantar.gait.contact.support_strip import SupportStrip
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.foothold_found import FootholdCarries
+from plantar.gait.propose.foothold_rules import FootholdRules
+from plantar.gait.propose.foothold_seen import FootholdSeenAhead
+from plantar.gait.propose.proposer import Tick
 from plantar.sides import SIDES, Side
 
 RULES = FootholdRules()

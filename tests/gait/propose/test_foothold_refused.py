@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gait.plan.feet_view import FeetView
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.feasibility import FeasibilityRules
-from gait.propose.foothold_refused import StepGuard
-from gait.propose.proposer import Tick
 from plantar import Reading, hex_layout
+from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.feasibility import FeasibilityRules
+from plantar.gait.propose.foothold_refused import StepGuard
+from plantar.gait.propose.proposer import Tick
 from plantar.sides import SIDES
 
 PERIOD = 0.005

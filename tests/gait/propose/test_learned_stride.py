@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.learned_stride import LearnedStride, LearnedStrideRules
-from gait.propose.proposer import Tick
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.learned_stride import LearnedStride, LearnedStrideRules
+from plantar.gait.propose.proposer import Tick
 
 RULES = LearnedStrideRules()
 NOWHERE = np.empty((0, 2))

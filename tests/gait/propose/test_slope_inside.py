@@ -3,11 +3,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from gait.plan.feet_view import FeetView
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.proposer import Tick
-from gait.propose.slope_inside import SlopeInside, inward_distance
+from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.proposer import Tick
+from plantar.gait.propose.slope_inside import SlopeInside, inward_distance
 from plantar.sides import Side
 
 NOWHERE = np.empty((0, 2))

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from gait.balance.ankle_strategy import dcm_after_single_support, target_dcms
-from gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
 from plantar.errors import InputError
+from plantar.gait.balance.ankle_strategy import dcm_after_single_support, target_dcms
+from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
 from plantar.geometry.polygon import convex_hull
 
 WEIGHTS = StepWeights()

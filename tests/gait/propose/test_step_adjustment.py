@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 import shapely
 
-from gait.balance.ankle_strategy import AnkleRules
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.proposer import Pendulum, Tick
-from gait.propose.ssp_opt import StepRegionRules, StepWeights
-from gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
+from plantar.gait.balance.ankle_strategy import AnkleRules
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.proposer import Pendulum, Tick
+from plantar.gait.propose.ssp_opt import StepRegionRules, StepWeights
+from plantar.gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
 from plantar.sides import other_side
 
 PERIOD = 0.005

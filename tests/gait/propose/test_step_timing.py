@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import shapely
 
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.proposer import Pendulum, Tick
-from gait.propose.step_timing import StepTiming, StepTimingRules
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.proposer import Pendulum, Tick
+from plantar.gait.propose.step_timing import StepTiming, StepTimingRules
 
 PERIOD = 0.005
 RULES = StepTimingRules()

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 from shapely import Polygon
 
-from gait.plan.footsteps import Footstep, straight_plan
-from gait.plan.phases import PhaseKind, Timing
-from gait.plan.plan_change import PlanChange
-from gait.plan.walk_plan import WalkPlan
-from gait.propose.proposer import Tick
-from gait.propose.velocity_command import (
+from plantar.errors import InputError
+from plantar.gait.plan.footsteps import Footstep, straight_plan
+from plantar.gait.plan.phases import PhaseKind, Timing
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.proposer import Tick
+from plantar.gait.propose.velocity_command import (
     STOP,
     Legs,
     Stride,
@@ -25,7 +26,6 @@ from gait.propose.velocity_command import (
     next_step,
     table_of,
 )
-from plantar.errors import InputError
 
 NOWHERE = np.empty((0, 2))
 LEGS = Legs(0.17, 0.8, heel=0.09, toe=0.13, inner=0.06)

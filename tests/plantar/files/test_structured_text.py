@@ -98,11 +98,11 @@ def test_a_byte_order_mark_is_no_error(tmp_path: Path) -> None:
 def test_the_files_of_a_package_are_found_without_loading_it():
     code = (
         "import sys\nfrom plantar.files.structured_text import packaged_files\n"
-        "found = [p.name for p in packaged_files('sim', 'scenes/*.toml')]\n"
-        "assert found == sorted(found) and 'beam.toml' in found\nassert 'sim' not in sys.modules"
+        "found = [p.name for p in packaged_files('plantar.sim', 'scenes/*.toml')]\n"
+        "assert found == sorted(found) and 'beam.toml' in found\nassert 'plantar.sim.run' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
-    assert packaged_files("sim", "no_such/*") == []
+    assert packaged_files("plantar.sim", "no_such/*") == []
 
 
 def test_a_file_without_a_title_or_that_is_broken_is_still_named(tmp_path):

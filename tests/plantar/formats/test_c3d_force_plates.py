@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import analyse
 from plantar import FormatError
 from plantar.formats import detect_format, read_recording
 from plantar.formats.format import ReadOptions
+from plantar.gait.analysis.analyse import analyse
 
 ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed: pip install 'plantar[formats]'")
 

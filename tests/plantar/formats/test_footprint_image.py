@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-import cli
-from gait.analysis.analyse import analyse_recording
-from plantar import FormatError, InputError
+from plantar import FormatError, InputError, cli
 from plantar.formats import detect_format, read_recording
 from plantar.formats.footprint_image import read_footprints
 from plantar.formats.format import ReadOptions
+from plantar.gait.analysis.analyse import analyse_recording
 
 cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed: pip install 'plantar[formats]'")
 

@@ -12,8 +12,8 @@ from plantar.kernels import is_compiled, python_form
 from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
 from plantar.kernels.contacts.foot_contacts import FootContacts
 from plantar.kernels.contacts.pressed_sole import PressedSole
-from sim.sensing import sole_pressure
-from sim.sensing.sole_pressure import SolePressure
+from plantar.sim.sensing import sole_pressure
+from plantar.sim.sensing.sole_pressure import SolePressure
 
 LAYOUT = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], cell_area=600e-6)
 REACH = 5e-4

@@ -12,7 +12,7 @@ from plantar.kernels import python_form
 from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
 from plantar.kernels.contacts.foot_contacts import FootContacts
 from plantar.kernels.sensors import noise_rows, taxel_sample
-from sim.sensing.sole_pressure import SolePressure
+from plantar.sim.sensing.sole_pressure import SolePressure
 
 LAYOUT = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
 PYTHON = tuple(map(python_form, ("noise_rows", "taxel_sample")))

@@ -154,12 +154,12 @@ def test_a_decorator_that_could_undo_it_is_refused(options: dict[str, bool]) -> 
 
 
 def test_every_class_of_settings_in_the_repository_checks_its_settings() -> None:
-    import gait.controller
-    import sim.run.scene
+    import plantar.gait.controller
+    import plantar.sim.run.scene
 
-    assert gait.controller
-    assert sim.run.scene
-    kinds = [kind for kind in _derived(Settings) if kind.__module__.partition(".")[0] in ("gait", "sim", "plantar")]
+    assert plantar.gait.controller
+    assert plantar.sim.run.scene
+    kinds = [kind for kind in _derived(Settings) if kind.__module__.startswith("plantar.")]
     assert len(kinds) > 12
     for kind in kinds:
         for item in fields(kind):

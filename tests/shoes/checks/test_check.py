@@ -12,9 +12,9 @@ import pytest
 import shapely
 from numpy.typing import NDArray
 
-from shoes import ShoeReport
-from shoes.checks.check import check_shoe, corner_errors
-from shoes.solid.tray import read_step
+from plantar.shoes import ShoeReport
+from plantar.shoes.checks.check import check_shoe, corner_errors
+from plantar.shoes.solid.tray import read_step
 
 Shape = Callable[..., NDArray[np.float64]]
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from shoes import Foot
-from shoes.checks.mounting import check_mounting
-from shoes.foot.foot_mesh import foot_from_triangles
-from shoes.parameters import ShoeParameters
-from shoes.solid.retention import Retention
+from plantar.shoes import Foot
+from plantar.shoes.checks.mounting import check_mounting
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.solid.retention import Retention
 
 Shape = Callable[..., NDArray[np.float64]]
 P = ShoeParameters(lead_in=0.0)

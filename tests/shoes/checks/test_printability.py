@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from shoes.checks.printability import choose_direction
-from shoes.parameters import ShoeParameters
+from plantar.shoes.checks.printability import choose_direction
+from plantar.shoes.parameters import ShoeParameters
 
 Shape = Callable[..., NDArray[np.float64]]
 P = ShoeParameters()

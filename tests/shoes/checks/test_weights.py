@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from shoes import build_shoe
-from shoes.checks.weights import weigh
-from shoes.foot.foot import foot_from_dimensions
-from shoes.solid.pad import taxel_surfaces, volume_of
+from plantar.shoes import build_shoe
+from plantar.shoes.checks.weights import weigh
+from plantar.shoes.foot.foot import foot_from_dimensions
+from plantar.shoes.solid.pad import taxel_surfaces, volume_of
 
 
 @pytest.mark.parametrize("rim", ["whole", "fine"])

@@ -10,10 +10,10 @@ import pytest
 import shapely
 
 from plantar.errors import FootError, InputError
-from shoes.cells.cell import Cell
-from shoes.cells.cell_file import read_cell
-from shoes.fit.cell_fit import fit_cells
-from shoes.fit.cell_pattern import pattern_of
+from plantar.shoes.cells.cell import Cell
+from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.fit.cell_fit import fit_cells
+from plantar.shoes.fit.cell_pattern import pattern_of
 
 RIB = 2.4
 FSR = Cell(shape="round", size=18.28, active=12.7, thickness=0.46, tail_length=6.72, tail_width=8.0)

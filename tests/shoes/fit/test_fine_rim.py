@@ -7,9 +7,9 @@ import pytest
 import shapely
 
 from plantar.errors import FootError, InputError
-from shoes import build_shoe, foot_from_dimensions
-from shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim, strip_cells
-from shoes.geometry.outline import grown, rounded_rectangle
+from plantar.shoes import build_shoe, foot_from_dimensions
+from plantar.shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim, strip_cells
+from plantar.shoes.geometry.outline import grown, rounded_rectangle
 
 SOLES = {
     "round corners": rounded_rectangle(180.0, 90.0, (20.0, 0.0), 22.0),

@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar.layouts.hex_lattice import HexLattice
-from shoes.fit.cell_pattern import hex_pattern
-from shoes.fit.fit_bound import bound_whole_cells
-from shoes.fit.lattice_fit import fit_lattice
-from shoes.geometry.outline import rounded_rectangle
+from plantar.shoes.fit.cell_pattern import hex_pattern
+from plantar.shoes.fit.fit_bound import bound_whole_cells
+from plantar.shoes.fit.lattice_fit import fit_lattice
+from plantar.shoes.geometry.outline import rounded_rectangle
 
 
 def whole_cells(region: shapely.Polygon, lattice: HexLattice) -> int:

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from plantar.errors import FootError, InputError
 from plantar.layouts.hex_lattice import HexLattice
-from shoes.fit.cell_pattern import hex_pattern
-from shoes.fit.lattice_fit import fit_lattice, whole_cell_region
-from shoes.geometry.outline import rounded_rectangle
+from plantar.shoes.fit.cell_pattern import hex_pattern
+from plantar.shoes.fit.lattice_fit import fit_lattice, whole_cell_region
+from plantar.shoes.geometry.outline import rounded_rectangle
 
 WIDTH = math.sqrt(2 / math.sqrt(3))  # flat to flat of a hexagon of area 1
 

@@ -7,8 +7,8 @@ import pytest
 import shapely
 
 from plantar.errors import FootError
-from shoes.fit.taxels import LEAST_BORDER, LEAST_SHARE, fit_taxels
-from shoes.geometry.outline import rounded_rectangle
+from plantar.shoes.fit.taxels import LEAST_BORDER, LEAST_SHARE, fit_taxels
+from plantar.shoes.geometry.outline import rounded_rectangle
 
 SOLE = rounded_rectangle(241.0, 138.0, (15.0, 0.0), 19.6)
 

@@ -6,7 +6,7 @@ import pytest
 import shapely
 
 from plantar.errors import FootError
-from shoes.foot.foot import foot_from_dimensions, foot_from_outline
+from plantar.shoes.foot.foot import foot_from_dimensions, foot_from_outline
 
 
 @pytest.mark.parametrize(

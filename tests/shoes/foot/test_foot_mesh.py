@@ -13,7 +13,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
-from shoes.foot.foot_mesh import foot_from_mesh
+from plantar.shoes.foot.foot_mesh import foot_from_mesh
 
 Shape = Callable[..., NDArray[np.float64]]
 Writer = Callable[..., Path]
@@ -132,7 +132,7 @@ def test_a_foot_along_y_is_turned_by_its_ankle(box: Shape, stl: Writer) -> None:
 @pytest.mark.parametrize(("up", "axes"), [("y", (0, 2, 1)), ("-x", (2, 1, 0)), ("-z", (0, 1, 2))])
 def test_another_axis_may_point_up(prism: Shape, stl: Writer, up: str, axes: tuple[int, int, int]) -> None:
     outline = np.array([[-60, -40], [120, -30], [140, 10], [110, 50], [-60, 35]], dtype=float)
-    from shoes.foot.orientation import rotation_up
+    from plantar.shoes.foot.orientation import rotation_up
 
     standing = np.concatenate([prism(outline, 0, 20), prism(outline * 0.5, 20, 70)])
     foot = foot_from_mesh(stl(standing @ rotation_up(up)), up=up)  # type: ignore[arg-type]
@@ -169,7 +169,7 @@ def test_a_tilted_sole_is_levelled(box: Shape, stl: Writer) -> None:
 
 
 def test_what_touches_the_floor_is_told(generated_feet: dict[str, NDArray[np.float64]]) -> None:
-    from shoes.foot.foot_mesh import foot_from_triangles
+    from plantar.shoes.foot.foot_mesh import foot_from_triangles
 
     far = foot_from_triangles("a", generated_feet["far_patches"], where="a")
     assert far.support is not None

@@ -13,8 +13,8 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.foot import mesh_file
-from shoes.foot.mesh_file import read_mesh
+from plantar.shoes.foot import mesh_file
+from plantar.shoes.foot.mesh_file import read_mesh
 
 Shape = Callable[..., NDArray[np.float64]]
 

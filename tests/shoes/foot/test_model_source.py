@@ -12,13 +12,13 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.foot import model_source
-from shoes.foot.model_source import read_model_source
-from shoes.foot.robot_model import read_foot_body
-from shoes.foot.source import read_foot
-from shoes.order import FootSource
-from shoes.parameters import ShoeParameters
-from shoes.plan.strength import load_case
+from plantar.shoes.foot import model_source
+from plantar.shoes.foot.model_source import read_model_source
+from plantar.shoes.foot.robot_model import read_foot_body
+from plantar.shoes.foot.source import read_foot
+from plantar.shoes.order import FootSource
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.strength import load_case
 
 MJCF = """<mujoco><default><geom density="700"/></default><asset><mesh name="m" file="m.stl"/></asset><worldbody>
 <body name="table"><geom type="box" size="1 1 .1"/></body>

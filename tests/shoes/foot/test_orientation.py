@@ -10,7 +10,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.foot.orientation import (
+from plantar.shoes.foot.orientation import (
     AXES,
     check_one_body,
     check_told,

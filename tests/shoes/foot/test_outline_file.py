@@ -10,7 +10,7 @@ import pytest
 import shapely
 
 from plantar.errors import FootError, InputError
-from shoes.foot.outline_file import foot_from_drawing
+from plantar.shoes.foot.outline_file import foot_from_drawing
 
 RING = [[-60, -40], [120, -30], [140, 10], [110, 50], [-60, 35]]
 OUTLINE = shapely.Polygon(RING)

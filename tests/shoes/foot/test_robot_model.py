@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.foot.robot_model import read_foot_body, side_of_name
-from shoes.papers.stl import write_stl
+from plantar.shoes.foot.robot_model import read_foot_body, side_of_name
+from plantar.shoes.papers.stl import write_stl
 
 Shape = Callable[..., NDArray[np.float64]]
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import InputError
-from shoes.foot.source import foot_of_robot, read_foot
-from shoes.order import FootSource
+from plantar.shoes.foot.source import foot_of_robot, read_foot
+from plantar.shoes.order import FootSource
 
 SOURCES = {"file": Path("foot.stl"), "robot": "h1", "dimensions": "240x95"}
 

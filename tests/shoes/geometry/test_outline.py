@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.geometry.outline import (
+from plantar.shoes.geometry.outline import (
     cut_below,
     flush,
     outline_below,

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from plantar.errors import FootError
-from shoes.geometry.primitives import primitive
-from shoes.solid.pad import volume_of
+from plantar.shoes.geometry.primitives import primitive
+from plantar.shoes.solid.pad import volume_of
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import shapely
 import trimesh
 from numpy.typing import NDArray
 
-from shoes.geometry.section import cut_segments, section, section_along, thinnest_wall, wall_thickness
+from plantar.shoes.geometry.section import cut_segments, section, section_along, thinnest_wall, wall_thickness
 
 Shape = Callable[..., NDArray[np.float64]]
 

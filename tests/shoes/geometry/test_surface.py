@@ -9,10 +9,10 @@ import pytest
 import shapely
 
 from plantar.errors import FootError
-from shoes import build_shoe
-from shoes.foot.foot_mesh import foot_from_triangles
-from shoes.geometry.outline import outline_below
-from shoes.geometry.surface import convex_outline, corner_numbers, covered_area, is_closed
+from plantar.shoes import build_shoe
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.geometry.outline import outline_below
+from plantar.shoes.geometry.surface import convex_outline, corner_numbers, covered_area, is_closed
 
 from ..foot_family import FAMILY, rounded, turned
 

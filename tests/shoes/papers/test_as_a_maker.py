@@ -17,7 +17,7 @@ import shapely
 import trimesh
 from numpy.typing import NDArray
 
-from shoes import ShoeReport
+from plantar.shoes import ShoeReport
 
 from ..shoe_witness import hits
 

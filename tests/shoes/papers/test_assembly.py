@@ -11,9 +11,9 @@ import cv2
 import numpy as np
 import pytest
 
-from shoes import ShoeReport
-from shoes.papers.picture import rendered_png
-from shoes.solid.pad import prism_surface
+from plantar.shoes import ShoeReport
+from plantar.shoes.papers.picture import rendered_png
+from plantar.shoes.solid.pad import prism_surface
 
 from ...gait.analysis.browser import visit
 from ...gait.analysis.test_report_in_browser import READABLE

@@ -11,9 +11,9 @@ from matplotlib.colors import to_rgba
 from matplotlib.path import Path as Line
 
 from plantar.plotting import COLOURS
-from shoes import ShoeReport
-from shoes.papers import drawing
-from shoes.papers.drawing import draw_shoe
+from plantar.shoes import ShoeReport
+from plantar.shoes.papers import drawing
+from plantar.shoes.papers.drawing import draw_shoe
 
 from ..shoe_witness import hits
 

@@ -14,11 +14,11 @@ import trimesh
 
 from plantar import read_layout
 from plantar.errors import InputError
-from shoes import Foot, ShoeReport, build_shoe, export_shoe
-from shoes.checks import check
-from shoes.foot.mesh_file import read_mesh
-from shoes.parameters import ShoeParameters, read_parameters
-from shoes.solid.tray import read_step
+from plantar.shoes import Foot, ShoeReport, build_shoe, export_shoe
+from plantar.shoes.checks import check
+from plantar.shoes.foot.mesh_file import read_mesh
+from plantar.shoes.parameters import ShoeParameters, read_parameters
+from plantar.shoes.solid.tray import read_step
 
 
 def test_every_file_is_there_and_says_the_same(exported: tuple[ShoeReport, Path]) -> None:

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from shoes.foot.mesh_file import read_mesh
-from shoes.papers.package_3mf import write_3mf
+from plantar.shoes.foot.mesh_file import read_mesh
+from plantar.shoes.papers.package_3mf import write_3mf
 
 
 def test_triangles_come_back_in_mm_and_bytes_repeat(tmp_path: Path, box: Callable[..., NDArray[np.float64]]) -> None:

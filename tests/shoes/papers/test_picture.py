@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from shoes.papers.picture import render
+from plantar.shoes.papers.picture import render
 
 Shape = Callable[..., NDArray[np.float64]]
 RED, GREEN = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)

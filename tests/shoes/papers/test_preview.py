@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from shoes import Foot
-from shoes.foot.foot_mesh import foot_from_triangles
-from shoes.papers.preview import draw_preview
+from plantar.shoes import Foot
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.papers.preview import draw_preview
 
 
 def test_a_foot_is_drawn_with_its_axes(

@@ -9,7 +9,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from shoes.papers.stl import read_stl, write_stl
+from plantar.shoes.papers.stl import read_stl, write_stl
 
 
 def test_triangles_come_back_and_bytes_repeat(tmp_path: Path, box: Callable[..., NDArray[np.float64]]) -> None:

@@ -13,10 +13,10 @@ import pytest
 import shapely
 import trimesh
 
-from shoes import Foot, ShoeParameters, ShoeReport, build_shoe, export_shoe
-from shoes.foot.mesh_file import read_mesh
-from shoes.plan.wiring import cable_outlines, hole_outline
-from shoes.solid.pad import taxel_surfaces
+from plantar.shoes import Foot, ShoeParameters, ShoeReport, build_shoe, export_shoe
+from plantar.shoes.foot.mesh_file import read_mesh
+from plantar.shoes.plan.wiring import cable_outlines, hole_outline
+from plantar.shoes.solid.pad import taxel_surfaces
 
 
 def test_each_cell_is_wired_once_from_one_that_is(exported: tuple[ShoeReport, Path]) -> None:

@@ -8,8 +8,8 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shoes.geometry.outline import ring
-from shoes.plan.block import Block, Groove, Step, box_block, mirrored_block, mirrored_step, moved_edges, tapered
+from plantar.shoes.geometry.outline import ring
+from plantar.shoes.plan.block import Block, Groove, Step, box_block, mirrored_block, mirrored_step, moved_edges, tapered
 
 
 @given(st.lists(st.tuples(st.integers(-90, 90), st.integers(-50, 50)), min_size=4, max_size=9), st.floats(-3, 3))

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import shapely
 
-from shoes.parameters import ShoeParameters
-from shoes.plan.heel import Heel, find_heel, holder_depth
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.heel import Heel, find_heel, holder_depth
 
 P = ShoeParameters()
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from shoes.parameters import ShoeParameters
-from shoes.plan.pull_off import clip_force, needed_force, pull_off
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.pull_off import clip_force, needed_force, pull_off
 
 P = ShoeParameters()
 

@@ -10,11 +10,11 @@ import pytest
 import shapely
 
 from plantar.errors import FootError
-from shoes.fit.taxels import TaxelFit, fit_taxels
-from shoes.foot.foot import Foot
-from shoes.geometry.outline import ring
-from shoes.parameters import ShoeParameters
-from shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
+from plantar.shoes.fit.taxels import TaxelFit, fit_taxels
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.geometry.outline import ring
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +52,7 @@ def test_the_layout_is_in_metres_in_the_sole_frame(plan: ShoePlan, fit: TaxelFit
 
 
 def test_cut_cells_share_their_corners_in_the_layout() -> None:
-    from shoes.foot.foot import foot_from_dimensions
+    from plantar.shoes.foot.foot import foot_from_dimensions
 
     foot = foot_from_dimensions("b", length=0.241, width=0.138, sole_center=(0.015, 0.0), corner_radius=0.0196)
     fit = fit_taxels(foot.sole, taxels=51, overhang_max=10.0, border=2.0)

@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 import shapely
 
-from shoes.foot.foot import foot_from_dimensions
-from shoes.parameters import ShoeParameters
-from shoes.plan.strength import check_strength, estimated_mass, load_case, strengthened
+from plantar.shoes.foot.foot import foot_from_dimensions
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.strength import check_strength, estimated_mass, load_case, strengthened
 
 FOOT = foot_from_dimensions("a", length=0.2, width=0.1, mass=60.0)
 

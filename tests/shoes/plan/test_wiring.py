@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import shapely
 
-from shoes import build_shoe
-from shoes.cells.cell_file import read_cell
-from shoes.foot.foot import foot_from_dimensions
-from shoes.plan.wiring import pocket_outlines
+from plantar.shoes import build_shoe
+from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.foot.foot import foot_from_dimensions
+from plantar.shoes.plan.wiring import pocket_outlines
 
 
 @pytest.mark.parametrize("cell", ["fsr_402", "square"])

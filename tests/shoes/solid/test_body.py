@@ -10,13 +10,13 @@ import pytest
 import shapely
 from numpy.typing import NDArray
 
-from shoes import build_shoe
-from shoes.foot.foot import Foot
-from shoes.foot.foot_mesh import foot_from_triangles
-from shoes.parameters import ShoeParameters
-from shoes.plan.shoe_plan import mirrored_plan
-from shoes.solid.body import bare_floor, cavity_levels, insole_steps, mark_outline, mirrored_steps, shoe_steps
-from shoes.solid.retention import choose_retention
+from plantar.shoes import build_shoe
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.shoe_plan import mirrored_plan
+from plantar.shoes.solid.body import bare_floor, cavity_levels, insole_steps, mark_outline, mirrored_steps, shoe_steps
+from plantar.shoes.solid.retention import choose_retention
 
 from ..foot_family import FAMILY, prism, small_turns, turned
 

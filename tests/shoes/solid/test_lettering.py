@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import shapely
 
-from shoes.solid.lettering import lettering
+from plantar.shoes.solid.lettering import lettering
 
 
 def test_every_letter_is_its_own() -> None:

@@ -6,10 +6,10 @@ import pytest
 import shapely
 import trimesh
 
-from shoes import Foot, ShoeParameters, build_shoe
-from shoes.foot.foot import foot_from_dimensions
-from shoes.plan.pad_outline import pad_rim
-from shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces, volume_of
+from plantar.shoes import Foot, ShoeParameters, build_shoe
+from plantar.shoes.foot.foot import foot_from_dimensions
+from plantar.shoes.plan.pad_outline import pad_rim
+from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces, volume_of
 
 
 @pytest.mark.parametrize("side", [0, 1])

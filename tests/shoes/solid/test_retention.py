@@ -10,12 +10,12 @@ import pytest
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes import build_shoe
-from shoes.foot.foot import Foot
-from shoes.foot.foot_mesh import foot_from_triangles
-from shoes.parameters import ShoeParameters
-from shoes.plan.shoe_plan import ShoePlan
-from shoes.solid.retention import choose_retention, retention_steps
+from plantar.shoes import build_shoe
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.solid.retention import choose_retention, retention_steps
 
 
 @pytest.fixture(scope="module")

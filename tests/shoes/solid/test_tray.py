@@ -10,11 +10,11 @@ import pytest
 import shapely
 
 from plantar.errors import FootError
-from shoes import Foot, ShoeParameters, ShoeReport, build_shoe
-from shoes.geometry.section import section
-from shoes.plan.block import Block, Groove, Step, box_block, tapered
-from shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
-from shoes.solid.tray import build_solid, read_step, surface_of, write_step
+from plantar.shoes import Foot, ShoeParameters, ShoeReport, build_shoe
+from plantar.shoes.geometry.section import section
+from plantar.shoes.plan.block import Block, Groove, Step, box_block, tapered
+from plantar.shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
+from plantar.shoes.solid.tray import build_solid, read_step, surface_of, write_step
 
 
 def test_the_solid_is_one_and_its_sections_are_the_plan(exported: tuple[ShoeReport, Path]) -> None:

@@ -10,11 +10,11 @@ import mujoco
 import numpy as np
 
 from plantar.settings.body_scale import REFERENCE_BODY
-from sim.arms.compliant_arm import CompliantArm
-from sim.arms.settings import ArmSettings
-from sim.arms.worn_arm import WornArm
-from sim.model.world import Visitor, World
-from sim.robots import load_robot
+from plantar.sim.arms.compliant_arm import CompliantArm
+from plantar.sim.arms.settings import ArmSettings
+from plantar.sim.arms.worn_arm import WornArm
+from plantar.sim.model.world import Visitor, World
+from plantar.sim.robots import load_robot
 
 PERIOD = 0.005
 ASIDE = (0.0, 15.0, 80.0, 80.0, 0.0, 0.0, 0.0)

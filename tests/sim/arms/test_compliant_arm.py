@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from plantar.sensing.link_skin import SkinReading
-from sim.arms.compliant_arm import CompliantArm
-from sim.arms.worn_arm import WornArm
-from sim.model.world import World
+from plantar.sim.arms.compliant_arm import CompliantArm
+from plantar.sim.arms.worn_arm import WornArm
+from plantar.sim.model.world import World
 
 from .fixed_arm import PERIOD, compliant, fixed_world, jacobian, left_arm
 

@@ -9,10 +9,10 @@ import pytest
 
 from plantar.errors import RobotError, SceneError
 from plantar.sides import SIDES, Side
-from sim.arms.worn_arm import WornArm
-from sim.model.world import build_leg_model
-from sim.robots import Robot, load_robot
-from sim.robots.robot import Arms
+from plantar.sim.arms.worn_arm import WornArm
+from plantar.sim.model.world import build_leg_model
+from plantar.sim.robots import Robot, load_robot
+from plantar.sim.robots.robot import Arms
 
 
 @pytest.mark.parametrize("side", SIDES)

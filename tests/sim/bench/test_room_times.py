@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from sim.bench.room_times import ROOMS, RoomTimes, room_of
+from plantar.sim.bench.room_times import ROOMS, RoomTimes, room_of
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[3] / "plantar"
 
 
 def test_every_file_that_a_room_names_is_there():
@@ -25,7 +25,7 @@ def test_a_file_belongs_to_the_first_room_that_names_it():
 def test_time_counts_for_the_room_that_takes_it():
     source = "def busy(end):\n    while clock() < end: pass\n"
     spaces = []
-    for path in ("gait/estimate/estimator.py", "plantar/lazy.py"):
+    for path in ("gait/estimate/estimator.py", "lazy.py"):
         spaces.append({"clock": time.perf_counter})
         exec(compile(source, str(ROOT / path), "exec"), spaces[-1])
     estimate, shared = (space["busy"] for space in spaces)

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from plantar.percepts.percept import Percept
-from sim.bench import skipping
-from sim.bench.skip_page import skip_page, skip_text
-from sim.bench.skip_row import SkipRow
-from sim.bench.skipping import compare_skipping, measure_skipping
+from plantar.sim.bench import skipping
+from plantar.sim.bench.skip_page import skip_page, skip_text
+from plantar.sim.bench.skip_row import SkipRow
+from plantar.sim.bench.skipping import compare_skipping, measure_skipping
 
 SHORT = ("steps=1", "walk.start=0.2", "walk.end=0.2", "walk.settle=0")
 

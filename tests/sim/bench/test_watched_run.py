@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from sim.bench.watched_run import WatchedSimulation, replay_physics
-from sim.run.scene import load_scene
+from plantar.sim.bench.watched_run import WatchedSimulation, replay_physics
+from plantar.sim.run.scene import load_scene
 
 SHORT = ("walk.begin=1", "steps=0", "walk.start=0.2", "walk.end=0.2", "walk.settle=0")
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
-from sim.body_skin.electronics import SkinElectronicsSettings
-from sim.body_skin.sensing import SkinSensing, SkinSensor
-from sim.body_skin.surface import skin_from_tables
+from plantar.sim.body_skin.electronics import SkinElectronicsSettings
+from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
+from plantar.sim.body_skin.surface import skin_from_tables
 
 WORLD = """
 <mujoco>

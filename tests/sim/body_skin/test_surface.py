@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import LayoutError, RobotError
-from sim.body_skin.surface import skin_from_tables
+from plantar.sim.body_skin.surface import skin_from_tables
 
 BODY = """
 <mujoco>

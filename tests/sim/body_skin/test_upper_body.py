@@ -9,7 +9,7 @@ import pytest
 from plantar.errors import RobotError
 from plantar.gravity import GRAVITY
 from plantar.sensing.link_skin import BodySkin
-from sim.body_skin.upper_body import FACES, upper_body_skin
+from plantar.sim.body_skin.upper_body import FACES, upper_body_skin
 
 
 def skin_of(scale: float = 1.0, mass: float = 80.0, shape: str = "") -> BodySkin:

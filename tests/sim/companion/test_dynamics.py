@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError
-from sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.dynamics import MujocoDynamics
 
 CHAIN = """
 <mujoco><option><flag contact="disable"/></option>

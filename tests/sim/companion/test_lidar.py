@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from sim.companion.lidar import Lidar, LidarSettings
+from plantar.sim.companion.lidar import Lidar, LidarSettings
 
 ROOM = """
 <mujoco>

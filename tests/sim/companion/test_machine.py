@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
-from sim.body_skin.sensing import SkinSensing, SkinSensor
-from sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
-from sim.companion.dynamics import MujocoDynamics
-from sim.companion.machine import builtin_machines, load_machine
+from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.machine import builtin_machines, load_machine
 
 ARM = """
 <mujoco>

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError, SceneError
-from sim.body_skin.surface import OBSTACLE_GROUP
-from sim.companion import experiment as experiments
-from sim.companion.experiment import Experiment, Verdict, failed
-from sim.companion.runner import Companion, run_companion, run_companion_to_files
-from sim.companion.scene import companion_scene, companion_setting_name
-from wholebody.stack import TaskStack
-from wholebody.tasks.posture import Posture
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP
+from plantar.sim.companion import experiment as experiments
+from plantar.sim.companion.experiment import Experiment, Verdict, failed
+from plantar.sim.companion.runner import Companion, run_companion, run_companion_to_files
+from plantar.sim.companion.scene import companion_scene, companion_setting_name
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.posture import Posture
 
 
 class Stand(Experiment):
@@ -48,7 +48,7 @@ class Stand(Experiment):
 
 @pytest.fixture
 def scene(monkeypatch, tmp_path):
-    monkeypatch.setattr("sim.companion.scene.experiment_class", lambda name: Stand)
+    monkeypatch.setattr("plantar.sim.companion.scene.experiment_class", lambda name: Stand)
 
     def made(*settings, **source):
         table = {"experiment": "stand", "machine": "mobile-arm", **source}

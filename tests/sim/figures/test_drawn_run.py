@@ -15,15 +15,15 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from mcap.reader import make_reader
 
-from gait.plan.footsteps import Footstep
-from gait.plan.plan_change import AppliedChange, MovedStep, PlanChange
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.plan_change import AppliedChange, MovedStep, PlanChange
 from plantar.mechanics.rotation import level_rotation
 from plantar.recordings.recording import Recording, read_mcap
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES
-from sim.figures.drawn_run import change_text
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.figures.drawn_run import change_text
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 TYPES = {"foxglove.FrameTransforms": FrameTransforms, "foxglove.SceneUpdate": SceneUpdate, "foxglove.Log": Log}
 

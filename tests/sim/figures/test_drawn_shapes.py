@@ -8,7 +8,7 @@ import pytest
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
 from plantar.recordings.protobuf import Template
-from sim.figures.drawn_shapes import body_entity, coarse_mesh, drawn_bodies, frame_name
+from plantar.sim.figures.drawn_shapes import body_entity, coarse_mesh, drawn_bodies, frame_name
 
 MODEL = """
 <mujoco>

@@ -8,7 +8,7 @@ import numpy as np
 
 from plantar.recordings.recording import Recording, Table
 from plantar.sides import SIDES
-from sim.figures.guide_figure import draw_guide
+from plantar.sim.figures.guide_figure import draw_guide
 
 
 def test_it_shows_where_hand_and_feet_went_and_names_the_joints_that_turned() -> None:

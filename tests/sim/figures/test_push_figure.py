@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.plan.phases import PhaseKind
+from plantar.gait.plan.phases import PhaseKind
 from plantar.recordings.recording import Recording, Table
 from plantar.sides import SIDES
-from sim.figures.push_figure import draw_partner, draw_pushes, draw_strides, draw_swing
-from sim.robots import load_robot
+from plantar.sim.figures.push_figure import draw_partner, draw_pushes, draw_strides, draw_swing
+from plantar.sim.robots import load_robot
 
 PERIOD, STEP = 0.02, 1.0
 

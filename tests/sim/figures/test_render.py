@@ -12,11 +12,11 @@ import sys
 import cv2
 import numpy as np
 from plantar.sensing.reading import Reading
-from sim.figures.film import Film
-from sim.figures.render import Camera, save_picture
-from sim.robots import load_robot
-from sim.terrain import Ground
-from sim.model.world import build_world
+from plantar.sim.figures.film import Film
+from plantar.sim.figures.render import Camera, save_picture
+from plantar.sim.robots import load_robot
+from plantar.sim.terrain import Ground
+from plantar.sim.model.world import build_world
 import mujoco
 world = build_world(load_robot("h1"), Ground((), 0.0, 0.8))
 mujoco.mj_forward(world.model, world.data)

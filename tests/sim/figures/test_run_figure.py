@@ -4,7 +4,7 @@ from typing import Any
 import pytest
 
 from plantar.errors import InputError
-from sim.figures.run_figure import plot_landing_forces, plot_run
+from plantar.sim.figures.run_figure import plot_landing_forces, plot_run
 
 
 def test_figures_of_a_run_are_written(short_run: tuple[dict[str, Any], Path], tmp_path: Path) -> None:

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from plantar.sensing.reading import Reading
-from sim.figures.drawn_run import scale_colours
-from sim.figures.sole_inset import SoleInset
-from sim.robots import Robot
+from plantar.sim.figures.drawn_run import scale_colours
+from plantar.sim.figures.sole_inset import SoleInset
+from plantar.sim.robots import Robot
 
 WEIGHT = 800.0
 

@@ -10,12 +10,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from gait.controller import Command, Sensors, Start, WalkingController
-from gait.plan.footsteps import straight_plan
-from gait.plan.plan_change import MovedStep, PlanChange
-from sim.run.run_text import run_text
-from sim.run.runner import Simulation, run_scene
-from sim.run.scene import load_scene
+from plantar.gait.controller import Command, Sensors, Start, WalkingController
+from plantar.gait.plan.footsteps import straight_plan
+from plantar.gait.plan.plan_change import MovedStep, PlanChange
+from plantar.sim.run.run_text import run_text
+from plantar.sim.run.runner import Simulation, run_scene
+from plantar.sim.run.scene import load_scene
 
 SHORT = ["steps=4", "settle=0.3"]
 BELIEVES = [*SHORT, "identify=false"]  # what the opening stand shows would be made up for
@@ -159,7 +159,7 @@ def test_a_moved_step_is_told_with_its_reason() -> None:
 
 def test_joints_that_are_faster_than_they_can_be_do_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
     """Servos without speed limits, as they were."""
-    monkeypatch.setattr("sim.run.servos._SPEED_SHARE", 1e6)
+    monkeypatch.setattr("plantar.sim.run.servos._SPEED_SHARE", 1e6)
     summary = Simulation(load_scene("obstacle", ["settle=0.3"])).run()
     assert criteria(summary) == {"joint_speed"}
     assert summary["joint_speed"]["share_of_limit"] > 1.2

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from sim.run.runner import Simulation, run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import Simulation, run_scene
+from plantar.sim.run.scene import load_scene
 
 
 @pytest.fixture(scope="module")

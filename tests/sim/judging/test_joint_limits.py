@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sim.judging.joint_limits import JointLimits
-from sim.model.world import PHYSICS_PERIOD, World, build_world
-from sim.robots import Robot
-from sim.terrain import Ground
+from plantar.sim.judging.joint_limits import JointLimits
+from plantar.sim.model.world import PHYSICS_PERIOD, World, build_world
+from plantar.sim.robots import Robot
+from plantar.sim.terrain import Ground
 
 STEPS, EVERY = 400, 5
 

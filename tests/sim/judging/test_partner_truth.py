@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sim.judging.partner_truth import partner_reasons
+from plantar.sim.judging.partner_truth import partner_reasons
 
 
 def test_a_leader_moves_its_partner() -> None:

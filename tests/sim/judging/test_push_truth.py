@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from gait.plan.footsteps import straight_plan
+from plantar.gait.plan.footsteps import straight_plan
 from plantar.gravity import GRAVITY
-from sim.judging.push_truth import CHANGED, Pushed, PushTruth, Stride, step_changes, strides
-from sim.judging.step_count import Stand
+from plantar.sim.judging.push_truth import CHANGED, Pushed, PushTruth, Stride, step_changes, strides
+from plantar.sim.judging.step_count import Stand
 
 FEET, STEPS = straight_plan(6, length=0.0)
 LEG = 0.6

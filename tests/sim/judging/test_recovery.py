@@ -3,8 +3,8 @@ import math
 import numpy as np
 import pytest
 
-from sim.judging.recovery import Recovery
-from sim.model.shove import Shove
+from plantar.sim.judging.recovery import Recovery
+from plantar.sim.model.shove import Shove
 
 SHOVES = [
     Shove(1.0, 2.0, np.array([0.0, 20.0, 0.0]), smooth=True),

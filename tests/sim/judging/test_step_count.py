@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gait.plan.footsteps import Footstep, straight_plan
-from gait.plan.plan_change import MovedStep
+from plantar.gait.plan.footsteps import Footstep, straight_plan
+from plantar.gait.plan.plan_change import MovedStep
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
-from sim.judging.step_count import StepCount
-from sim.judging.walk_goal import WalkGoal
+from plantar.sim.judging.step_count import StepCount
+from plantar.sim.judging.walk_goal import WalkGoal
 
 FEET, STEPS = straight_plan(6, length=0.2)
 WEIGHT = 800.0

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gait.plan.phases import Timing
-from gait.propose.velocity_command import VelocityTable, table_of
+from plantar.gait.plan.phases import Timing
+from plantar.gait.propose.velocity_command import VelocityTable, table_of
 from plantar.settings.body_scale import REFERENCE_BODY
-from sim.judging.velocity_truth import VelocityTruth
+from plantar.sim.judging.velocity_truth import VelocityTruth
 
 TIMING = Timing()
 STEP = TIMING.single_support + TIMING.double_support

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from sim.model.tasks.task import Task
+from plantar.sim.model.tasks.task import Task
 
 Robots = Callable[..., tuple[mujoco.MjModel, mujoco.MjData]]
 

@@ -3,10 +3,10 @@ import numpy as np
 import pytest
 
 from plantar.sides import SIDES
-from sim.model.ankle_limits import ankle_limits
-from sim.model.body import body_of, stood
-from sim.model.world import build_leg_model
-from sim.robots.robot_file import load_robot
+from plantar.sim.model.ankle_limits import ankle_limits
+from plantar.sim.model.body import body_of, stood
+from plantar.sim.model.world import build_leg_model
+from plantar.sim.robots.robot_file import load_robot
 
 
 @pytest.mark.parametrize("name", ["h1", "hrp2kai"])

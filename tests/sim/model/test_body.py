@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from plantar.sides import SIDES
-from sim.model.body import body_of, leg_length
-from sim.model.world import build_leg_model
-from sim.robots import builtin_robots, load_robot
+from plantar.sim.model.body import body_of, leg_length
+from plantar.sim.model.world import build_leg_model
+from plantar.sim.robots import builtin_robots, load_robot
 
 
 @pytest.mark.parametrize("name", builtin_robots())

@@ -10,7 +10,7 @@ import pytest
 
 from plantar.geometry.polygon import area, convex_hull, signed_margin
 from plantar.kernels.geometry.few_points import small_hull
-from sim.model.contact_truth import (
+from plantar.sim.model.contact_truth import (
     contact_wrench_in_frame,
     contact_wrench_in_world,
     feet_contacts,

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from sim.model.inverse_kinematics import InverseKinematics
-from sim.model.tasks.com_task import ComTask
-from sim.model.tasks.pose_task import PoseTask
-from sim.model.tasks.posture_task import PostureTask
-from sim.model.tasks.task import Task
+from plantar.sim.model.inverse_kinematics import InverseKinematics
+from plantar.sim.model.tasks.com_task import ComTask
+from plantar.sim.model.tasks.pose_task import PoseTask
+from plantar.sim.model.tasks.posture_task import PostureTask
+from plantar.sim.model.tasks.task import Task
 
 Robot = tuple[mujoco.MjModel, mujoco.MjData]
 

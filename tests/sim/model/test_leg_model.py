@@ -13,9 +13,9 @@ from scipy.spatial.transform import Rotation
 
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
-from sim.model.leg_model import LegModel
-from sim.model.world import build_leg_model, robot_spec
-from sim.robots import Robot, load_robot
+from plantar.sim.model.leg_model import LegModel
+from plantar.sim.model.world import build_leg_model, robot_spec
+from plantar.sim.robots import Robot, load_robot
 
 STANCE: dict[Side, NDArray[np.float64]] = {"left": np.array([0.0, 0.085, 0.0]), "right": np.array([0.1, -0.085, 0.0])}
 LEVEL: dict[Side, NDArray[np.float64]] = {"left": np.eye(3), "right": np.eye(3)}

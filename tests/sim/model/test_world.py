@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from sim.model.world import PHYSICS_PERIOD, World, build_leg_model, robot_spec
-from sim.robots import Robot
+from plantar.sim.model.world import PHYSICS_PERIOD, World, build_leg_model, robot_spec
+from plantar.sim.robots import Robot
 
 
 def test_masses_limits_and_heights_are_the_published_ones(h1: Robot) -> None:
@@ -70,8 +70,8 @@ def test_only_soles_meet_the_ground(world: World) -> None:
 
 
 def test_a_standing_robot_weighs_what_it_weighs(h1: Robot, world: World) -> None:
-    from sim.run.runner import Simulation
-    from sim.run.scene import load_scene
+    from plantar.sim.run.runner import Simulation
+    from plantar.sim.run.scene import load_scene
 
     simulation = Simulation(load_scene("flat", ["steps=0"]))
     w = simulation.world

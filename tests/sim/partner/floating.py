@@ -9,9 +9,9 @@ from typing import Any, cast
 import mujoco
 
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from sim.body_skin.upper_body import upper_body_skin
-from sim.model.world import World
-from sim.partner.touch import Partner, Touch
+from plantar.sim.body_skin.upper_body import upper_body_skin
+from plantar.sim.model.world import World
+from plantar.sim.partner.touch import Partner, Touch
 
 HALF = (0.1, 0.2, 0.3)
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from plantar.settings.body_scale import REFERENCE_BODY
-from sim.judging.guide_truth import GuideTruth
-from sim.model.world import World
-from sim.partner.guide import Grip, Guide
-from sim.partner.settings import GuideSettings
-from sim.partner.touch import Touch
+from plantar.sim.judging.guide_truth import GuideTruth
+from plantar.sim.model.world import World
+from plantar.sim.partner.guide import Grip, Guide
+from plantar.sim.partner.settings import GuideSettings
+from plantar.sim.partner.touch import Touch
 
 from ..arms.fixed_arm import compliant, fixed_world, left_arm
 

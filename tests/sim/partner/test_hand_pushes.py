@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from plantar.errors import SceneError
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from sim.model.world import World
-from sim.partner.hand_pushes import HandPush, HandPushes, faces_of
-from sim.partner.touch import Touch
+from plantar.sim.model.world import World
+from plantar.sim.partner.hand_pushes import HandPush, HandPushes, faces_of
+from plantar.sim.partner.touch import Touch
 
 from .floating import HALF, box_skin, floating_box
 

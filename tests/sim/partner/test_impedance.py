@@ -8,8 +8,8 @@ from itertools import pairwise
 import pytest
 
 from plantar.settings.body_scale import REFERENCE_BODY
-from sim.partner.impedance import Impedance
-from sim.partner.settings import PartnerSettings
+from plantar.sim.partner.impedance import Impedance
+from plantar.sim.partner.settings import PartnerSettings
 
 FOLLOWER = PartnerSettings(kind="mobile_robot").for_body(REFERENCE_BODY)
 

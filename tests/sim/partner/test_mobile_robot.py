@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from sim.partner.mobile_robot import MobileRobot
-from sim.partner.settings import PartnerSettings
+from plantar.sim.partner.mobile_robot import MobileRobot
+from plantar.sim.partner.settings import PartnerSettings
 
 from .floating import box_skin, floating_box
 

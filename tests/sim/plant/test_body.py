@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from sim.model.contact_truth import foot_contacts
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.model.contact_truth import foot_contacts
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 ROBOTS = ("h1", "hrp2kai")
 

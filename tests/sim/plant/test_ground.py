@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from plantar.settings.body_scale import REFERENCE_BODY
-from sim.model.contact_truth import foot_contacts
-from sim.model.world import World
-from sim.plant.colours import PATCH
-from sim.plant.ground import FOAM_MODULUS, foam_time
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.model.contact_truth import foot_contacts
+from plantar.sim.model.world import World
+from plantar.sim.plant.colours import PATCH
+from plantar.sim.plant.ground import FOAM_MODULUS, foam_time
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 
 def world_of(scene: str, *settings: str, seed: int = 0) -> World:

@@ -8,17 +8,17 @@ import pytest
 
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES
-from sim.model.world import World, build_world
-from sim.plant.delay import Delay
-from sim.plant.draw import TruePlant, drawn_plant
-from sim.plant.drives import RIPPLES, TrueDrives
-from sim.plant.settings import Plant
-from sim.robots import Robot, load_robot
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
-from sim.sensing.sensors import SensorSuite
-from sim.sensing.settings import Sensing
-from sim.terrain import Ground
+from plantar.sim.model.world import World, build_world
+from plantar.sim.plant.delay import Delay
+from plantar.sim.plant.draw import TruePlant, drawn_plant
+from plantar.sim.plant.drives import RIPPLES, TrueDrives
+from plantar.sim.plant.settings import Plant
+from plantar.sim.robots import Robot, load_robot
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
+from plantar.sim.sensing.sensors import SensorSuite
+from plantar.sim.sensing.settings import Sensing
+from plantar.sim.terrain import Ground
 
 QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, accelerometer_noise=0.0)
 LAYOUTS = load_robot("h1").layouts

@@ -9,8 +9,8 @@ import pytest
 
 from plantar.errors import InputError, SceneError
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from sim.plant.settings import RANDOM, Plant
-from sim.run.scene import load_scene, setting_name
+from plantar.sim.plant.settings import RANDOM, Plant
+from plantar.sim.run.scene import load_scene, setting_name
 
 SMALL = BodyScale(mass=3.0, leg=0.2, sole=0.1, sole_width=0.05)
 

@@ -10,14 +10,14 @@ import pytest
 
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES, Side
-from sim.plant.draw import TruePlant, drawn_plant
-from sim.plant.settings import Plant
-from sim.plant.taxels import CONNECTORS, SILENCE, WARMING, TaxelErrors
-from sim.robots import load_robot
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
-from sim.sensing.sensors import SensorSuite
-from sim.sensing.settings import Sensing
+from plantar.sim.plant.draw import TruePlant, drawn_plant
+from plantar.sim.plant.settings import Plant
+from plantar.sim.plant.taxels import CONNECTORS, SILENCE, WARMING, TaxelErrors
+from plantar.sim.robots import load_robot
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
+from plantar.sim.sensing.sensors import SensorSuite
+from plantar.sim.sensing.settings import Sensing
 
 QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, accelerometer_noise=0.0)
 LAYOUTS = load_robot("h1").layouts

@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from sim.plant.settings import Plant
-from sim.run.run_text import run_text
-from sim.run.runner import run_scene
-from sim.run.scene import Scene, load_scene
+from plantar.sim.plant.settings import Plant
+from plantar.sim.run.run_text import run_text
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import Scene, load_scene
 
-SIM = Path(__file__).resolve().parents[3] / "sim"
+SIM = Path(__file__).resolve().parents[3] / "plantar" / "sim"
 TIMING = ("wall_time_s", "real_time_factor", "control_us")
 
 
@@ -56,7 +56,7 @@ def imports_plant(path: Path) -> bool:
     """Whether a file imports the true plant, beyond the settings of its table."""
     nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
     names = [n.module or "" for n in nodes if isinstance(n, ast.ImportFrom)]
-    return any(name.startswith("sim.plant.") and name != "sim.plant.settings" for name in names)
+    return any(name.startswith("plantar.sim.plant.") and name != "plantar.sim.plant.settings" for name in names)
 
 
 def test_the_world_its_sensors_and_its_servos_alone_know_the_true_plant() -> None:

@@ -7,8 +7,8 @@ from dataclasses import asdict, replace
 import pytest
 
 from plantar.errors import RobotError
-from sim.robots import load_robot
-from sim.robots.biped import BipedParameters
+from plantar.sim.robots import load_robot
+from plantar.sim.robots.biped import BipedParameters
 
 H1 = load_robot("h1").biped
 assert H1 is not None

@@ -9,15 +9,15 @@ import mujoco
 import numpy as np
 import pytest
 
-import sim.model.world
+import plantar.sim.model.world
 from plantar.errors import SceneError
-from sim.judging.leg_contact import LegContact, legs_that_touch
-from sim.model.world import World, build_world
-from sim.robots import Robot, load_robot
-from sim.robots.leg_shapes import COLLIDES
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
-from sim.terrain import Ground
+from plantar.sim.judging.leg_contact import LegContact, legs_that_touch
+from plantar.sim.model.world import World, build_world
+from plantar.sim.robots import Robot, load_robot
+from plantar.sim.robots.leg_shapes import COLLIDES
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
+from plantar.sim.terrain import Ground
 
 GROUND = Ground((), 0.0, 0.8)
 
@@ -78,7 +78,7 @@ def test_a_leg_that_swings_into_the_other_is_seen(h1: Robot, angle: float, link:
 
 
 def test_legs_whose_first_links_have_no_name_are_seen_to_touch(h1: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    named = sim.model.world.robot_spec
+    named = plantar.sim.model.world.robot_spec
 
     def unnamed(robot: Robot) -> Any:
         spec = named(robot)
@@ -86,7 +86,7 @@ def test_legs_whose_first_links_have_no_name_are_seen_to_touch(h1: Robot, monkey
             spec.joint(leg.joints[0]).parent.name = ""
         return spec
 
-    monkeypatch.setattr(sim.model.world, "robot_spec", unnamed)
+    monkeypatch.setattr(plantar.sim.model.world, "robot_spec", unnamed)
     world = build_world(h1, GROUND)
     placed(world)
     watch = LegContact(world)

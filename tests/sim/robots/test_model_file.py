@@ -12,13 +12,13 @@ import pytest
 
 from plantar.errors import RobotError, SceneError
 from plantar.mechanics.rotation import rotation_from_angles
-from shoes import build_shoe, export_shoe, foot_from_mesh
-from sim.model.world import build_leg_model, build_world, robot_spec
-from sim.robots import load_robot
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
-from sim.run.servos import LegServos
-from sim.terrain import Ground
+from plantar.shoes import build_shoe, export_shoe, foot_from_mesh
+from plantar.sim.model.world import build_leg_model, build_world, robot_spec
+from plantar.sim.robots import load_robot
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
+from plantar.sim.run.servos import LegServos
+from plantar.sim.terrain import Ground
 
 ROBOT = """
 name = "own"

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import RobotError
-from sim.robots import builtin_robots, load_robot
+from plantar.sim.robots import builtin_robots, load_robot
 
 
 @pytest.mark.parametrize("name", builtin_robots())

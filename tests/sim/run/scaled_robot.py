@@ -15,8 +15,8 @@ import numpy as np
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import write_layout
 from plantar.sides import SIDES
-from sim.model.world import robot_spec
-from sim.robots import Robot, load_robot
+from plantar.sim.model.world import robot_spec
+from plantar.sim.robots import Robot, load_robot
 
 _TOML = """name = "h1 times {s:g}"
 [model]

@@ -8,7 +8,7 @@ import pytest
 
 from plantar.errors import InputError
 from plantar.sides import Side
-from sim.run.box_plan import box_plan
+from plantar.sim.run.box_plan import box_plan
 
 
 @pytest.mark.parametrize("first", ["left", "right"])

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from gait.controller_tables import CONTROLLER_TABLES, controller_keys, controller_settings_described
-from gait.estimate.estimator import EstimatorGains
 from plantar.errors import RobotError, SceneError
+from plantar.gait.controller_tables import CONTROLLER_TABLES, controller_keys, controller_settings_described
+from plantar.gait.estimate.estimator import EstimatorGains
 from plantar.settings.body_scale import REFERENCE_BODY
-from sim.robots.robot_file import load_robot
-from sim.run.controller_settings import controller_settings
-from sim.run.scene import load_scene, setting_name
+from plantar.sim.robots.robot_file import load_robot
+from plantar.sim.run.controller_settings import controller_settings
+from plantar.sim.run.scene import load_scene, setting_name
 
 ALL_ON = ["pfc=true", "control.feasibility=skin", "conform=true", "footholds=skin"]
 ALL_ON += ["control.step_adjustment=true", "control.learn_strides=true", "control.push_estimate=skin"]

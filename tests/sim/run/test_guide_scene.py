@@ -11,8 +11,8 @@ from plantar.errors import SceneError
 from plantar.mechanics.external_wrench import external_acceleration
 from plantar.recordings.recording import read_mcap
 from plantar.sensing.link_skin import SkinReading
-from sim.run.runner import Simulation, run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import Simulation, run_scene
+from plantar.sim.run.scene import load_scene
 
 
 def test_the_controller_knows_where_the_arm_is_that_feels() -> None:

@@ -6,16 +6,16 @@ import mujoco
 import numpy as np
 import pytest
 
-from gait.plan.footsteps import straight_plan
-from gait.plan.phases import Timing, WalkSchedule
 from plantar.errors import SceneError
+from plantar.gait.plan.footsteps import straight_plan
+from plantar.gait.plan.phases import Timing, WalkSchedule
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.settings.schema import Settings
-from sim.partner.hand_pushes import HandPushes
-from sim.run.hand_pushing import hand_pushes
-from sim.run.pushing import Pusher
-from sim.run.runner import Simulation
-from sim.run.scene import Push, load_scene
+from plantar.sim.partner.hand_pushes import HandPushes
+from plantar.sim.run.hand_pushing import hand_pushes
+from plantar.sim.run.pushing import Pusher
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import Push, load_scene
 
 from ..partner.floating import box_skin
 

@@ -6,8 +6,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 TRUE = ("plant.gyro_bias=[0.004, -0.003, 0.005]", "plant.com_offset=[-0.012, 0.012, 0]", "plant.mass_ratio=1.05")
 

@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
-from gait.plan.footsteps import straight_plan
-from gait.plan.phases import Timing, WalkSchedule
 from plantar.errors import SceneError
+from plantar.gait.plan.footsteps import straight_plan
+from plantar.gait.plan.phases import Timing, WalkSchedule
 from plantar.settings.body_scale import BodyScale
-from sim.model.world import World
-from sim.run.pushing import Pusher
-from sim.run.scene import Push
+from plantar.sim.model.world import World
+from plantar.sim.run.pushing import Pusher
+from plantar.sim.run.scene import Push
 
 SCHEDULE = WalkSchedule.of([s.side for s in straight_plan(6)[1]], Timing(), begin=1.0)
 

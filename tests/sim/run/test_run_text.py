@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from sim.run.run_text import run_text
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.run_text import run_text
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 
 @pytest.fixture(scope="module")

@@ -10,8 +10,8 @@ import pytest
 
 from plantar.errors import SceneError
 from plantar.recordings.recording import read_mcap
-from sim.run.runner import Simulation, run_scene
-from sim.run.scene import Scene, load_scene
+from plantar.sim.run.runner import Simulation, run_scene
+from plantar.sim.run.scene import Scene, load_scene
 
 MOTION = ("landings_s", "impacts_N", "tilt_max_deg", "zmp_margin_min_m", "final", "estimate", "contact_area_ratio")
 

@@ -2,13 +2,13 @@ from pathlib import Path
 
 import pytest
 
-from gait.propose.velocity_command import Velocity
 from plantar.errors import SceneError
+from plantar.gait.propose.velocity_command import Velocity
 from plantar.settings.body_scale import BodyScale
-from sim.run.scene import builtin_scenes, load_scene, setting_name
-from sim.run.scene_kind import open_scene
-from sim.run.shares import shares_told
-from sim.terrain import Beam
+from plantar.sim.run.scene import builtin_scenes, load_scene, setting_name
+from plantar.sim.run.scene_kind import open_scene
+from plantar.sim.run.shares import shares_told
+from plantar.sim.terrain import Beam
 
 
 @pytest.mark.parametrize("name", builtin_scenes())

@@ -7,9 +7,9 @@ import pytest
 
 from plantar.errors import RobotError
 from plantar.mechanics.rotation import rotation_from_vector
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
-from sim.run.servos import LegServos
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
+from plantar.sim.run.servos import LegServos
 
 
 @pytest.fixture
@@ -127,7 +127,7 @@ def test_setpoints_keep_the_joints_speed_limits_and_the_pose_between_them(standi
 def test_a_robot_without_speed_limits_is_not_held_back(standing: Simulation) -> None:
     from dataclasses import replace
 
-    from sim.run.servos import LegServos
+    from plantar.sim.run.servos import LegServos
 
     world = replace(standing.world, robot=replace(standing.robot, velocity_limits=()))
     servos = LegServos(world, standing.legs, 0.005)
@@ -138,7 +138,7 @@ def test_a_robot_without_speed_limits_is_not_held_back(standing: Simulation) -> 
 
 
 def test_speed_limits_of_a_model_file_come_from_its_servo_table(tmp_path: Path) -> None:
-    from sim.robots import load_robot
+    from plantar.sim.robots import load_robot
 
     h1 = load_robot("h1")
     text = h1.path.read_text().replace("damping = 150.0", "damping = 150.0\nvelocity_limits = [1, 2, 3, 4, 5, 6]")

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 
 from plantar.errors import InputError
-from sim.companion.experiment import experiment_names
-from sim.companion.scene import companion_tables
-from sim.run.scene import load_scene
-from sim.run.scene_kind import open_scene
-from sim.run.setting_list import settings_listed, settings_of_robot
+from plantar.sim.companion.experiment import experiment_names
+from plantar.sim.companion.scene import companion_tables
+from plantar.sim.run.scene import load_scene
+from plantar.sim.run.scene_kind import open_scene
+from plantar.sim.run.setting_list import settings_listed, settings_of_robot
 
 
 def test_every_setting_has_a_default_an_allowed_range_and_a_meaning() -> None:

@@ -11,8 +11,8 @@ import pytest
 from numpy.typing import NDArray
 
 from plantar.recordings.recording import read_mcap
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 from .scaled_robot import scaled_h1
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 SHORT = ["walk.steps=3", "walk.length=0", "walk.lean=true", "push.step=1", "push.phase=0.25", "push.direction=forward"]
 STEPS = ["control.step_adjustment=true", "control.push_estimate=soles"]

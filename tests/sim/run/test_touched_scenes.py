@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from plantar.errors import SceneError
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 
 def test_a_scene_in_which_nobody_touches_the_robot_has_neither_skin_nor_bodies_for_it() -> None:

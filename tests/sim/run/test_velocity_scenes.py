@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from plantar.errors import SceneError
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.integrate import dblquad
 
-from sim.sensing.elastic_layer import LayerContact, influence
+from plantar.sim.sensing.elastic_layer import LayerContact, influence
 
 
 def squares(half: float, side: float) -> NDArray[np.float64]:

@@ -11,12 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import InputError, SceneError, hex_layout
-from sim.model.world import World
-from sim.run.scene import load_scene
-from sim.sensing.elastic_pressure import ElasticPressure
-from sim.sensing.sensors import SensorSuite
-from sim.sensing.settings import Sensing
-from sim.sensing.sole_pressure import SolePressure
+from plantar.sim.model.world import World
+from plantar.sim.run.scene import load_scene
+from plantar.sim.sensing.elastic_pressure import ElasticPressure
+from plantar.sim.sensing.sensors import SensorSuite
+from plantar.sim.sensing.settings import Sensing
+from plantar.sim.sensing.sole_pressure import SolePressure
 
 HALF = np.array([0.125, 0.0775])
 OUTLINE = HALF * [[-1, -1], [1, -1], [1, 1], [-1, 1]]

@@ -10,8 +10,8 @@ import pytest
 
 from plantar import InputError, RobotError, fit_ground_plane, hex_layout
 from plantar.mechanics.rotation import rotation_from_angles
-from sim.sensing.proximity import ProximitySensor, SoleProximity
-from sim.terrain import GROUND_GROUP, Solid
+from plantar.sim.sensing.proximity import ProximitySensor, SoleProximity
+from plantar.sim.terrain import GROUND_GROUP, Solid
 
 LAYOUT = hex_layout([[-0.125, -0.0775], [0.125, -0.0775], [0.125, 0.0775], [-0.125, 0.0775]])
 

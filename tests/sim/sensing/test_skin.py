@@ -11,8 +11,8 @@ import pytest
 from numpy.typing import NDArray
 
 from plantar import InputError, RobotError, center_of_pressure, hex_layout
-from sim.model.contact_truth import ContactSet, contact_wrench_in_frame
-from sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
+from plantar.sim.model.contact_truth import ContactSet, contact_wrench_in_frame
+from plantar.sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
 
 GRAVITY = 9.81
 MASS = 43.0

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from plantar import InputError, LayoutError, SoleLayout, center_of_pressure, hex_layout, layout_of_cells
 from plantar.geometry.polygon import convex_hull, inner_offset, signed_margin
-from sim.sensing.sole_pressure import SolePressure
-from sim.sensing.sole_pressure import _pseudo_inverse as pseudo_inverse
+from plantar.sim.sensing.sole_pressure import SolePressure
+from plantar.sim.sensing.sole_pressure import _pseudo_inverse as pseudo_inverse
 
 HALF = np.array([0.125, 0.0775])
 OUTLINE = HALF * [[-1, -1], [1, -1], [1, 1], [-1, 1]]

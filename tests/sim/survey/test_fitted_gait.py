@@ -8,12 +8,12 @@ from dataclasses import replace
 import pytest
 
 from plantar.settings.body_scale import BodyScale
-from sim.model.body import body_of
-from sim.model.world import build_leg_model
-from sim.robots import load_robot
-from sim.run.controller_settings import controller_settings
-from sim.run.scene import load_scene
-from sim.survey.fitted_gait import (
+from plantar.sim.model.body import body_of
+from plantar.sim.model.world import build_leg_model
+from plantar.sim.robots import load_robot
+from plantar.sim.run.controller_settings import controller_settings
+from plantar.sim.run.scene import load_scene
+from plantar.sim.survey.fitted_gait import (
     APPROACH_HEIGHT,
     APPROACH_SPEED,
     QUICK_DOUBLE,
@@ -22,7 +22,7 @@ from sim.survey.fitted_gait import (
     fit_gait,
     straight_walk,
 )
-from sim.survey.plan_reach import plan_reach
+from plantar.sim.survey.plan_reach import plan_reach
 
 SLOW = BodyScale(mass=3.5, leg=0.22, sole=0.13, sole_width=0.09, pace_beats=1.6)
 

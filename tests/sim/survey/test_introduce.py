@@ -15,12 +15,12 @@ import pytest
 
 from plantar.errors import RobotError
 from plantar.recordings.recording import read_mcap
-from shoes.found_foot import shoe_for_surface, taxel_area
-from sim.robots import load_robot
-from sim.run.runner import run_scene
-from sim.run.scene import load_scene
-from sim.survey.check import check_robot
-from sim.survey.introduce import Introduced, introduce
+from plantar.shoes.found_foot import shoe_for_surface, taxel_area
+from plantar.sim.robots import load_robot
+from plantar.sim.run.runner import run_scene
+from plantar.sim.run.scene import load_scene
+from plantar.sim.survey.check import check_robot
+from plantar.sim.survey.introduce import Introduced, introduce
 
 from .random_biped import Truth, random_biped
 
@@ -184,7 +184,7 @@ def test_the_command_draws_where_nothing_is_said_of_opengl(tmp_path: Path) -> No
     truth = random_biped(SEED, tmp_path)
     silent = {k: v for k, v in os.environ.items() if k not in ("MUJOCO_GL", "DISPLAY")}
     done = subprocess.run(
-        [sys.executable, "cli.py", "robot", str(truth.file), "-o", str(tmp_path / "out")],
+        [sys.executable, "-m", "plantar", "robot", str(truth.file), "-o", str(tmp_path / "out")],
         cwd=Path(__file__).parents[3],
         env=silent,
         capture_output=True,

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from plantar import RobotError
-from sim.survey.model_source import read_model
-from sim.survey.survey import survey_model
+from plantar.sim.survey.model_source import read_model
+from plantar.sim.survey.survey import survey_model
 
 from .random_biped import random_biped
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sim.survey.survey import survey_model
+from plantar.sim.survey.survey import survey_model
 
 from .random_biped import random_biped
 

@@ -10,9 +10,9 @@ import pytest
 
 from plantar.gravity import GRAVITY
 from plantar.sides import SIDES
-from sim.model.world import build_leg_model
-from sim.robots import builtin_robots, load_robot
-from sim.survey.rocking_gait import LEAN_MOST, ankle_reach, has_ankle_roll, rocking
+from plantar.sim.model.world import build_leg_model
+from plantar.sim.robots import builtin_robots, load_robot
+from plantar.sim.survey.rocking_gait import LEAN_MOST, ankle_reach, has_ankle_roll, rocking
 
 
 @pytest.mark.parametrize(("height", "width"), [(0.97, 0.41), (0.97, 0.55), (0.6, 0.15)])

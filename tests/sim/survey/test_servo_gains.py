@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sim.run.controller_settings import CONTROL_PERIOD
-from sim.survey.joint_inertia import JointInertia
-from sim.survey.model_copy import add_rotors
-from sim.survey.servo_gains import SAMPLED, rotor_inertia, servo_gains
+from plantar.sim.run.controller_settings import CONTROL_PERIOD
+from plantar.sim.survey.joint_inertia import JointInertia
+from plantar.sim.survey.model_copy import add_rotors
+from plantar.sim.survey.servo_gains import SAMPLED, rotor_inertia, servo_gains
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -8,11 +8,11 @@ import mujoco
 import numpy as np
 import pytest
 
-from sim.model.body import body_of, stood
-from sim.model.leg_model import LegModel
-from sim.model.world import build_leg_model
-from sim.robots import load_robot
-from sim.survey.swing_yaw import least_single_support, swinging_mass
+from plantar.sim.model.body import body_of, stood
+from plantar.sim.model.leg_model import LegModel
+from plantar.sim.model.world import build_leg_model
+from plantar.sim.robots import load_robot
+from plantar.sim.survey.swing_yaw import least_single_support, swinging_mass
 
 
 def carried_along(name: str) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.errors import InputError
-from sim.sweep.grid import canonical, split_values
+from plantar.sim.sweep.grid import canonical, split_values
 
 LETTERS = st.characters(min_codepoint=32, max_codepoint=0x2FFF, exclude_categories=("Cs", "Cc"))
 TEXTS = st.text(LETTERS, max_size=8).filter(str.isprintable)
@@ -33,7 +33,7 @@ def toml(value: Any) -> str:
 
 
 def meaning(text: str) -> Any:
-    """What a setting takes a text for, as `sim.run.scene.override` does."""
+    """What a setting takes a text for, as `plantar.sim.run.scene.override` does."""
     try:
         return tomllib.loads(f"v = {text}")["v"]
     except tomllib.TOMLDecodeError:

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import InputError, RobotError, SceneError
-from sim.robots import load_robot
-from sim.sweep import Sweep, run_sweep
-from sim.sweep.inputs import changes, inputs_of
-from sim.sweep.task import Task, run_task
+from plantar.sim.robots import load_robot
+from plantar.sim.sweep import Sweep, run_sweep
+from plantar.sim.sweep.inputs import changes, inputs_of
+from plantar.sim.sweep.task import Task, run_task
 
 STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")
 

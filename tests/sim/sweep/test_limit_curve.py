@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from sim.sweep.limit_curve import limit_curve
+from plantar.sim.sweep.limit_curve import limit_curve
 
 
 def test_the_limit_of_a_step_is_between_the_last_run_that_held_and_the_first_that_did_not() -> None:

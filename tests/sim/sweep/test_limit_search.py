@@ -9,9 +9,9 @@ from collections.abc import Callable
 import pytest
 
 from plantar.errors import InputError, PlantarError
-from sim.sweep import LimitSearch, plan_from_texts
-from sim.sweep.runs import Key, Run, key_of
-from sim.sweep.sweep_text import sweep_text
+from plantar.sim.sweep import LimitSearch, plan_from_texts
+from plantar.sim.sweep.runs import Key, Run, key_of
+from plantar.sim.sweep.sweep_text import sweep_text
 
 Rows = dict[Key, dict[str, str]]
 

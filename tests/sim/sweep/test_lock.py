@@ -10,12 +10,13 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import InputError
-from sim.sweep.lock import locked
+from plantar.sim.sweep.lock import locked
 
-HOLD = "import sys; from pathlib import Path; from sim.sweep.lock import locked\n"
+HOLD = "import sys; from pathlib import Path; from plantar.sim.sweep.lock import locked\n"
 HOLD += "with locked(Path(sys.argv[1])): print('held', flush=True); sys.stdin.read()"
 TAKE_TURNS = """
-import sys, time; from pathlib import Path; from plantar.errors import InputError; from sim.sweep.lock import locked
+import sys, time; from pathlib import Path; from plantar.errors import InputError
+from plantar.sim.sweep.lock import locked
 folder = Path(sys.argv[1])
 done = 0
 while done < 50:

@@ -9,8 +9,8 @@ import pytest
 
 from plantar.errors import InputError
 from plantar.plotting import save_figure
-from sim.sweep import Sweep, run_sweep
-from sim.sweep.figures import bars_of
+from plantar.sim.sweep import Sweep, run_sweep
+from plantar.sim.sweep.figures import bars_of
 
 TIMINGS = ("real_time_factor", "control_p99_us")  # the only columns of a run that differ from one to the next
 STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from plantar.errors import InputError
-from sim.sweep.results import open_results
+from plantar.sim.sweep.results import open_results
 
 IDENTITY = {"scene": "flat", "axes": ["friction", "direction"]}
 INPUTS = {"h1": {"plantar": "1.0", "scene file flat.toml": "9f", "layout layout_left.json": "e0"}}

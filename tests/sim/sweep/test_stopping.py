@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from sim.sweep.stopping import SweepStopped, stop_noted
+from plantar.sim.sweep.stopping import SweepStopped, stop_noted
 
 
 @pytest.fixture(autouse=True)

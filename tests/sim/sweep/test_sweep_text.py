@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sim.sweep.sweep_text import sweep_errors, sweep_text
+from plantar.sim.sweep.sweep_text import sweep_errors, sweep_text
 
 RESULT = {
     "points": [

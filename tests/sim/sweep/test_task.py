@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from plantar.errors import DependencyError
-from sim.sweep.task import COLUMNS, Task, criteria_of, failed, run_one, run_task
+from plantar.sim.sweep.task import COLUMNS, Task, criteria_of, failed, run_one, run_task
 
 STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")
 
@@ -37,12 +37,12 @@ def test_a_defect_is_a_row_and_a_missing_library_is_none(monkeypatch: pytest.Mon
         raise DependencyError("mujoco", "sim")
 
     task = Task("flat", None, STANDING, 0)
-    monkeypatch.setattr("sim.run.runner.run_scene", defect)
+    monkeypatch.setattr("plantar.sim.run.runner.run_scene", defect)
     row = run_task(task)
     assert set(row) == set(COLUMNS) == set(failed(""))
     assert row["completed"] is False
     assert "KeyError" in row["error"]
     assert "test_task.py" in row["error"]
-    monkeypatch.setattr("sim.run.runner.run_scene", without_mujoco)
+    monkeypatch.setattr("plantar.sim.run.runner.run_scene", without_mujoco)
     with pytest.raises(DependencyError):
         run_task(task)

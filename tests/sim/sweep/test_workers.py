@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from plantar.errors import WorkerError
-from sim.sweep.workers import TRIES, LocalWorkers
+from plantar.sim.sweep.workers import TRIES, LocalWorkers
 
 psutil = pytest.importorskip("psutil")
 WAIT = 120.0

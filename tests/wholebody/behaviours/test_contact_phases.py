@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wholebody.behaviours.contact_phases import ContactPhases, PhaseSettings
+from plantar.wholebody.behaviours.contact_phases import ContactPhases, PhaseSettings
 
 
 def test_the_weight_goes_from_nearness_to_force_along_a_sigmoid():

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from wholebody.behaviours.intentional_contact import ContactSettings, ContactSigns, IntentionalContact
+from plantar.wholebody.behaviours.intentional_contact import ContactSettings, ContactSigns, IntentionalContact
 
 SETTINGS = ContactSettings(slow=0.02, force_limit=10.0, stuck=0.3, retreat=0.3, free=0.5, shrink=0.5)
 

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wholebody.behaviours.nociceptive_reflex import NociceptiveReflex, ReflexSettings
+from plantar.wholebody.behaviours.nociceptive_reflex import NociceptiveReflex, ReflexSettings
 
 
 class Nothing:

@@ -5,9 +5,9 @@ import pytest
 
 from plantar.errors import InputError
 from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
-from wholebody.fusion.contact_forces import ContactForces
-from wholebody.fusion.hierarchy import joint_torques
-from wholebody.tasks.support import Standing, Support
+from plantar.wholebody.fusion.contact_forces import ContactForces
+from plantar.wholebody.fusion.hierarchy import joint_torques
+from plantar.wholebody.tasks.support import Standing, Support
 
 SOLE = Rectangle(-0.1, 0.15, -0.06, 0.06)
 WEIGHT = 800.0

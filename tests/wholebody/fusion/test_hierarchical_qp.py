@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError
-from wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
-from wholebody.fusion.hierarchy import fuse
-from wholebody.tasks.task import Demand
+from plantar.wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
+from plantar.wholebody.fusion.hierarchy import fuse
+from plantar.wholebody.tasks.task import Demand
 
 
 def limits(size, torque=1e6, velocity=1e6, low=-1e6, high=1e6):

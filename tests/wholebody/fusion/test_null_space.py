@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from wholebody.fusion.hierarchy import fuse
-from wholebody.fusion.null_space import mass_factor, null_space_projector, null_space_torques, task_torque
-from wholebody.tasks.task import Demand
+from plantar.wholebody.fusion.hierarchy import fuse
+from plantar.wholebody.fusion.null_space import mass_factor, null_space_projector, null_space_torques, task_torque
+from plantar.wholebody.tasks.task import Demand
 
 
 def motions(rng, size, rows, acceleration=False):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError
-from wholebody.fusion.priority_transition import PriorityTransition, TransitionSettings, smooth_share
+from plantar.wholebody.fusion.priority_transition import PriorityTransition, TransitionSettings, smooth_share
 
 
 def largest_jump(transition, switches, step=1e-4, end=1.0):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError
-from wholebody.fusion.null_space import weighted_sum
-from wholebody.tasks.task import Demand
+from plantar.wholebody.fusion.null_space import weighted_sum
+from plantar.wholebody.tasks.task import Demand
 
 
 def test_it_is_the_weighted_sum_of_the_tasks_torques(random_robot):

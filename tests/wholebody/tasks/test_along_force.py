@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from wholebody.fusion.hierarchy import fuse
-from wholebody.tasks.along_force import AlongForce
-from wholebody.tasks.cartesian_pose import CartesianPose
-from wholebody.tasks.task import Demand
+from plantar.wholebody.fusion.hierarchy import fuse
+from plantar.wholebody.tasks.along_force import AlongForce
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose
+from plantar.wholebody.tasks.task import Demand
 
 
 class Pushes:

@@ -9,24 +9,24 @@ import mujoco
 import numpy as np
 import pytest
 
-import wholebody.tasks
+import plantar.wholebody.tasks
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
-from wholebody.tasks.along_force import AlongForce
-from wholebody.tasks.base_avoidance import BaseAvoidance
-from wholebody.tasks.body_compliance import BodyCompliance
-from wholebody.tasks.cartesian_pose import CartesianPose
-from wholebody.tasks.center_of_mass import CenterOfMass
-from wholebody.tasks.compliant_wrist import CompliantWrist
-from wholebody.tasks.contact_force import ContactForce
-from wholebody.tasks.interaction import DirectInteraction
-from wholebody.tasks.point_force import PointForce
-from wholebody.tasks.posture import Posture
-from wholebody.tasks.pressure import PressureInteraction
-from wholebody.tasks.proximity import ProximityInteraction
-from wholebody.tasks.self_collision import SelfCollision, Sphere
-from wholebody.tasks.support import Standing, Support
-from wholebody.tasks.tactile_guidance import TactileGuidance
-from wholebody.tasks.temperature import TemperatureInteraction
+from plantar.wholebody.tasks.along_force import AlongForce
+from plantar.wholebody.tasks.base_avoidance import BaseAvoidance
+from plantar.wholebody.tasks.body_compliance import BodyCompliance
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose
+from plantar.wholebody.tasks.center_of_mass import CenterOfMass
+from plantar.wholebody.tasks.compliant_wrist import CompliantWrist
+from plantar.wholebody.tasks.contact_force import ContactForce
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.point_force import PointForce
+from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.pressure import PressureInteraction
+from plantar.wholebody.tasks.proximity import ProximityInteraction
+from plantar.wholebody.tasks.self_collision import SelfCollision, Sphere
+from plantar.wholebody.tasks.support import Standing, Support
+from plantar.wholebody.tasks.tactile_guidance import TactileGuidance
+from plantar.wholebody.tasks.temperature import TemperatureInteraction
 
 JOINTS = 9
 STEP = 1e-5
@@ -129,14 +129,14 @@ CASES = {
 
 
 def test_no_task_is_left_out():
-    files = {m.name for m in pkgutil.iter_modules(wholebody.tasks.__path__)}
+    files = {m.name for m in pkgutil.iter_modules(plantar.wholebody.tasks.__path__)}
     tasks = {
         name
         for name in files
         if any(
             n.startswith("demand")
-            for c in vars(importlib.import_module(f"wholebody.tasks.{name}")).values()
-            if isinstance(c, type) and c.__module__ == f"wholebody.tasks.{name}"
+            for c in vars(importlib.import_module(f"plantar.wholebody.tasks.{name}")).values()
+            if isinstance(c, type) and c.__module__ == f"plantar.wholebody.tasks.{name}"
             for n in dir(c)
         )
     }

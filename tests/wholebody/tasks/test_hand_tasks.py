@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
-from sim.companion.dynamics import MujocoDynamics
-from wholebody.tasks.base_avoidance import AvoidanceField, BaseAvoidance
-from wholebody.tasks.contact_force import ContactForce, ContactGains
-from wholebody.tasks.posture import Posture
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.wholebody.tasks.base_avoidance import AvoidanceField, BaseAvoidance
+from plantar.wholebody.tasks.contact_force import ContactForce, ContactGains
+from plantar.wholebody.tasks.posture import Posture
 
 HAND = """
 <mujoco>

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
-from wholebody.stack import TaskStack
-from wholebody.tasks.interaction import DirectInteraction
-from wholebody.tasks.pressure import PressureInteraction
-from wholebody.tasks.proximity import ProximityInteraction
-from wholebody.tasks.temperature import TemperatureInteraction
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.pressure import PressureInteraction
+from plantar.wholebody.tasks.proximity import ProximityInteraction
+from plantar.wholebody.tasks.temperature import TemperatureInteraction
 
 SIZE = 5
 

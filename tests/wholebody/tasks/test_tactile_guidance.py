@@ -6,8 +6,8 @@ import pytest
 
 from plantar.errors import InputError
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
-from sim.companion.dynamics import MujocoDynamics
-from wholebody.tasks.tactile_guidance import GuidanceGains, TactileGuidance
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.wholebody.tasks.tactile_guidance import GuidanceGains, TactileGuidance
 
 ARM = """
 <mujoco>

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import analyse_recording
+from plantar.gait.analysis.analyse import analyse_recording
 
 from ..browser import visit
 from ..printing import printed_images

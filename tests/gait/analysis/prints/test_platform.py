@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import Analysis, analyse, metrics_of
-from gait.analysis.exports import export_analysis
-from gait.analysis.pages.player import player_data
-from gait.analysis.parameters import analyse_feet
-from gait.analysis.prints.platform import told_apart
 from plantar.formats import detect_format
 from plantar.formats.grid_cells import grid_cells
+from plantar.gait.analysis.analyse import Analysis, analyse, metrics_of
+from plantar.gait.analysis.exports import export_analysis
+from plantar.gait.analysis.pages.player import player_data
+from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.prints.platform import told_apart
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 

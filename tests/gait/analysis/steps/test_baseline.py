@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gait.analysis.parameters import analyse_feet
-from gait.analysis.steps.baseline import resting_level, without_baselines
-from gait.analysis.steps.foot_gait import FootGait
+from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.steps.baseline import resting_level, without_baselines
+from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.sides import Side
 
 from ..walks import MadeWalk, made_walk

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.analysis.steps.cop_path import averaged_path, margin_to_outline
 from plantar import hex_layout
+from plantar.gait.analysis.steps.cop_path import averaged_path, margin_to_outline
 from plantar.geometry.polygon import signed_margin
 
 

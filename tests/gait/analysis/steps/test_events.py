@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from gait.analysis.steps.events import find_contacts, force_levels
+from plantar.gait.analysis.steps.events import find_contacts, force_levels
 
 from ..walks import two_humps
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import metrics_of
-from gait.analysis.parameters import analyse_feet
-from gait.analysis.steps.gaps import filled, without_gaps
+from plantar.gait.analysis.analyse import metrics_of
+from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.steps.gaps import filled, without_gaps
 from plantar.recordings import let_go
 
 from ..walks import made_walk

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.options import AnalysisOptions
-from gait.analysis.parameters import analyse_feet
-from gait.analysis.steps.stated import stated_beside_own, stated_contacts
 from plantar import FormatError, InputError
 from plantar.formats.stated_events import read_events
+from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.steps.stated import stated_beside_own, stated_contacts
 from plantar.recordings.pressure_recording import StatedEvents
 
 from ..walks import made_walk

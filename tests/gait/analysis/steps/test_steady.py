@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.analysis.options import AnalysisOptions, steps_of_text
-from gait.analysis.pages.summary import summary_of_foot
-from gait.analysis.parameters import analyse_feet
 from plantar import InputError
+from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
+from plantar.gait.analysis.pages.summary import summary_of_foot
+from plantar.gait.analysis.parameters import analyse_feet
 
 from ..walks import made_walk
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import metrics_of
-from gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.analyse import metrics_of
+from plantar.gait.analysis.parameters import analyse_feet
 from plantar.recordings.pressure_recording import PressureRecording
 
 from ..walks import made_walk

@@ -9,9 +9,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.ndimage import grey_opening
 
-from gait.analysis.parameters import analyse_feet
-from gait.analysis.steps.baseline import without_baselines
-from gait.analysis.steps.swing_levels import _opened, swing_levels
+from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.steps.baseline import without_baselines
+from plantar.gait.analysis.steps.swing_levels import _opened, swing_levels
 from plantar.recordings.pressure_recording import PressureRecording
 
 from ..walks import MadeWalk, made_walk

@@ -11,18 +11,18 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from cli import app
-from gait.analysis.compare import compare_recordings
-from gait.analysis.options import AnalysisOptions
-from gait.analysis.study import run_study as module
-from gait.analysis.study.compare_conditions import compare_conditions, grid_neighbours
-from gait.analysis.study.one_recording import GRID, RecordingResult, key_of, normalised, sampled
-from gait.analysis.study.participants import Participation, read_participants
-from gait.analysis.study.run_study import Study, run_study
-from gait.analysis.study.study_page import study_page
 from plantar import FormatError, InputError, grid_layout
+from plantar.cli import app
 from plantar.formats import ReadOptions
 from plantar.formats.nominal_insole import nominal_insole
+from plantar.gait.analysis.compare import compare_recordings
+from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.study import run_study as module
+from plantar.gait.analysis.study.compare_conditions import compare_conditions, grid_neighbours
+from plantar.gait.analysis.study.one_recording import GRID, RecordingResult, key_of, normalised, sampled
+from plantar.gait.analysis.study.participants import Participation, read_participants
+from plantar.gait.analysis.study.run_study import Study, run_study
+from plantar.gait.analysis.study.study_page import study_page
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout_file import layout_to_dict, write_layout
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from gait.analysis.study.statistics import effect_of, permutation_test, student_quantile
+from plantar.gait.analysis.study.statistics import effect_of, permutation_test, student_quantile
 
 CHAIN = [[j for j in (i - 1, i + 1) if 0 <= j < 101] for i in range(101)]
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from sim.bench.page.bench_page import bench_page
-from sim.bench.page.charts import Point, scatter
-from sim.bench.page.paper_figures import EXPERIMENTS
-from sim.run.scene import load_scene
+from plantar.sim.bench.page.bench_page import bench_page
+from plantar.sim.bench.page.charts import Point, scatter
+from plantar.sim.bench.page.paper_figures import EXPERIMENTS
+from plantar.sim.run.scene import load_scene
 
 from ....gait.analysis.browser import visit
 from ....gait.analysis.test_report_in_browser import READABLE

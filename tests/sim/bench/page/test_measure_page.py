@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
-import cli
 import plantar.bench.report
-import sim.bench.page.measure_page
-import sim.bench.skipping
-import sim.contact_models
-from sim.bench.scenes.scene_runs import COLUMNS, TABLE
+import plantar.sim.bench.page.measure_page
+import plantar.sim.bench.skipping
+import plantar.sim.contact_models
+from plantar import cli
+from plantar.sim.bench.scenes.scene_runs import COLUMNS, TABLE
 
 from .test_bench_page import RESULT
 
@@ -37,11 +37,11 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         monkeypatch.setattr(module, function, measure)
 
     part(plantar.bench.report, "measure_kernels", "kernels")
-    part(sim.contact_models, "measure_contact", "contact")
-    part(sim.bench.skipping, "measure_skipping", "skip")
-    part(sim.bench.page.measure_page, "measure_scenes", "scenes")
-    part(sim.bench.page.measure_page, "measure_papers", "papers")
-    monkeypatch.setattr("sim.contact_models.contact_text.contact_text", lambda _: "contact")
+    part(plantar.sim.contact_models, "measure_contact", "contact")
+    part(plantar.sim.bench.skipping, "measure_skipping", "skip")
+    part(plantar.sim.bench.page.measure_page, "measure_scenes", "scenes")
+    part(plantar.sim.bench.page.measure_page, "measure_papers", "papers")
+    monkeypatch.setattr("plantar.sim.contact_models.contact_text.contact_text", lambda _: "contact")
     return seen
 
 

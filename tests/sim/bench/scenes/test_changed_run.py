@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sim.bench.scenes.changed_run import SAMPLE, ChangedRun, TracedRun
-from sim.bench.scenes.scene_runs import SceneCase, SceneRuns
-from sim.bench.scenes.scene_setting import OWN, REFERENCE, SETTINGS, SceneSetting, setting_named
-from sim.run.runner import Simulation
-from sim.run.scene import load_scene
+from plantar.sim.bench.scenes.changed_run import SAMPLE, ChangedRun, TracedRun
+from plantar.sim.bench.scenes.scene_runs import SceneCase, SceneRuns
+from plantar.sim.bench.scenes.scene_setting import OWN, REFERENCE, SETTINGS, SceneSetting, setting_named
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
 
 SHORT = ("steps=1", "walk.begin=1.0", "walk.start=0.2", "walk.end=0.2", "walk.settle=0")
 STANDING = ("steps=0", "walk.settle=0")

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from plantar.errors import InputError
-from sim.bench.scenes.measure_scenes import measure_scenes, write_scenes
-from sim.bench.scenes.scene_row import NOISE, scene_rows
-from sim.bench.scenes.scene_runs import COLUMNS, SceneRuns
-from sim.bench.scenes.scenes_page import scenes_text
-from sim.bench.scenes.verdict import knob_verdicts
+from plantar.sim.bench.scenes.measure_scenes import measure_scenes, write_scenes
+from plantar.sim.bench.scenes.scene_row import NOISE, scene_rows
+from plantar.sim.bench.scenes.scene_runs import COLUMNS, SceneRuns
+from plantar.sim.bench.scenes.scenes_page import scenes_text
+from plantar.sim.bench.scenes.verdict import knob_verdicts
 
 OWN, FINE, COARSE = "scene's own", "reference", "physics step: 1.67 ms"
 

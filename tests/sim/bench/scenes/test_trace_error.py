@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from sim.bench.scenes.changed_run import SAMPLE, Trace
-from sim.bench.scenes.trace_error import PARTED, trace_error
+from plantar.sim.bench.scenes.changed_run import SAMPLE, Trace
+from plantar.sim.bench.scenes.trace_error import PARTED, trace_error
 
 RNG = np.random.default_rng(0)
 REFERENCE = Trace(

@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gait.command import Sensors
-from gait.controller import WalkingController
 from plantar.errors import InputError
+from plantar.gait.command import Sensors
+from plantar.gait.controller import WalkingController
 from plantar.sensing.reading import Reading
-from sim.bench.stress import stress_sweep
-from sim.bench.stress.faults import Faults, FaultySensors
-from sim.bench.stress.scenario import SCENES, Scenario, draw_scenario
-from sim.bench.stress.stress_run import FAILURES, Outcome, run_scenario
-from sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
-from sim.run.scene import load_scene
+from plantar.sim.bench.stress import stress_sweep
+from plantar.sim.bench.stress.faults import Faults, FaultySensors
+from plantar.sim.bench.stress.scenario import SCENES, Scenario, draw_scenario
+from plantar.sim.bench.stress.stress_run import FAILURES, Outcome, run_scenario
+from plantar.sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
+from plantar.sim.run.scene import load_scene
 
 CASES = json.loads((Path(__file__).parent / "cases.json").read_text())
 

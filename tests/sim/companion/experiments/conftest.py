@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from sim.companion.runner import Companion
-from sim.run.scene_kind import open_scene
+from plantar.sim.companion.runner import Companion
+from plantar.sim.run.scene_kind import open_scene
 
 
 @pytest.fixture(scope="session")

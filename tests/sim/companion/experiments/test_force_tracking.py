@@ -3,10 +3,10 @@
 import pytest
 
 from plantar.errors import SceneError
-from sim.companion.runner import Companion
-from sim.run.scene_kind import open_scene
-from sim.run.setting_list import settings_listed
-from sim.sweep.task import columns_of, run_one
+from plantar.sim.companion.runner import Companion
+from plantar.sim.run.scene_kind import open_scene
+from plantar.sim.run.setting_list import settings_listed
+from plantar.sim.sweep.task import columns_of, run_one
 
 SCENES = [f"force-tracking-{i}" for i in (1, 2, 3, 4)]
 

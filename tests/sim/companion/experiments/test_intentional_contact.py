@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from sim.companion.runner import Companion
-from sim.run.scene_kind import open_scene
+from plantar.sim.companion.runner import Companion
+from plantar.sim.run.scene_kind import open_scene
 
 
 def run(seed, *settings):

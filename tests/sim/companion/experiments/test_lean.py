@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from sim.companion.runner import Companion, run_companion
-from sim.companion.standing.lean_controller import _foremost
-from sim.run.scene_kind import open_scene
+from plantar.sim.companion.runner import Companion, run_companion
+from plantar.sim.companion.standing.lean_controller import _foremost
+from plantar.sim.run.scene_kind import open_scene
 
 
 def test_the_foremost_edge_of_a_polygon():

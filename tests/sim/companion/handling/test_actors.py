@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sim.companion.handling.actors import Push, Visit
+from plantar.sim.companion.handling.actors import Push, Visit
 
 
 def test_push_comes_and_goes_without_a_jump():

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from sim.companion.reaching.layout import KINDS, random_layout
+from plantar.sim.companion.reaching.layout import KINDS, random_layout
 
 TIP = np.array([0.8, 0.48])
 REACH = ((0.4, 0.6), (0.0, math.pi / 2.0))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sim.companion.standing.heat import HotPlate, PlateSettings
+from plantar.sim.companion.standing.heat import HotPlate, PlateSettings
 
 DOWN = np.array([[0.0, 0.0, -1.0]])
 

@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from sim.companion.dynamics import MujocoDynamics
-from sim.companion.standing.joint_range import JointRange
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.standing.joint_range import JointRange
 
 ARM = """<mujoco><worldbody><body><joint name="a" axis="0 0 1"/><geom size=".1" pos=".3 0 0"/>
 <body pos=".3 0 0"><joint name="b" axis="0 0 1"/><geom size=".1" pos=".3 0 0"/></body></body></worldbody></mujoco>"""

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
-from sim.companion.dynamics import MujocoDynamics
-from sim.companion.experiments.multi_contact import MultiContact
-from sim.companion.machine import load_machine
-from sim.companion.standing.stance import Stance
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.experiments.multi_contact import MultiContact
+from plantar.sim.companion.machine import load_machine
+from plantar.sim.companion.standing.stance import Stance
 
 
 @pytest.fixture(scope="module")

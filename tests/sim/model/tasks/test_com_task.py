@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from sim.model.tasks.com_task import ComTask
+from plantar.sim.model.tasks.com_task import ComTask
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from plantar.mechanics.rotation import rotation_from_vector
-from sim.model.tasks.orientation_task import OrientationTask
+from plantar.sim.model.tasks.orientation_task import OrientationTask
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from plantar.mechanics.rotation import rotation_from_vector
-from sim.model.tasks.pose_task import PoseTask
+from plantar.sim.model.tasks.pose_task import PoseTask
 
 
 @pytest.mark.parametrize("seed", range(5))

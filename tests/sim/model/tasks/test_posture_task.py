@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from sim.model.tasks.posture_task import PostureTask
+from plantar.sim.model.tasks.posture_task import PostureTask
 
 
 @pytest.mark.parametrize("seed", range(5))

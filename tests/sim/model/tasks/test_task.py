@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 from plantar.mechanics.rotation import rotation_from_vector
-from sim.model.tasks.chain import chain
-from sim.model.tasks.com_task import ComTask
-from sim.model.tasks.orientation_task import OrientationTask
-from sim.model.tasks.pose_task import PoseTask
-from sim.model.tasks.posture_task import PostureTask
-from sim.model.tasks.rolling_pose_task import RollingPoseTask
+from plantar.sim.model.tasks.chain import chain
+from plantar.sim.model.tasks.com_task import ComTask
+from plantar.sim.model.tasks.orientation_task import OrientationTask
+from plantar.sim.model.tasks.pose_task import PoseTask
+from plantar.sim.model.tasks.posture_task import PostureTask
+from plantar.sim.model.tasks.rolling_pose_task import RollingPoseTask
 
 TWO_TREES = """
 <mujoco><worldbody>

@@ -1,0 +1,249 @@
+"""What a recording is of: walking, running or standing; and how a standing body sways."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.recordings.pressure_recording import PressureRecording
+from plantar.sides import Side
+
+__all__ = ["Activity", "activity_of", "progression_doubts", "sway_measures"]
+
+_FLIGHT = 0.01
+"""Median time in s with both feet off the ground from which steps are those of a run: above what events err."""
+
+_RUNNING_STANCE = 45.0
+"""Stance in % of the stride under which one foot's steps are those of a run: walking has 58 to 65, a run below 45."""
+
+_HALF = 52.0
+"""Stance in % of the stride of both feet above which they cannot both be in the air, with 2 % for what events err."""
+
+_STEADY = 0.5
+"""Share of the usual load that a standing body keeps on the ground."""
+
+_ENDS, _FOREFOOT, _NO_HEEL, _DOWN, _BACKWARD = 0.12, 0.6, 0.55, 0.15, 0.3
+"""Part of a contact that is its landing, or its lift-off; then shares of the sole's length: the CoP lands in front of
+0.6 on the forefoot (the heads of the metatarsals are at 0.7; a heel strike is below 0.33), stays in front of 0.55 where
+the heel never carries, and comes back by 0.15 where it does; from toes to heel it goes by 0.3 or more."""
+
+_UP_LANDING, _UP_HUMPS, _UP_STANCE = 0.45, 1.1, 62.0
+"""Stairs up: the CoP lands in front of 0.45 of the sole (on the middle or front of the foot, as no heel strikes), the
+last hump of the force is at least 1.1 times the first one, and stance takes 62 % of the stride or more (McFadyen &
+Winter 1988, J. Biomech. 21:733; Riener et al. 2002, Gait Posture 15:32). One of these alone is also that of a slope or
+of a forefoot gait."""
+
+_CHI2 = -2.0 * math.log(0.05)
+"""95 % quantile of the chi-squared distribution with two degrees of freedom."""
+
+_LIFTS = 3
+"""How often a foot that does not stand is lifted at least: one that is put elsewhere once is lifted once or twice."""
+
+_LOADED, _FREE, _CARRIES = 0.3, 0.1, 0.3
+"""Shares of a foot's peak above which it is on the ground and below which it is off it, and the share of both feet's
+usual load that its peak is above: of the foot in the air of somebody who stands on one leg it is noise."""
+
+_SHORTEST = 5.0
+"""Time in s of standing under which sway means nothing: its slow part has periods of seconds."""
+
+
+@dataclass(frozen=True)
+class Activity:
+    """What somebody does in a recording.
+
+    Attributes:
+        name: "walking", "running", "standing", "walking up stairs", "walking down stairs", "toe walking",
+            "walking without heel strike" (stairs up, a slope or a forefoot gait: it cannot be told which) or "unknown".
+        why: What tells.
+    """
+
+    name: str
+    why: str
+
+
+def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
+    """Tell walking, running and standing apart.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The activity. A foot that lands on its front and then lets the heel down walks down stairs (or on pointed toes);
+        one whose heel never carries walks on its toes; one that lands in front of its heel, stands for long and
+        pushes off more than it lands walks up stairs. Ramps, turns, and stairs up on whole feet load the feet as
+        walking does, and are called so.
+    """
+    found = _by_times(recording, feet)
+    return (_by_landing(recording, feet) or found) if found.name == "walking" else found
+
+
+def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
+    """Warnings of feet that are rolled over from toes to heel, and of two feet that were not recorded at one time.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The warnings.
+    """
+    out = []
+    if _out_of_step(feet):
+        out.append(
+            "both feet seem to be off the ground between steps, though each stands for more than half of its stride: "
+            "check whether left and right were recorded at the same time"
+        )
+    for side, gait in feet.items():
+        strides = _rolls(recording, gait)
+        if len(strides) and float(np.median(strides[:, 0] - strides[:, 1])) > _BACKWARD:
+            flat = recording.kind == "robot"
+            reason = "this robot sets its soles down flat, or walks backwards" if flat else "this is walking backwards"
+            out.append(
+                f"the {side} foot's CoP goes from the toes to the heel: check the order of the cells and the layout, "
+                f"unless {reason}"
+            )
+    return out
+
+
+def _out_of_step(feet: Mapping[Side, FootGait]) -> bool:
+    """Whether both feet seem to fly though each stands for more than half of its stride: their clocks disagree."""
+    if len(feet) < 2:
+        return False
+    known = {
+        s: [(f, p) for t in g.used if np.isfinite([f := t["flight_time_s"], p := t["stance_percent"]]).all()]
+        for s, g in feet.items()
+    }
+    if not all(known.values()):
+        return False
+    medians = [np.median(np.array(rows), axis=0) for rows in known.values()]
+    return max(float(m[0]) for m in medians) > _FLIGHT and min(float(m[1]) for m in medians) > _HALF
+
+
+def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
+    """Where the CoP is at landing, at lift-off and at its hindmost, in shares of the sole from heel to toes (steps, 3).
+
+    Landing and lift-off are the means over the first and last 12 % of the contact, as the strike index is of its first
+    point (Cavanagh & Lafortune 1980, J. Biomech. 13:397). Empty where the sole's place under the foot is not known.
+    """
+    layout, cop = gait.foot.layout, gait.cop
+    if layout is None or cop is None or recording.kind not in ("insole", "robot"):
+        return np.zeros((0, 3))
+    back, front = float(layout.outline[:, 0].min()), float(layout.outline[:, 0].max())
+    rows = []
+    for step in gait.used:
+        along = (cop[step.contact.begin : step.contact.end, 0] - back) / (front - back)
+        along = along[np.isfinite(along)]
+        few = max(1, round(_ENDS * len(along)))
+        if len(along) >= 5:
+            rows.append((along[:few].mean(), along[-few:].mean(), np.sort(along)[len(along) // 20]))
+    return np.array(rows).reshape(-1, 3)
+
+
+def _by_landing(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity | None:
+    """What steps that land on the forefoot are; None of steps that land on the heel or flat."""
+    rolls = np.concatenate([_rolls(recording, gait) for gait in feet.values()])
+    if len(rolls) < 3 or recording.kind != "insole":
+        return None
+    landing, end, hindmost = (float(v) for v in np.median(rolls, axis=0))
+    if landing < _UP_LANDING or end < _FOREFOOT:
+        return None
+    if landing < _FOREFOOT or not (hindmost > _NO_HEEL or hindmost < landing - _DOWN):
+        return _without_heel_strike(feet, landing)
+    if hindmost > _NO_HEEL:
+        why = f"the CoP stays in front of {100.0 * hindmost:.0f} % of the sole's length"
+        return Activity("toe walking", f"{why}, as it also does up stairs on the front of the foot")
+    why = f"the foot lands at {100.0 * landing:.0f} % of its length, then comes down to {100.0 * hindmost:.0f} %"
+    return Activity("walking down stairs", f"{why}, as on stairs down")
+
+
+def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activity:
+    """What steps that land in front of the heel are: up stairs where forces and times say so, too."""
+    rows = [[s["second_peak_N"] / s["first_peak_N"], s["stance_percent"]] for g in feet.values() for s in g.used]
+    known = [[v for v in column if np.isfinite(v)] for column in zip(*rows, strict=True)]
+    humps, stance = (float(np.median(v)) if v else float("nan") for v in known)
+    why = f"the foot lands at {100.0 * landing:.0f} % of its length, not on the heel"
+    if humps >= _UP_HUMPS and stance >= _UP_STANCE:
+        more = f"stands for {stance:.0f} % of its stride and pushes off with {humps:.2g} times its first peak"
+        return Activity("walking up stairs", f"{why}, {more}, as on stairs up")
+    return Activity(
+        "walking without heel strike", f"{why}: stairs up, a slope or a forefoot gait; pressure does not tell which"
+    )
+
+
+def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
+    """Walking, running or standing, by how long the feet are on the ground; by all steps where none is in the means."""
+    steps = [step for gait in feet.values() for step in gait.used or gait.steps]
+    flights = [v for step in steps if np.isfinite(v := step["flight_time_s"])]
+    stances = [v for step in steps if np.isfinite(v := step["stance_percent"])]
+    if flights:
+        median = float(np.median(flights))
+        if median > _FLIGHT and not _out_of_step(feet):
+            return Activity("running", f"both feet are off the ground for {median:.3g} s between steps")
+        return Activity("walking", "a foot is on the ground at all times")
+    if stances:
+        median = float(np.median(stances))
+        name = "running" if median < _RUNNING_STANCE else "walking"
+        return Activity(name, f"the foot is on the ground for {median:.0f} % of its stride")
+    if steps:
+        return Activity("unknown", "single steps tell walking and running not apart")
+    load = np.sum([np.nan_to_num(foot.vertical_force) for foot in recording.feet.values()], axis=0)
+    usual = float(np.median(load)) if len(load) else 0.0
+    if any(_is_lifted(gait.foot.vertical_force, usual) for gait in feet.values()):
+        return Activity("unknown", "feet are lifted and set down again, but no step is complete")
+    if usual > 0.0 and float(np.percentile(load, 2.0)) > _STEADY * usual:
+        return Activity("standing", "the load stays on the ground and no foot is lifted")
+    return Activity("unknown", "no foot is lifted and set down again")
+
+
+def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:
+    """Whether a foot of a force (n,) in N is on the ground and off it again and again, beside a usual load in N.
+
+    By shares of its own peak with a wide gap between them: where no step was found, neither are levels to be trusted.
+    """
+    known = force[np.isfinite(force)]
+    peak = float(np.percentile(known, 99.0)) if len(known) else 0.0
+    if not peak > _CARRIES * usual:
+        return False
+    sure = known[(known > _LOADED * peak) | (known < _FREE * peak)]
+    return int((np.diff((sure > _LOADED * peak).astype(int)) < 0).sum()) >= _LIFTS
+
+
+def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
+    """How far and how quickly a centre of pressure wanders in standing.
+
+    Args:
+        time: Times (n,) in s.
+        points: Positions (n, 2) forward and to the left in m, NaN where there is none.
+
+    Returns:
+        sway_ellipse_m2 (area of the 95 % prediction ellipse of a normal distribution with the points' covariance, pi
+        times 5.99 times the root of its determinant; Schubert & Kirchner 2014, Gait Posture 39:518), sway_path_m,
+        sway_velocity_m_s (path over time), sway_ap_m and sway_ml_m (standard deviations). Empty for less than 5 s.
+
+    Example:
+        >>> t = np.linspace(0.0, 10.0, 1001)
+        >>> circle = 0.01 * np.column_stack([np.cos(2.0 * np.pi * t), np.sin(2.0 * np.pi * t)])
+        >>> found = sway_measures(t, circle)
+        >>> round(found["sway_path_m"], 3), round(found["sway_ap_m"], 4)
+        (0.628, 0.0071)
+    """
+    known = np.isfinite(points).all(axis=1)
+    if known.sum() < 10 or float(np.ptp(time[known])) < _SHORTEST:
+        return {}
+    at, when = points[known], time[known]
+    pieces = np.hypot(*np.diff(at, axis=0).T)
+    covariance = np.cov(at.T)
+    ahead, across = (float(v) for v in at.std(axis=0, ddof=1))
+    return {
+        "sway_ellipse_m2": math.pi * _CHI2 * math.sqrt(max(0.0, float(np.linalg.det(covariance)))),
+        "sway_path_m": float(pieces.sum()),
+        "sway_velocity_m_s": float(pieces.sum()) / float(when[-1] - when[0]),
+        "sway_ap_m": ahead,
+        "sway_ml_m": across,
+    }

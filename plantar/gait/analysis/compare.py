@@ -1,0 +1,223 @@
+"""Two recordings side by side: left and right, before and after, a controller's feature on and off."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from plantar.atomic import output_folder
+from plantar.errors import InputError
+from plantar.formats import ReadOptions, named_format
+from plantar.gait.analysis.analyse import Analysis, analyse, with_layout, write_analysis
+from plantar.gait.analysis.measures import MEASURES
+from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.pages.figure_files import write_figures
+from plantar.gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
+from plantar.gait.analysis.pages.report import comparison_page
+from plantar.gait.analysis.pages.sole_figures import figure_pair
+from plantar.gait.analysis.subject import Subject
+from plantar.plotting import COLOURS, new_figure
+from plantar.sides import SIDES, Side
+
+__all__ = ["compare_recordings", "difference_of"]
+
+_MAIN = (
+    "contact_time_s",
+    "stride_time_s",
+    "peak_force_N",
+    "landing_impact_N",
+    "loading_rate_N_s",
+    "impulse_Ns",
+    "peak_pressure_Pa",
+    "pressure_time_integral_Pas",
+    "contact_area_m2",
+    "cop_path_m",
+    "cop_velocity_m_s",
+)
+"""Measures whose difference is drawn."""
+
+
+def compare_recordings(
+    a: str | os.PathLike[str],
+    b: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    format: str | None = None,
+    layout: str | os.PathLike[str] | None = None,
+    progress: Callable[[float, str], None] | None = None,
+    *,
+    options: ReadOptions | None = None,
+    choices: AnalysisOptions | None = None,
+    subject: Subject | None = None,
+) -> dict[str, Any]:
+    """Analyse two recordings and write them side by side: comparison.json, figures, report.html, and a folder for each.
+
+    Args:
+        a: The first recording.
+        b: The second one.
+        out: Output folder; the whole analyses stand in its folders "a" and "b".
+        format: Name of both files' format; recognised from their content where None.
+        layout: Layout file for both.
+        progress: Called with a fraction 0..1 and what is being done.
+        options: What else the user knows about both files.
+        choices: Which steps are in the means, and whose events.
+        subject: Who walks in both, as far as it is known.
+
+    Returns:
+        "a" and "b": the metrics of each; "difference": of each foot that both have, or of A's foot and B's where each
+        has one, the mean and spread in both, B - A, that in percent of A, and Cohen's d; "files": the paths written.
+
+    Raises:
+        FormatError: If a file is not a recording that can be read.
+        InputError: If a file is a footprint image, the events are those of a file, or the folder cannot be written to.
+    """
+    tell = progress or (lambda fraction, text: None)
+    (choices or AnalysisOptions()).of_several("--compare takes")
+    known = with_layout(options, layout)
+    for path in (a, b):
+        if named_format(path, format).read is None:
+            raise InputError(f"{path} is a footprint image; --compare takes two recordings over time")
+    analyses: dict[str, Analysis] = {}
+    with output_folder(out, (a, b, layout)) as folder:
+        for i, (key, path) in enumerate((("a", a), ("b", b))):
+            tell(0.4 * i, f"reading {key}")
+            analyses[key] = analyse(path, format, known, choices=choices, subject=subject)
+            (folder / key).mkdir()
+            write_analysis(analyses[key], folder / key, _later(tell, 0.4 * i + 0.1, 0.3))
+        if analyses["a"].recording.raw != analyses["b"].recording.raw:
+            raise InputError(
+                "one recording is calibrated and the other is of raw counts: their values cannot be compared"
+            )
+        metrics = _write_comparison(analyses, folder, (Path(a).name, Path(b).name))
+        written = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+    tell(1.0, "done")
+    return {**metrics, "files": [str(Path(out) / name) for name in written]}
+
+
+def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tuple[str, str]) -> dict[str, Any]:
+    """Write what two analyses show side by side, and give what comparison.json holds."""
+    pairs = _pairs(analyses["a"], analyses["b"])
+    difference = {name: difference_of(analyses, one, other) for name, (one, other) in pairs.items()}
+    metrics: dict[str, Any] = {**{k: dict(v.metrics) for k, v in analyses.items()}, "difference": difference}
+    embedded = write_figures(_figures(analyses, pairs), folder)
+    (folder / "comparison.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    page = comparison_page(metrics, embedded, names, ("a/report.html", "b/report.html"))
+    (folder / "report.html").write_text(page, encoding="utf-8")
+    return metrics
+
+
+def _later(tell: Callable[[float, str], None], begin: float, share: float) -> Callable[[float, str], None]:
+    """A callback that fills a part of another one's range."""
+    return lambda fraction, text: tell(begin + share * fraction, text)
+
+
+def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
+    """Which feet are put side by side: the same ones; or the only foot of each where these differ."""
+    common: dict[str, tuple[Side, Side]] = {s: (s, s) for s in SIDES if s in a.feet and s in b.feet}
+    if not common and len(a.feet) == 1 and len(b.feet) == 1:
+        one, other = next(iter(a.feet)), next(iter(b.feet))
+        return {f"{one} and {other}": (one, other)}
+    return common
+
+
+def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> dict[str, Any]:
+    """Each measure that both recordings have of a foot: its spread in both, and how they differ.
+
+    Args:
+        analyses: "a" and "b".
+        one: The foot of A.
+        other: The foot of B.
+
+    Returns:
+        For each measure "a" and "b" (mean, sd, cv_percent, n), "difference", "percent" and "effect_size".
+    """
+    first = analyses["a"].metrics["feet"][one]["measures"]
+    second = analyses["b"].metrics["feet"][other]["measures"]
+    out: dict[str, Any] = {}
+    for key in first:
+        x, y = first[key], second.get(key)
+        if x["mean"] is None or y is None or y["mean"] is None:
+            continue
+        change = y["mean"] - x["mean"]
+        pooled = _pooled_sd(x, y)
+        out[key] = {
+            "a": x,
+            "b": y,
+            "difference": change,
+            "percent": 100.0 * change / abs(x["mean"]) if x["mean"] else None,
+            "effect_size": change / pooled if pooled else None,
+        }
+    return out
+
+
+def _pooled_sd(x: Mapping[str, Any], y: Mapping[str, Any]) -> float | None:
+    """Standard deviation of two samples about their own means; None where one has none."""
+    if x["sd"] is None or y["sd"] is None or x["n"] + y["n"] <= 2:
+        return None
+    return math.sqrt(((x["n"] - 1) * x["sd"] ** 2 + (y["n"] - 1) * y["sd"] ** 2) / (x["n"] + y["n"] - 2))
+
+
+def _figures(analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, Side]]) -> list[tuple[str, Any, str]]:
+    a, b = analyses["a"], analyses["b"]
+    return [
+        (
+            "pressure",
+            figure_pair([(k, x.recording, x.feet) for k, x in (("A", a), ("B", b))]),
+            "Maximum pressure pictures of A and B on one scale",
+        ),
+        (
+            "steps",
+            _curves(a, b, pairs),
+            "Vertical force over the stance in A and B: mean and ± 1 SD of the complete steps",
+        ),
+        ("difference", _bars(analyses, pairs), "Difference of the main measures, B less A in percent of A"),
+    ]
+
+
+def _curves(a: Analysis, b: Analysis, pairs: Mapping[str, tuple[Side, Side]]) -> Any | None:
+    shown = {n: p for n, p in pairs.items() if a.feet[p[0]].used and b.feet[p[1]].used}
+    if not shown:
+        return None
+    figure, axes = new_figure(5.0 * len(shown), 3.6, columns=len(shown), sharey=True, squeeze=False)
+    for panel, (name, sides) in zip(axes[0], shown.items(), strict=True):
+        for key, analysis, side, colour in (("A", a, sides[0], COLOURS["left"]), ("B", b, sides[1], COLOURS["cop"])):
+            curves = stance_curves(analysis.recording, analysis.feet[side])
+            name_of_mean = f"{key}, {side}: mean of {len(curves)}"
+            panel.plot(STANCE, curves.mean(axis=0), color=colour, linewidth=1.8, label=name_of_mean)
+            draw_sd(panel, curves, color=colour, alpha=0.2)
+        panel.set_title(f"{name} foot" if sides[0] == sides[1] else name)
+        panel.set_xlabel("stance (%)")
+        panel.legend(fontsize=8, loc="lower center")
+        panel.grid(alpha=0.3)
+    axes[0][0].set_ylabel(force_label(a.recording))
+    return figure
+
+
+def _changes(difference: Mapping[str, Any]) -> dict[str, float]:
+    """By how many percent the main measures differ, as far as they are known."""
+    found = {key: difference[key]["percent"] for key in _MAIN if key in difference}
+    return {key: percent for key, percent in found.items() if percent is not None}
+
+
+def _bars(analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, Side]]) -> Any | None:
+    rows = {name: _changes(difference_of(analyses, one, other)) for name, (one, other) in pairs.items()}
+    keys = [k for k in _MAIN if any(k in r for r in rows.values())]
+    if not keys:
+        return None
+    figure, axes = new_figure(8.0, 1.0 + 0.4 * len(keys))
+    places = np.arange(len(keys))[::-1]
+    height = 0.8 / max(len(rows), 1)
+    for i, (name, values) in enumerate(rows.items()):
+        colour = COLOURS["right"] if name == "right" else COLOURS["left"]
+        heights = [values.get(k, 0.0) for k in keys]
+        axes.barh(places - (i - 0.5 * (len(rows) - 1)) * height, heights, height=0.9 * height, color=colour, label=name)
+    axes.axvline(0.0, color="#111111", linewidth=0.8)
+    axes.set_yticks(places, [MEASURES[k].title for k in keys])
+    axes.set_xlabel("B less A (% of A)")
+    axes.legend(fontsize=8)
+    return figure

@@ -1,0 +1,152 @@
+"""Masks and measures of one's own: parts of the sole by polygons in foot coordinates, and functions of a step.
+
+Foot coordinates are shares: u from the back of the heel (0) to the front of the toes (1), v from the lateral (0) to the
+medial edge (1) of the sole, or on a platform of the footprint. A mask is the same part of a left and of a right foot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.errors import InputError
+from plantar.gait.analysis.analyse import Analysis
+from plantar.gait.analysis.steps.foot_gait import FootGait, Step
+from plantar.gait.analysis.steps.pressure_measures import region_measures
+from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads
+from plantar.sides import Side
+
+__all__ = ["StepView", "custom_measures", "mask_cells", "mask_measures"]
+
+
+@dataclass(frozen=True, eq=False)
+class StepView:
+    """What a measure of one's own may look at.
+
+    Attributes:
+        step: The step with its measures.
+        load: Times (m,), forces (m, k) in N, pressures (m, k) in Pa and which cells (m, k) are loaded.
+        cop: Centre of pressure (m, 2) in m, NaN without load; None without geometry.
+        places: Foot coordinates (k, 2) of the cells; None without geometry.
+    """
+
+    step: Step
+    load: StepLoad
+    cop: NDArray[np.float64] | None
+    places: NDArray[np.float64] | None
+
+
+def custom_measures(
+    analysis: Analysis, measures: Mapping[str, Callable[[StepView], float]]
+) -> dict[Side, dict[str, NDArray[np.float64]]]:
+    """Measure each complete step by functions of one's own.
+
+    Args:
+        analysis: An analysis.
+        measures: Functions by name; each gives a number, NaN for what is not known.
+
+    Returns:
+        Of each foot the values (steps,) of each measure, in the order of its steps.
+    """
+    out: dict[Side, dict[str, NDArray[np.float64]]] = {}
+    for side, gait in analysis.feet.items():
+        views = list(_views(analysis, gait))
+        out[side] = {name: np.array([float(function(v)) for v in views]) for name, function in measures.items()}
+    return out
+
+
+def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Side, list[dict[str, dict[str, float]]]]:
+    """The measures of regions, of masks of one's own.
+
+    Args:
+        analysis: An analysis.
+        masks: Corners (n, 2) of a polygon in foot coordinates, by name. Masks may overlap.
+
+    Returns:
+        Of each foot, for each complete step, the measures (`REGION_MEASURES`) of each mask that has cells.
+
+    Raises:
+        InputError: If a mask is no polygon of three corners or more.
+    """
+    rings = {name: _ring(name, corners) for name, corners in masks.items()}
+    out: dict[Side, list[dict[str, dict[str, float]]]] = {}
+    for side, gait in analysis.feet.items():
+        rows: list[dict[str, dict[str, float]]] = []
+        for view in _views(analysis, gait):
+            row: dict[str, dict[str, float]] = {}
+            if view.places is not None and view.load.pressure is not None:
+                duration = view.step.toe_off_s - view.step.heel_strike_s
+                for name, ring in rings.items():
+                    region = np.where(_inside(view.places, ring), 0, -1)
+                    row |= region_measures(view.load, region, [name], duration)
+            rows.append(row)
+        out[side] = rows
+    return out
+
+
+def mask_cells(analysis: Analysis, side: Side, corners: ArrayLike) -> NDArray[np.int64]:
+    """Cells whose centre lies in a mask.
+
+    Args:
+        analysis: An analysis of insoles or soles.
+        side: The foot.
+        corners: Corners (n, 2) of the mask in foot coordinates.
+
+    Returns:
+        Indices of the cells.
+
+    Raises:
+        InputError: If the foot has no geometry, or the mask is no polygon.
+    """
+    places = _places(analysis, analysis.feet[side], None)
+    if places is None:
+        raise InputError(f"the {side} foot has no geometry: give a layout")
+    return np.flatnonzero(_inside(places, _ring("the mask", corners)))
+
+
+def _ring(name: str, corners: ArrayLike) -> NDArray[np.float64]:
+    ring = np.asarray(corners, dtype=float)
+    if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
+        raise InputError(f"{name} has corners of shape {ring.shape}; allowed: three or more finite points (u, v)")
+    return ring
+
+
+def _views(analysis: Analysis, gait: FootGait) -> Sequence[StepView]:
+    """Each complete step of a foot."""
+    loads = StepLoads(analysis.recording, gait.foot, gait.cell_threshold)
+    cop = gait.cop
+    return [
+        StepView(
+            step,
+            loads.of(step.contact),
+            None if cop is None else cop[step.contact.begin : step.contact.end],
+            _places(analysis, gait, step),
+        )
+        for step in gait.steps
+    ]
+
+
+def _places(analysis: Analysis, gait: FootGait, step: Step | None) -> NDArray[np.float64] | None:
+    """Foot coordinates (k, 2) of the cells."""
+    layout = gait.foot.layout
+    if layout is None:
+        return None
+    print_ = step.footprint if step is not None and analysis.recording.kind == "platform" else gait.sole
+    if print_ is None:
+        return None
+    low, high = print_.rings.reshape(-1, 2).min(axis=0), print_.rings.reshape(-1, 2).max(axis=0)
+    return cast(NDArray[np.float64], (print_.in_foot(layout.positions[:, :2]) - low) / (high - low))
+
+
+def _inside(points: NDArray[np.float64], ring: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which points (k, 2) lie in a polygon of any shape: a ray from each crosses its edges an odd number of times."""
+    x, y = points.T[:, :, None]
+    a, b = ring, np.roll(ring, -1, axis=0)
+    spans = (a[:, 1] > y) != (b[:, 1] > y)
+    rise = np.where(b[:, 1] == a[:, 1], 1.0, b[:, 1] - a[:, 1])
+    cross = x < a[:, 0] + (y - a[:, 1]) / rise * (b[:, 0] - a[:, 0])
+    return np.asarray((spans & cross).sum(axis=1) % 2 == 1)

@@ -1,0 +1,182 @@
+"""A recording and its steps in other programs' files: NPZ, CSV, C3D, and a sidecar that says what they hold."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from plantar import __version__
+from plantar.atomic import parent_folder, replacing, write_text
+from plantar.errors import InputError
+from plantar.gait.analysis.analyse import Analysis
+from plantar.layouts.layout_file import layout_to_dict
+from plantar.optional_library import optional_library
+
+__all__ = ["EXPORTS", "export_analysis", "exporter"]
+
+_BLOCK = 4096
+
+
+def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Path]:
+    """Write a recording in another format, as the suffix of the path says, and a sidecar (.json) beside it.
+
+    Args:
+        analysis: The analysis: its recording as it was measured, baselines taken off, and the events of its feet.
+        path: File ending in .npz (times, forces in N of each cell, layouts and events; `plantar analyze` reads it),
+            .csv (a column a cell, `left 12 [N]`; the same) or .c3d (total force of each foot as an analog channel, its
+            CoP as a point, events in the group EVENT; needs ezc3d).
+
+    Returns:
+        The files written: the export and its sidecar, which is named after it (walk.c3d.json) and has the keys that
+        BIDS uses for recorded motion and physiology.
+
+    Raises:
+        InputError: If the suffix is none of these, or the folder cannot be written to.
+        DependencyError: If ezc3d is needed and not installed.
+    """
+    target = Path(path)
+    write = EXPORTS.get(target.suffix.lower())
+    if write is None:
+        raise InputError(f"cannot export to '{target.name}'; allowed: {', '.join(EXPORTS)}")
+    with parent_folder(target), replacing(target) as temporary:
+        write(analysis, temporary)
+    return [
+        target,
+        write_text(target.with_name(f"{target.name}.json"), json.dumps(_sidecar(analysis, target), indent=1) + "\n"),
+    ]
+
+
+def exporter(formats: Sequence[str]) -> Callable[[Analysis, Path], None] | None:
+    """What writes a recording in some formats into the folder of its analysis, under the recording's own name.
+
+    Args:
+        formats: Formats by their suffix, "c3d", "csv" or "npz", with or without its dot.
+
+    Returns:
+        A function of an analysis and a folder; None for no format.
+
+    Raises:
+        InputError: If a format is none of these.
+        DependencyError: If what a format needs is not installed.
+    """
+    suffixes = list(dict.fromkeys(f".{text.lower().removeprefix('.')}" for text in formats))
+    for suffix in suffixes:
+        if suffix not in EXPORTS:
+            raise InputError(f"--export is {suffix[1:]!r}; allowed: {', '.join(known[1:] for known in EXPORTS)}")
+    if ".c3d" in suffixes:
+        with optional_library("ezc3d", "formats"):
+            import ezc3d  # noqa: F401  # before anything is measured
+
+    def write(analysis: Analysis, folder: Path) -> None:
+        for suffix in suffixes:
+            export_analysis(analysis, folder / f"{analysis.recording.path.stem}{suffix}")
+
+    return write if suffixes else None
+
+
+def _unit(analysis: Analysis) -> str:
+    return "raw" if analysis.recording.raw else "N"
+
+
+def _events(analysis: Analysis) -> list[tuple[str, str, float]]:
+    """Foot, what and time in s of each event, in order."""
+    found: list[tuple[str, str, float | None]] = []
+    for side, gait in analysis.feet.items():
+        found += [(side, "heel_strike", c.heel_strike) for c in gait.contacts]
+        found += [(side, "toe_off", c.toe_off) for c in gait.contacts]
+    return sorted(((s, what, t) for s, what, t in found if t is not None), key=lambda one: one[2])
+
+
+def _sidecar(analysis: Analysis, target: Path) -> dict[str, Any]:
+    """What the export holds, in the keys of BIDS sidecars where it has them."""
+    recording = analysis.recording
+    return {
+        "SamplingFrequency": recording.rate_hz,
+        "StartTime": float(recording.time[0]),
+        "RecordingDuration": float(recording.time[-1] - recording.time[0]),
+        "TaskName": analysis.metrics.get("activity", {}).get("name", "unknown"),
+        "Units": _unit(analysis),
+        "Columns": {side: foot.force.shape[1] for side, foot in recording.feet.items()},
+        "SoftwareName": "plantar",
+        "SoftwareVersions": __version__,
+        "SourceFile": recording.path.name,
+        "SourceFormat": recording.format,
+        "Sha256": hashlib.sha256(target.read_bytes()).hexdigest(),
+        "Warnings": list(recording.warnings),
+        "Events": [{"onset": t, "trial_type": what, "side": side} for side, what, t in _events(analysis)],
+    }
+
+
+def _write_npz(analysis: Analysis, path: Path) -> None:
+    recording = analysis.recording
+    arrays: dict[str, Any] = {"time": recording.time, "rate_hz": recording.rate_hz, "unit": _unit(analysis)}
+    arrays["kind"] = recording.kind
+    for side, foot in recording.feet.items():
+        arrays[side] = foot.force
+        if foot.layout is not None:
+            arrays[f"layout_{side}"] = json.dumps(layout_to_dict(foot.layout))
+    for side in recording.feet:
+        for what in ("heel_strike", "toe_off"):
+            arrays[f"{what}s_{side}"] = np.array([t for s, w, t in _events(analysis) if (s, w) == (side, what)])
+    with path.open("wb") as stream:
+        np.savez(stream, **arrays)
+
+
+def _write_csv(analysis: Analysis, path: Path) -> None:
+    recording = analysis.recording
+    feet = recording.feet.items()
+    ids = {s: np.arange(1, f.force.shape[1] + 1) if f.layout is None else f.layout.ids for s, f in feet}
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(["time [s]", *(f"{side} {cell} [{_unit(analysis)}]" for side in ids for cell in ids[side])])
+        for begin in range(0, len(recording.time), _BLOCK):
+            part = slice(begin, begin + _BLOCK)
+            block = np.column_stack([recording.time[part], *(foot.force[part] for _, foot in feet)])
+            writer.writerows([["" if v != v else f"{v:.9g}" for v in row] for row in block.tolist()])
+
+
+def _write_c3d(analysis: Analysis, path: Path) -> None:
+    with optional_library("ezc3d", "formats"):
+        import ezc3d
+    recording = analysis.recording
+    frames = len(recording.time)
+    cops = {f"{side}.CoP": gait.cop for side, gait in analysis.feet.items() if gait.cop is not None}
+    points = np.zeros((4, max(1, len(cops)), frames))  # the format has no file without points
+    for i, cop in enumerate(cops.values()):
+        points[:2, i] = np.nan_to_num(cop).T
+    unknown = np.array([np.isnan(cop[:, 0]) for cop in cops.values()]) if cops else np.ones((1, frames), dtype=bool)
+    file = ezc3d.c3d()
+    parameters = file["parameters"]
+    parameters["POINT"]["RATE"]["value"] = [recording.rate_hz]
+    parameters["POINT"]["UNITS"]["value"] = ["m"]
+    parameters["POINT"]["LABELS"]["value"] = list(cops) or ["none"]
+    analog = parameters["ANALOG"]
+    analog["RATE"]["value"] = [recording.rate_hz]
+    analog["LABELS"]["value"] = [f"{side}.Fz" for side in analysis.feet]
+    analog["UNITS"]["value"] = [_unit(analysis)] * len(analysis.feet)
+    file["data"]["points"] = points
+    file["data"]["meta_points"] = {  # residual -1: the point is not there, as without load
+        "residuals": np.where(unknown, -1.0, 0.0)[None],
+        "camera_masks": np.zeros((7, len(unknown), frames), dtype=bool),
+    }
+    file["data"]["analogs"] = np.array([np.nan_to_num(g.foot.vertical_force) for g in analysis.feet.values()])[None]
+    events = _events(analysis)
+    if events:
+        names = {"heel_strike": "Foot Strike", "toe_off": "Foot Off"}
+        times = np.array([t - float(recording.time[0]) for _, _, t in events])
+        file.add_parameter("EVENT", "USED", [len(events)])
+        file.add_parameter("EVENT", "CONTEXTS", [side.capitalize() for side, _, _ in events])
+        file.add_parameter("EVENT", "LABELS", [names[what] for _, what, _ in events])
+        file.add_parameter("EVENT", "TIMES", np.vstack([times // 60.0, times % 60.0]))
+    file.write(str(path))
+
+
+EXPORTS: Mapping[str, Callable[[Analysis, Path], None]] = {".npz": _write_npz, ".csv": _write_csv, ".c3d": _write_c3d}
+"""What writes a file of each suffix."""

@@ -1,0 +1,195 @@
+"""Analysis of a footprint image: contour, axis, length, width, area and arch index of one or two feet."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.formats.footprint_image import FootprintImage, Print, read_footprints
+from plantar.gait.analysis.pages.figure_files import write_figures
+from plantar.gait.analysis.pages.footprint_figure import draw_footprints
+from plantar.gait.analysis.pages.footprint_page import footprint_page
+from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_pixels
+from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
+from plantar.gait.analysis.subject import Subject
+from plantar.sides import SIDES, Side
+
+__all__ = ["analyse_image", "footprint_in_image", "measures_of_footprint"]
+
+_MOST_PIXELS = 40_000
+"""Pixels a footprint is measured with; finer masks are thinned."""
+
+
+def analyse_image(
+    path: Path, folder: Path, mm_per_pixel: float | None, side: Side | None = None, subject: Subject | None = None
+) -> dict[str, Any]:
+    """Measure the footprints in an image and write metrics.json, footprints.csv, a figure and report.html.
+
+    Args:
+        path: The image.
+        folder: Folder to write to, which exists.
+        mm_per_pixel: Size of a pixel in mm; the image's own resolution where None.
+        side: Which foot a single footprint is of; told from its shape where None.
+        subject: Whose footprints they are, as far as it is known.
+
+    Returns:
+        What metrics.json holds.
+
+    Raises:
+        FormatError: If the file is no image, or shows no footprint.
+    """
+    image = read_footprints(path, mm_per_pixel)
+    pixel = image.pixel if image.pixel is not None else 1.0
+    sides, assumed = _sides(image, pixel, side)
+    prints = {s: footprint_in_image(p, pixel, s) for s, p in zip(sides, image.prints, strict=True)}
+    toeless = [
+        f"no gap tells the {s} foot's toes from its forefoot: its arch index is that of the whole print"
+        for s, print_ in prints.items()
+        if print_.toe_line is None
+    ]
+    feet = {s: measures_of_footprint(p, image.pixel is not None) for s, p in prints.items()}
+    metrics: dict[str, Any] = {
+        "format": "image",
+        "kind": "image",
+        "subject": asdict(subject or Subject()),
+        "frames": 1,
+        "rate_hz": None,
+        "size_px": [image.picture.shape[1], image.picture.shape[0]],
+        "mm_per_pixel": None if image.pixel is None else 1e3 * image.pixel,
+        "feet": {s: {"steps": 0, "events": [], "footprint": values} for s, values in feet.items()},
+        "gait": {},
+        "warnings": [*image.warnings, *assumed, *toeless],
+    }
+    caption = "Footprints with their contours, axes, thirds and toe lines"
+    embedded = write_figures([("footprint", draw_footprints(image, prints), caption)], folder)
+    (folder / "footprints.csv").write_text(_csv(feet), encoding="utf-8")
+    (folder / "metrics.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    (folder / "report.html").write_text(footprint_page(metrics, embedded, path.name), encoding="utf-8")
+    return metrics
+
+
+def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
+    """The footprint that a mask shows.
+
+    The axis of most extent is the foot's, its narrower and rounder end the heel: the end whose third is narrower.
+
+    Args:
+        part: The mask.
+        pixel: Size of a pixel in m (or 1 for lengths in pixels).
+        side: The foot.
+
+    Returns:
+        The footprint, with its toe line.
+    """
+    rows, columns = np.nonzero(part.mask)
+    every = max(1, round(float(np.sqrt(len(rows) / _MOST_PIXELS))))
+    keep = (rows % every == 0) & (columns % every == 0)
+    height = part.mask.shape[0]
+    # As in the sole frame x is up the image and y to its left.
+    centres = np.column_stack([height - rows[keep] - 0.5, -columns[keep] - 0.5]) * pixel
+    return with_toe_line(footprint_of_pixels(centres, pixel * every, side, _forward(centres)))
+
+
+def _forward(centres: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Direction from heel to toes: along the longest extent, to the end that is wider."""
+    values, vectors = np.linalg.eigh(np.cov((centres - centres.mean(axis=0)).T))
+    axis = vectors[:, int(np.argmax(values))]
+    if axis[0] < 0.0:
+        axis = -axis
+    along = centres @ axis
+    across = centres @ np.array([-axis[1], axis[0]])
+    low, high = float(along.min()), float(along.max())
+    third = (high - low) / 3.0
+
+    def width(first: float, last: float) -> float:
+        inside = (along >= first) & (along <= last)
+        return float(np.ptp(np.percentile(across[inside], [2.0, 98.0]))) if inside.sum() > 2 else 0.0
+
+    return np.asarray(axis if width(high - third, high) >= width(low, low + third) else -axis)
+
+
+def _sides(image: FootprintImage, pixel: float, stated: Side | None) -> tuple[list[Side], list[str]]:
+    """The foot of each print in an image, and what had to be assumed."""
+    if len(image.prints) == 2:
+        tops = [_forward(_centres(p, pixel)) for p in image.prints]
+        up = tops[0][0] + tops[1][0] >= 0.0
+        note = "the picture is taken as seen from above: the foot to the left, toes up, is the left one"
+        return list(SIDES if up else reversed(SIDES)), [note]
+    if stated is not None:
+        return [stated], []
+    side = _side_by_shape(footprint_in_image(image.prints[0], pixel, "right"))
+    note = f"the image does not say which foot it is: taken as the {side} one from its arch (--side overrides)"
+    return [side], [note]
+
+
+def _centres(part: Print, pixel: float) -> NDArray[np.float64]:
+    rows, columns = np.nonzero(part.mask)
+    return np.column_stack([part.mask.shape[0] - rows - 0.5, -columns - 0.5]) * pixel
+
+
+def _side_by_shape(print_: Footprint) -> Side:
+    """The side of a print looked at as a right foot: the waist lies to the lateral side of heel and ball."""
+    u, v = print_.centres.T / print_.length
+    middle, rest = (u > 0.35) & (u < 0.55), (u < 0.25) | ((u > 0.60) & (u < 0.78))
+    if not middle.any() or not rest.any():
+        return "right"
+    return "right" if float(v[rest].mean() - v[middle].mean()) >= 0.0 else "left"
+
+
+def measures_of_footprint(print_: Footprint, scaled: bool) -> dict[str, Any]:
+    """Measures of one footprint.
+
+    Args:
+        print_: The footprint, in m or in pixels.
+        scaled: Whether it is in m; lengths and areas are None where it is not.
+
+    Returns:
+        length_m, width_m, area_m2, toeless_length_m, toeless_area_m2, heel_width_m, forefoot_width_m, arch_index,
+        axis_angle_deg (of the foot's axis to the image's vertical, positive to the left) and areas of the regions.
+    """
+
+    def size(value: float) -> float | None:
+        return value if scaled else None
+
+    length = print_.toeless_length
+    region = regions_of(print_)
+    areas = {name: float(print_.areas[region == i].sum()) for i, name in enumerate(REGIONS) if (region == i).any()}
+    heel, fore = (_widest(print_, a * length, b * length) for a, b in ((0.0, 1.0 / 3.0), (2.0 / 3.0, 1.0)))
+    arch = print_.arch_index()
+    return {
+        "length_m": size(print_.length),
+        "width_m": size(print_.width),
+        "area_m2": size(float(print_.areas.sum())),
+        "toeless_length_m": size(length),
+        "toeless_area_m2": size(float(print_.areas[~print_.is_toe].sum())),
+        "heel_width_m": size(heel),
+        "forefoot_width_m": size(fore),
+        "arch_index": arch if np.isfinite(arch) else None,
+        "axis_angle_deg": float(np.degrees(np.arctan2(print_.axis[1], print_.axis[0]))),
+        "toes_told_apart": print_.toe_line is not None,
+        "region_areas_m2": {name: size(value) for name, value in areas.items()},
+        "region_area_percent": {name: 100.0 * value / sum(areas.values()) for name, value in areas.items()},
+    }
+
+
+def _widest(print_: Footprint, low: float, high: float) -> float:
+    centre = print_.centres
+    inside = (centre[:, 0] >= low) & (centre[:, 0] <= high) & ~print_.is_toe
+    return float(np.ptp(print_.rings[inside][:, :, 1])) if inside.any() else 0.0
+
+
+def _csv(feet: dict[Side, dict[str, Any]]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = [k for k in next(iter(feet.values())) if not isinstance(next(iter(feet.values()))[k], dict)]
+    writer.writerow(["side", *names])
+    for side, values in feet.items():
+        writer.writerow([side, *("" if values[name] is None else values[name] for name in names)])
+    return text.getvalue()

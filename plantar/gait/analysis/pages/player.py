@@ -1,0 +1,145 @@
+"""Frames of a recording, packed for the report's player: small enough to stand in the page."""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.pages.stepped_on import stepped_on
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.recordings.pressure_recording import PressureRecording
+from plantar.sides import Side
+
+__all__ = ["player_data"]
+
+LONGEST = 60.0
+"""Time in s that the player shows; of a longer recording the first part that is loaded."""
+
+USUAL_RATE = 25.0
+"""Frames a second that the player shows of a long recording."""
+
+MOST_FRAMES, FEWEST_FRAMES = 1500, 50
+"""Frames that are shown at most, and that a recording of many cells is not thinned below."""
+
+MOST_EVENTS = 2000
+"""Events that are listed."""
+
+MOST_BYTES = 900_000
+"""Largest size of the packed pressures; a mat of very many cells is shown with fewer frames."""
+
+
+def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> dict[str, Any] | None:
+    """What the player needs, as plain JSON values.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        "times" (s) of the frames; for each foot its side, cells (rings of corners in mm, to the right and forward),
+        outline, pressure as bytes (0 for a cell that is not loaded, else 1 + 254 p / highest), deflated and in base64,
+        highest pressure, force and CoP; "events". None where no foot has geometry.
+    """
+    shown = {side: gait for side, gait in feet.items() if gait.foot.layout is not None}
+    if not shown:
+        return None
+    chosen, packed = _packed(recording, shown)
+    time = recording.time[chosen]
+    return {
+        "times": np.round(time, 4).tolist(),
+        "feet": packed,
+        "events": _events(shown, float(time[0]), float(time[-1]))[:MOST_EVENTS],
+        "whole": bool(time[-1] >= recording.time[-1] - 1.0),
+        "unit": "counts" if recording.raw else "kPa",
+        "forceUnit": "counts" if recording.raw else "N",
+    }
+
+
+def _packed(
+    recording: PressureRecording, feet: Mapping[Side, FootGait]
+) -> tuple[NDArray[np.int64], list[dict[str, Any]]]:
+    """The frames that are shown and what each foot shows of them: every other one until all of it is small enough."""
+    chosen = _frames(recording, feet)
+    highest = max(_highest(recording, gait, chosen) for gait in feet.values())
+    while True:
+        packed = [_foot(recording, gait, chosen, highest) for gait in feet.values()]
+        # Base64 takes 4 bytes for 3.
+        if len(chosen) <= FEWEST_FRAMES or sum(len(f["pressure"]) for f in packed) <= MOST_BYTES * 4 // 3:
+            return chosen, packed
+        chosen = chosen[::2]
+
+
+def _events(feet: Mapping[Side, FootGait], begin: float, end: float) -> list[tuple[float, str]]:
+    """Times in s and names of the events between two times, in order."""
+    found: list[tuple[float | None, str]] = []
+    for side, gait in feet.items():
+        found += [(c.heel_strike, f"{side} heel strike") for c in gait.contacts]
+        found += [(c.toe_off, f"{side} toe off") for c in gait.contacts]
+    return sorted((round(float(t), 3), name) for t, name in found if t is not None and begin <= t <= end)
+
+
+def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDArray[np.int64]:
+    """Indices of the frames that are shown."""
+    time = recording.time
+    begin = 0
+    if time[-1] - time[0] > LONGEST:
+        first = [c.begin for gait in feet.values() for c in gait.contacts if c.complete]
+        if first:
+            begin = max(0, int(np.searchsorted(time, time[min(first)] - 1.0)))
+    end = int(np.searchsorted(time, time[begin] + LONGEST, side="right"))
+    every = 1
+    if end - begin > MOST_FRAMES:
+        every = max(1, round(recording.rate_hz / USUAL_RATE), -(-(end - begin) // MOST_FRAMES))
+    return np.arange(begin, end, every)
+
+
+def _highest(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64]) -> float:
+    """Largest value in some frames of a foot, in the unit that is shown: both feet have one scale."""
+    assert gait.foot.layout is not None
+    force = np.nan_to_num(gait.foot.force[chosen])
+    return float((force if recording.raw else force / gait.foot.layout.areas / 1e3).max(initial=0.0))
+
+
+def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64], most: float) -> dict[str, Any]:
+    """What the player shows of one foot; the largest value of both is the colours' upper end."""
+    layout = gait.foot.layout
+    assert layout is not None
+    force = gait.foot.force[chosen]
+    force = np.where(np.isnan(force), 0.0, force)
+    loaded = force > gait.cell_threshold
+    cells, outline = np.arange(len(layout)), layout.outline
+    if recording.kind == "platform":
+        cells, outline = stepped_on(layout, np.asarray(loaded.any(axis=0)))
+    value = force[:, cells] if recording.raw else force[:, cells] / layout.areas[cells] / 1e3
+    highest = most or 1.0
+    cop = gait.cop[chosen] if gait.cop is not None else np.full((len(chosen), 2), np.nan)
+    return {
+        "side": gait.foot.side,
+        "cells": [_seen(layout.cell_polygon(int(c))) for c in cells],
+        "outline": _seen(outline),
+        "pressure": _bytes(value, loaded[:, cells], highest),
+        "highest": float(f"{highest:.4g}"),
+        "force": [round(float(f), 1) if np.isfinite(f) else None for f in gait.foot.vertical_force[chosen]],
+        "cop": [_seen_point(x, y) for x, y in cop],
+    }
+
+
+def _bytes(value: NDArray[np.float64], loaded: NDArray[np.bool_], highest: float) -> str:
+    """Values (n, m) as bytes: 0 where a cell is not loaded, else 1 + 254 value / highest; deflated, in base64."""
+    levels = np.where(loaded, 1.0 + np.clip(np.rint(254.0 * value / highest), 0.0, 254.0), 0.0)
+    return base64.b64encode(zlib.compress(levels.astype(np.uint8).tobytes(), 9)).decode()
+
+
+def _seen(ring: NDArray[np.float64]) -> list[list[float]]:
+    """A ring as it is seen from above, toes up: to the right and forward, in mm."""
+    return np.round(1e3 * ring[:, ::-1] * (-1.0, 1.0), 1).tolist()  # type: ignore[no-any-return]
+
+
+def _seen_point(x: float, y: float) -> list[float] | None:
+    """A point as it is seen from above, in mm; None where there is none."""
+    return [round(-1e3 * float(y), 1), round(1e3 * float(x), 1)] if np.isfinite(x) else None

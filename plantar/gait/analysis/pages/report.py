@@ -1,0 +1,194 @@
+"""The report: one HTML page that needs nothing else, for screen, keyboard, print and dark mode."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from plantar.gait.analysis.measures import MEASURES
+from plantar.gait.analysis.pages.heading import facts_of
+from plantar.gait.analysis.pages.tables import comparison_table, measures_table, regions_tables, steps_table
+from plantar.gravity import GRAVITY
+from plantar.pages.page import Section, embedded, figures_of, number, page, warning_list
+
+__all__ = ["comparison_page", "report_page", "summary_text"]
+
+_GAIT = (
+    ("cadence_steps_per_min", "Cadence", "steps/min", 1.0),
+    ("steady_cadence_steps_per_min", "Cadence, steps in the means", "steps/min", 1.0),
+    ("stride_time_s", "Stride time", "s", 1.0),
+    ("double_support_percent", "Double support", "% of stride", 1.0),
+    ("single_support_percent", "Single support", "% of stride", 1.0),
+    ("step_length_m", "Step length", "mm", 1e3),
+    ("step_width_m", "Step width", "mm", 1e3),
+    ("walking_speed_m_s", "Walking speed", "m/s", 1.0),
+)
+
+
+def report_page(
+    metrics: Mapping[str, Any],
+    figures: Sequence[tuple[Path, str]],
+    title: str,
+    player: Mapping[str, Any] | None = None,
+) -> str:
+    """The page of one recording as text.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+        figures: PNG files to embed, each with a caption that also serves as its alternative text.
+        title: Title of the page, for example the file's name.
+        player: What `player_data` gives; no player where None.
+
+    Returns:
+        HTML that refers to no other file and no network.
+    """
+    sections = [Section("summary", "Summary", f"<p>{html.escape(summary_text(metrics))}</p>{_tiles(metrics)}")]
+    if metrics["warnings"]:
+        sections.append(Section("assumed", "What was assumed", warning_list(metrics["warnings"])))
+    sections += _with_figures("pressure", "Pressure", "", figures, ("pressure",))
+    if player is not None:
+        sections.append(Section("frames", "Frames", _player(player)))
+    sections += _with_figures("load", "Force", "", figures, ("steps", "force"))
+    sections.append(Section("measures", "Measures of the steps", measures_table(metrics) + _not_given(metrics)))
+    sections += _with_figures("regions", "Regions of the foot", regions_tables(metrics), figures, ("regions",))
+    sections += _with_figures("sides", "Left and right", "", figures, ("symmetry",))
+    sections += _with_figures("wrench", "Wrench", "", figures, ("wrench",))
+    sections += _with_figures("steps", "Each step", steps_table(metrics), (), ())
+    script, style = ("", "") if player is None else (f"<script>{_asset('report.js')}</script>", _asset("report.css"))
+    return page(f"Gait analysis: {title}", facts_of(metrics, title), sections, script, style)
+
+
+def _asset(name: str) -> str:
+    """Text of a file that stands beside this one."""
+    return files("plantar.gait.analysis.pages").joinpath(name).read_text(encoding="utf-8")
+
+
+def _with_figures(
+    key: str, name: str, content: str, figures: Sequence[tuple[Path, str]], names: Sequence[str]
+) -> list[Section]:
+    """A section with the figures of these names; none where it would be empty."""
+    content += embedded(figures, names)
+    return [Section(key, name, content)] if content else []
+
+
+def summary_text(metrics: Mapping[str, Any]) -> str:
+    """The recording in two sentences: what it is of, and how the feet load.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+
+    Returns:
+        Plain text.
+    """
+    activity = metrics.get("activity", {"name": "unknown"})["name"]
+    counts = [f"{len(foot['steps_used'])} of {foot['steps']} {side}" for side, foot in metrics["feet"].items()]
+    cadence = metrics["gait"].get("steady_cadence_steps_per_min")
+    pace = "" if cadence is None else f" at {number(cadence)} steps/min"
+    what = "A recording" if activity == "unknown" else f"This is {activity}"
+    first = (
+        f"{what}: {' and '.join(counts)} steps are in the means{pace}."
+        if activity != "standing"
+        else (
+            f"This is standing for {number(metrics['duration_s'])} s: "
+            + ", ".join(
+                f"{number(foot['sway']['load_percent'])} % on the {side} foot" for side, foot in metrics["feet"].items()
+            )
+            + "."
+        )
+    )
+    peaks = {side: foot["measures"].get("peak_force_N") for side, foot in metrics["feet"].items()}
+    weight = metrics["gait"].get("body_weight_N")
+    stated = metrics["subject"]["mass_kg"] is not None
+    shown = [
+        f"{number(100.0 * peak['mean'] / weight)} % ({number(peak['mean'])} N) on the {side}"
+        for side, peak in peaks.items()
+        if weight and peak and peak["mean"] is not None
+    ]
+    if not shown:
+        return first
+    of = f"{number(weight / GRAVITY)} kg, {'as stated' if stated else 'which the forces imply'}"
+    return f"{first} Peak force relative to body weight ({of}) is {' and '.join(shown)} foot."
+
+
+def _not_given(metrics: Mapping[str, Any]) -> str:
+    """Why some measures are not given."""
+    reasons: dict[str, list[str]] = {}
+    for key, reason in metrics.get("not_given", {}).items():
+        reasons.setdefault(reason, []).append(MEASURES[key].title.lower())
+    lines = (f"Not given: {', '.join(names)}, since {reason}." for reason, names in reasons.items())
+    return "".join(f'<p class="about">{html.escape(line)}</p>' for line in lines)
+
+
+def comparison_page(
+    comparison: Mapping[str, Any], figures: Sequence[tuple[Path, str]], names: tuple[str, str], links: tuple[str, str]
+) -> str:
+    """The page that puts two recordings side by side.
+
+    Args:
+        comparison: What `compare_recordings` returns.
+        figures: PNG files to embed, with their captions.
+        names: Names of the recordings.
+        links: Files of their own reports, relative to this page.
+
+    Returns:
+        HTML that embeds all it shows; it links to the two reports beside it.
+    """
+    parts = []
+    for key, name, link in zip(("a", "b"), names, links, strict=True):
+        metrics = comparison[key]
+        parts.append(
+            f"<div><h3>{key.upper()}: {html.escape(name)}</h3>{_tiles(metrics)}{warning_list(metrics['warnings'])}"
+            f'<p><a href="{html.escape(link)}">Full report of {key.upper()}</a></p></div>'
+        )
+    sections = [
+        Section("summary", "Summary", f'<div class="columns">{"".join(parts)}</div>'),
+        Section("measures", "Measures side by side", comparison_table(comparison)),
+        figures_of(figures),
+    ]
+    about = f'<p class="about">A is {html.escape(names[0])}, B is {html.escape(names[1])}.</p>'
+    return page(f"Comparison: {names[0]} and {names[1]}", about, sections)
+
+
+def _tiles(metrics: Mapping[str, Any]) -> str:
+    gait = metrics["gait"]
+    tiles = [(f"Complete steps, {side}", str(foot["steps"])) for side, foot in metrics["feet"].items()]
+    for key, name, unit, factor in _GAIT:
+        same = key == "steady_cadence_steps_per_min" and gait.get(key) == gait.get("cadence_steps_per_min")
+        if gait.get(key) is not None and not same:
+            tiles.append((name, f"{number(gait[key] * factor)} {unit}"))
+    return '<dl class="tiles">' + "".join(f"<div><dt>{n}</dt><dd>{v}</dd></div>" for n, v in tiles) + "</dl>"
+
+
+def _player(data: Mapping[str, Any]) -> str:
+    text = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
+    scales = f"0 to {number(data['feet'][0]['highest'])} {data['unit']}"
+    part = "" if data["whole"] else f" The first {data['times'][-1] - data['times'][0]:.0f} s of walking are shown."
+    options = "".join(
+        f'<option value="{value}"{" selected" if value == 1 else ""}>{name}</option>'
+        for value, name in ((0.1, "1/10"), (0.25, "1/4"), (0.5, "1/2"), (1, "1"), (2, "2"))
+    )
+    return (
+        '<div id="player" role="group" aria-label="Player of frames">\n'
+        '<canvas id="player-canvas" role="img" tabindex="0" aria-label="Soles from above: pressure of each cell, '
+        'loaded cells outlined, CoP, polygon. The line of text below gives the figures."></canvas>\n'
+        f'<p class="legend"><span><span class="scale" aria-hidden="true"></span> pressure: {scales}</span>'
+        '<span><span class="dot" aria-hidden="true"></span> centre of pressure</span>'
+        '<span><span class="dash" aria-hidden="true"></span> support polygon</span></p>\n'
+        '<label for="player-frame">Frame</label> '
+        '<input type="range" id="player-frame" min="0" max="0" value="0" disabled>\n'
+        '<div class="controls"><button type="button" id="player-play" aria-pressed="false" disabled>Play</button>'
+        '<button type="button" id="player-back" disabled>Frame back</button>'
+        '<button type="button" id="player-forward" disabled>Frame forward</button>'
+        '<button type="button" id="player-before" disabled>Event before</button>'
+        '<button type="button" id="player-next" disabled>Next event</button>'
+        f'<label for="player-speed">Speed</label> <select id="player-speed" disabled>{options}</select></div>\n'
+        f'<p id="player-readout"></p><p class="hidden" id="player-live" aria-live="polite"></p>'
+        f"<noscript><p>The player needs JavaScript; everything else on this page does not.</p></noscript>"
+        f'<p class="about">Seen from above, toes up.{part} '
+        "Keys: arrows and space on the picture, arrows on the slider.</p>\n"
+        f'</div>\n<script type="application/json" id="player-data">{text}</script>\n'
+    )

@@ -1,0 +1,258 @@
+"""Figures of soles from above: maximum pressure pictures with the paths of the CoP, and the regions of the feet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.formats.polygon_layout import subset
+from plantar.gait.analysis.pages.stepped_on import stepped_on
+from plantar.gait.analysis.prints.footprint import Footprint
+from plantar.gait.analysis.prints.regions import REGIONS
+from plantar.gait.analysis.steps.events import Contact
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.layouts.layout import SoleLayout
+from plantar.plotting import COLOURS, draw_cells, draw_classes, new_figure
+from plantar.recordings.pressure_recording import PressureRecording
+from plantar.sides import Side
+
+__all__ = ["axis_is_inside", "figure_pair", "figure_pressure", "figure_regions"]
+
+MOST_PATHS = 12
+"""CoP paths drawn a foot, thin, beside the mean one; of more steps every n-th: the map below has to be seen."""
+
+_FORWARD, _RIGHT = "forward (mm)", "to the right (mm)"
+
+_STANCE = np.linspace(0.0, 1.0, 51)
+"""Shares of the stance at which paths are averaged."""
+
+REGION_COLOURS = ("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa3377", "#bbbbbb")
+"""Colours of the regions: Tol's bright scheme, which colour-blind readers can tell apart."""
+
+
+class _Cells(NamedTuple):
+    """The cells that a panel shows: a layout of them, and their indices in the foot's own layout."""
+
+    layout: SoleLayout
+    chosen: NDArray[np.int64]
+
+
+def _shown(gait: FootGait, platform: bool) -> _Cells:
+    """All cells of a sole; of a platform those that are stepped on, with a frame around."""
+    layout = gait.foot.layout
+    assert layout is not None
+    if not platform or gait.picture is None or not (gait.picture > 0.0).any():
+        return _Cells(layout, np.arange(len(layout)))
+    chosen, ring = stepped_on(layout, gait.picture > 0.0)
+    return _Cells(replace(subset(layout, chosen.tolist()), outline=ring), chosen)
+
+
+def _panels(shown: Mapping[Side, _Cells], extra: float) -> tuple[Any, Any]:
+    """A figure with one upright panel a foot."""
+    extents = [np.ptp(cells.layout.outline, axis=0) for cells in shown.values()]
+    slender = max(float(length / width) for length, width in extents)
+    size = 2.7 * len(shown) + extra, min(6.4, 1.8 + 2.5 * slender)
+    figure, axes = new_figure(*size, columns=len(shown), squeeze=False)
+    figure.set_layout_engine("compressed")  # panels of one aspect stand beside each other without a gap
+    return figure, axes
+
+
+def _highest(feet: Iterable[FootGait]) -> float:
+    """The largest value of all pictures."""
+    return max(float(gait.picture.max()) for gait in feet if gait.picture is not None)
+
+
+def _draw_picture(panel: Any, gait: FootGait, cells: _Cells, factor: float, highest: float) -> Any:
+    """A foot's maximum pressure picture; cells that are never loaded stay empty."""
+    assert gait.picture is not None
+    values = gait.picture[cells.chosen] * factor
+    return draw_cells(panel, cells.layout, np.where(values > 0.0, values, np.nan), highest)
+
+
+def _finish(figure: Any, axes: Any, drawn: Any, what: str, raw: bool) -> None:
+    axes[0][0].set_ylabel(_FORWARD)
+    figure.colorbar(drawn, ax=list(axes[0]), label=f"{what} ({'counts' if raw else 'kPa'})", shrink=0.8)
+
+
+def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
+    """Maximum pressure picture of each foot with the CoP paths of its complete steps.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The figure, or None where no foot has geometry.
+    """
+    pictured = {side: gait for side, gait in feet.items() if gait.picture is not None}
+    if not pictured:
+        return None
+    factor = 1.0 if recording.raw else 1e-3
+    platform = recording.kind == "platform"
+    shown = {side: _shown(gait, platform) for side, gait in pictured.items()}
+    figure, axes = _panels(shown, 1.6)
+    highest = _highest(pictured.values()) * factor
+    for panel, (side, gait) in zip(axes[0], pictured.items(), strict=True):
+        drawn = _draw_picture(panel, gait, shown[side], factor, highest)
+        _draw_paths(panel, gait)
+        panel.set_title(f"{side} foot, {_steps_of_picture(gait)}")
+        panel.set_xlabel(_RIGHT)
+    what = "maximum pressure" if platform else "maximum pressure, mean of the steps"
+    _finish(figure, axes, drawn, what, recording.raw)
+    _legend(figure, axes[0], "outside lower center", ncols=2, facecolor="#8a8f98", labelcolor="#111111")
+    return figure
+
+
+def _steps_of_picture(gait: FootGait) -> str:
+    """What a picture is of: the complete steps, or all that was measured where there is none."""
+    if not gait.steps:
+        return "no complete step:\nlargest of all frames"
+    return f"{len(gait.steps)} step{'' if len(gait.steps) == 1 else 's'}"
+
+
+def _legend(figure: Any, panels: Iterable[Any], place: str, **look: Any) -> None:
+    """One legend for all panels, each entry once, beside them: it hides nothing, and prints."""
+    entries: dict[str, Any] = {}
+    for panel in panels:
+        handles, names = panel.get_legend_handles_labels()
+        entries = dict(zip(names, handles, strict=True)) | entries
+    if entries:
+        figure.legend(entries.values(), entries.keys(), loc=place, fontsize=9, **look)
+
+
+def _draw_paths(panel: Any, gait: FootGait) -> None:
+    """The CoP paths of the complete steps; of very many every n-th."""
+    complete: list[Contact] = [step.contact for step in gait.used]
+    if gait.cop is None or not complete:
+        return
+    every = -(-len(complete) // MOST_PATHS)
+    paths = [gait.cop[contact.begin : contact.end] for contact in complete]
+    for i, path in enumerate(paths[::every]):
+        name = None if i else "CoP path of a step"
+        panel.plot(-path[:, 1], path[:, 0], color="#ffffff", linewidth=0.7, alpha=0.6, label=name)
+    mean = _mean_path(paths)
+    if mean is not None:
+        panel.plot(-mean[:, 1], mean[:, 0], color="#ffffff", linewidth=3.4)
+        panel.plot(-mean[:, 1], mean[:, 0], color=COLOURS["cop"], linewidth=1.8, label="mean CoP path")
+
+
+def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | None:
+    """Mean (51, 2) of paths (m, 2) over the stance; None where no path has two points."""
+    known = [path[np.isfinite(path[:, 0])] for path in paths]
+    known = [path for path in known if len(path) >= 2]
+    if not known:
+        return None
+    shares = [np.linspace(0.0, 1.0, len(path)) for path in known]
+    even = [
+        np.column_stack([np.interp(_STANCE, share, column) for column in path.T])
+        for share, path in zip(shares, known, strict=True)
+    ]
+    return np.asarray(np.mean(even, axis=0))
+
+
+def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side, FootGait]]]) -> Any | None:
+    """Maximum pressure pictures of several recordings beside each other, on one scale.
+
+    Args:
+        recordings: Name, recording and feet of each.
+
+    Returns:
+        The figure, or None where one has no geometry.
+    """
+    if not all(any(gait.picture is not None for gait in feet.values()) for _, _, feet in recordings):
+        return None
+    panels = [(f"{n}, {s}", r, g) for n, r, feet in recordings for s, g in feet.items() if g.picture is not None]
+    raw = panels[0][1].raw
+    factor = 1.0 if raw else 1e-3
+    figure, axes = new_figure(2.4 * len(panels) + 1.4, 5.6, columns=len(panels), squeeze=False)
+    figure.set_layout_engine("compressed")
+    highest = _highest(gait for _, _, gait in panels) * factor
+    for panel, (name, recording, gait) in zip(axes[0], panels, strict=True):
+        drawn = _draw_picture(panel, gait, _shown(gait, recording.kind == "platform"), factor, highest)
+        panel.set_title(f"{name} foot")
+        panel.set_xlabel(_RIGHT)
+    _finish(figure, axes, drawn, "maximum pressure", raw)
+    return figure
+
+
+class _Regions(NamedTuple):
+    """What the figure of regions shows of a foot: a footprint, and the region (k,) of each cell."""
+
+    gait: FootGait
+    print_: Footprint
+    region: NDArray[np.int64]
+
+
+def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
+    """The regions of each foot, its axis and the thirds of the print without toes.
+
+    Args:
+        recording: The recording; of a platform the first footprint of each foot is shown.
+        feet: The gait of its feet.
+
+    Returns:
+        The figure, or None where no foot has regions.
+    """
+    platform = recording.kind == "platform"
+    found = {side: _regions(gait, platform) for side, gait in feet.items()}
+    drawn = {side: own for side, own in found.items() if own is not None}
+    if not drawn:
+        return None
+    shown = {side: _shown(own.gait, platform) for side, own in drawn.items()}
+    figure, axes = _panels(shown, 1.8)
+    for panel, (side, own) in zip(axes[0], drawn.items(), strict=True):
+        layout, chosen = shown[side]
+        draw_classes(panel, layout, own.region[chosen], REGION_COLOURS)
+        _draw_axis_and_thirds(panel, own.print_)
+        panel.set_title(f"{side} foot")
+        panel.set_xlabel(_RIGHT)
+    axes[0][0].set_ylabel(_FORWARD)
+    _list_regions(axes[0][-1], {int(i) for own in drawn.values() for i in own.region})
+    _legend(figure, axes[0], "outside right center")
+    return figure
+
+
+def _regions(gait: FootGait, platform: bool) -> _Regions | None:
+    """The regions that are shown of a foot; None where it has none."""
+    print_, region = gait.footprint, gait.region
+    if platform and gait.steps and gait.steps[0].footprint is not None and gait.foot.layout is not None:
+        print_, region = gait.steps[0].footprint, gait.steps[0].region
+    return None if print_ is None or region is None else _Regions(gait, print_, region)
+
+
+def _draw_axis_and_thirds(panel: Any, print_: Footprint) -> None:
+    low, high = float(print_.rings[:, :, 1].min()), float(print_.rings[:, :, 1].max())
+    for k in range(4):
+        u = k * print_.toeless_length / 3.0
+        line = print_.from_foot(np.array([[u, low], [u, high]]))
+        panel.plot(-line[:, 1], line[:, 0], color="#111111", linewidth=0.8, linestyle=":")
+    if axis_is_inside(print_):
+        line = print_.from_foot(np.array([[0.0, 0.0], [print_.length, 0.0]]))
+        panel.plot(-line[:, 1], line[:, 0], color="#111111", linewidth=1.4, label="foot axis")
+
+
+def axis_is_inside(print_: Footprint) -> bool:
+    """Whether a print's axis lies within the print from heel to toes; one beside the foot is not drawn.
+
+    Args:
+        print_: The print.
+
+    Returns:
+        True where both ends and the middle of the axis are no farther outside its hull than a twentieth of its width.
+    """
+    hull = convex_hull(print_.rings.reshape(-1, 2))
+    places = np.array([0.02, 0.5, 0.98]) * print_.length
+    return all(signed_margin(hull, np.array([u, 0.0])) >= -0.05 * print_.width for u in places)
+
+
+def _list_regions(panel: Any, used: set[int]) -> None:
+    """Entries of the legend: the regions that are there, the axis and the thirds."""
+    for i, (colour, title) in enumerate(zip(REGION_COLOURS, REGIONS.values(), strict=True)):
+        if i in used:
+            panel.plot([], [], "s", color=colour, label=title)
+    panel.plot([], [], ":", color="#111111", label="thirds without toes")

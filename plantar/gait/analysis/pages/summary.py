@@ -1,0 +1,87 @@
+"""What all steps say together: mean and spread of each measure, symmetry, and the walk as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES
+from plantar.gait.analysis.prints.regions import REGIONS
+from plantar.gait.analysis.spread import Spread, spread
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.layouts.layout import Side
+
+__all__ = ["gait_of_feet", "regions_of_foot", "summary_of_foot", "symmetry"]
+
+
+def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
+    """Each measure of a foot over the steps that are in the means."""
+    return {name: spread(gait.columns.get(name, ())) for name in MEASURES}
+
+
+def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
+    """Each measure of each region over the steps in the means; regions that no step has are left out."""
+    out: dict[str, dict[str, Spread]] = {}
+    for region in REGIONS:
+        rows = [step.regions[region] for step in gait.used if region in step.regions]
+        if rows:
+            out[region] = {name: spread([row.get(name, np.nan) for row in rows]) for name in REGION_MEASURES}
+    return out
+
+
+def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]:
+    """Measures of the walk as a whole.
+
+    Args:
+        feet: The feet that were recorded.
+
+    Returns:
+        landings (heel strikes of all feet), stride_time_s (mean of all complete steps, as vendors give it),
+        cadence_steps_per_min (two steps in that stride), steady_cadence_steps_per_min (in that of the steps in the
+        means), double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
+        walking_speed_m_s (means); None where the recording cannot tell.
+    """
+    stride = spread([step["stride_time_s"] for gait in feet.values() for step in gait.steps]).mean
+    steady = _mean(feet, "stride_time_s")
+    return {
+        "landings": sum(c.heel_strike is not None for g in feet.values() for c in g.contacts),
+        "stride_time_s": stride,
+        "cadence_steps_per_min": None if stride is None else 120.0 / stride,
+        "steady_cadence_steps_per_min": None if steady is None else 120.0 / steady,
+        "double_support_percent": _mean(feet, "double_support_percent"),
+        "single_support_percent": _mean(feet, "single_support_percent"),
+        "step_length_m": _mean(feet, "step_length_m"),
+        "step_width_m": _mean(feet, "step_width_m"),
+        "stride_length_m": _mean(feet, "stride_length_m"),
+        "walking_speed_m_s": _mean(feet, "stride_velocity_m_s"),
+    }
+
+
+def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
+    """Mean of a measure over the steps in the means of all feet; None where no step has it."""
+    return spread([value for gait in feet.values() for value in gait.columns.get(key, ())]).mean
+
+
+def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:
+    """Symmetry index of each measure in percent: 100 (L - R) / ((L + R) / 2) of the feet's means (Robinson 1987).
+
+    Args:
+        feet: The feet that were recorded.
+        names: The measures.
+
+    Returns:
+        0 for symmetry, above 0 where the left foot's value is larger; None where a foot has no value, or the two have
+        opposite signs.
+    """
+    names = list(names)
+    if "left" not in feet or "right" not in feet:
+        return dict.fromkeys(names)
+    left, right = summary_of_foot(feet["left"]), summary_of_foot(feet["right"])
+    out: dict[str, float | None] = {}
+    for name in names:
+        a, b = left[name].mean, right[name].mean
+        out[name] = None
+        if a is not None and b is not None and a * b >= 0.0 and a + b != 0.0:
+            out[name] = 200.0 * (a - b) / (a + b)
+    return out

@@ -1,0 +1,209 @@
+"""Tables of measures: of the steps of one recording, of the regions of its feet, and of two recordings."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, Measure, raw_name
+from plantar.gait.analysis.prints.regions import REGIONS
+from plantar.gravity import GRAVITY
+from plantar.pages.page import group_row, number, row, scaled, table, titled
+
+__all__ = ["EACH_STEP", "comparison_table", "measures_table", "regions_tables", "steps_table"]
+
+EACH_STEP = ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns", "peak_pressure_Pa", "contact_area_m2")
+"""Measures that are shown of each step."""
+
+_OF_BODY_WEIGHT = ("peak_force_N", "first_peak_N", "valley_N", "second_peak_N", "landing_impact_N")
+"""Forces that are shown in percent of body weight, too."""
+
+_MOST_STEPS = 80
+"""Steps that the table shows."""
+
+_UNITS_OF_COUNTS = {"_Ns": "counts·s", "_Pas": "counts·s", "_N_s": "counts/s", "_Nm": "counts·m"}
+"""Unit of a measure of raw counts by the end of the key that it has in SI; counts for all others."""
+
+
+class _Shown(NamedTuple):
+    """How a measure is shown: its key in the metrics, its title with its unit, and the factor to that unit."""
+
+    key: str
+    title: str
+    factor: float
+
+
+def _shown(key: str, measure: Measure, raw: bool) -> _Shown:
+    if raw and raw_name(key) != key:
+        unit = next((u for end, u in _UNITS_OF_COUNTS.items() if key.endswith(end)), "counts")
+        return _Shown(raw_name(key), titled(measure.title, unit), 1.0)
+    return _Shown(key, titled(measure.title, measure.unit), measure.factor)
+
+
+def _mean_and_sd(spread: Mapping[str, Any], factor: float) -> str:
+    sd = "" if spread["sd"] is None else f"\u00a0±\u00a0{number(spread['sd'] * factor, 2)}"
+    return number(spread["mean"] * factor) + sd
+
+
+def measures_table(metrics: Mapping[str, Any]) -> str:
+    """Every measure of the steps in the means of each foot, with its spread and the symmetry of both feet.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+
+    Returns:
+        HTML.
+    """
+    feet: Mapping[str, Any] = metrics["feet"]
+    both = len(feet) == 2
+    rows = list(_rows_of_measures(metrics, both))
+    if not rows:
+        return "<p>The recording holds no complete step.</p>"
+    head = ["Measure", *(name for side in feet for name in (f"{side}: mean ± SD", "median", "CV (%)"))]
+    note = "; symmetry index 100 (L − R) / ((L + R) / 2), 0 is symmetric" if both else ""
+    caption = f"Over the steps in the means: mean, standard deviation, median, coefficient of variation{note}."
+    return table("Measures", caption, [*head, "Symmetry index (%)"] if both else head, rows)
+
+
+def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
+    """A row for each measure that a foot has, under the heading of its group."""
+    feet = metrics["feet"].values()
+    columns = 3 * len(feet) + 1 + both
+    group = ""
+    for plain, measure in MEASURES.items():
+        key, title, factor = _shown(plain, measure, bool(metrics.get("raw")))
+        spreads = [foot["measures"].get(key) for foot in feet]
+        if all(s is None or s["mean"] is None for s in spreads):
+            continue
+        if measure.group != group:
+            if group == MEASURES["peak_force_N"].group:
+                yield from _rows_of_body_weight(metrics, columns, both)
+            group = measure.group
+            yield group_row(group, columns)
+        cells = [cell for s in spreads for cell in _spread_cells(s, factor)]
+        yield row(title, [*cells, number(metrics["gait"]["symmetry_percent"].get(key), 2)] if both else cells)
+
+
+def _rows_of_body_weight(metrics: Mapping[str, Any], columns: int, both: bool) -> Iterator[str]:
+    """The main forces once more, in percent of the stated body weight or of that which the forces imply."""
+    weight = metrics["gait"].get("body_weight_N")
+    if not weight:
+        return
+    stated = metrics["subject"]["mass_kg"] is not None
+    of = f"{weight / GRAVITY:.3g} kg, {'as stated' if stated else 'which the forces imply'}"
+    yield group_row(f"Vertical force, % of body weight ({of})", columns)
+    for key in _OF_BODY_WEIGHT:
+        spreads = [foot["measures"].get(key) for foot in metrics["feet"].values()]
+        if all(s is None or s["mean"] is None for s in spreads):
+            continue
+        cells = [cell for s in spreads for cell in _spread_cells(s, 100.0 / weight)]
+        index = [number(metrics["gait"]["symmetry_percent"].get(key), 2)] if both else []
+        yield row(f"{MEASURES[key].title} (% of body weight)", [*cells, *index])
+
+
+def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str, str, str]:
+    if spread is None or spread["mean"] is None:
+        return "–", "–", "–"
+    return (
+        _mean_and_sd(spread, factor),
+        number(scaled(spread.get("median"), factor)),
+        number(spread["cv_percent"], 2),
+    )
+
+
+def steps_table(metrics: Mapping[str, Any]) -> str:
+    """The complete steps of all feet in the order of time, each with its main measures and whether it is in the means.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+
+    Returns:
+        HTML, empty where there is no step.
+    """
+    raw = bool(metrics.get("raw"))
+    steps = [(side, step) for side, foot in metrics["feet"].items() for step in foot.get("each_step", ())]
+    steps.sort(key=lambda one: one[1]["heel_strike_s"])
+    if not steps:
+        return ""
+    shown = [_shown(key, MEASURES[key], raw) for key in EACH_STEP]
+    rows = [
+        row(
+            f"{side}\u00a0{step['number']}",
+            [
+                number(step["heel_strike_s"], 4),
+                *(number(scaled(step[s.key], s.factor)) for s in shown),
+                ("" if step["used"] else "not in the means: ") + html.escape(step["note"]),
+            ],
+        )
+        for side, step in steps[:_MOST_STEPS]
+    ]
+    more = "" if len(steps) <= _MOST_STEPS else f" The first {_MOST_STEPS} of {len(steps)}; steps.csv has all."
+    head = ("Step", "Heel strike (s)", *(s.title for s in shown), "Note")
+    return table("Steps", f"The complete steps in the order of time.{more}", head, rows, words=("Note",))
+
+
+def regions_tables(metrics: Mapping[str, Any]) -> str:
+    """A table for each foot that has regions: the mean of each measure over its complete steps.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+
+    Returns:
+        HTML, empty where no foot has regions.
+    """
+    shown = [_shown(key, measure, bool(metrics.get("raw"))) for key, measure in REGION_MEASURES.items()]
+    return "".join(
+        table(
+            f"Regions of the {side} foot",
+            f"The {side} foot, means over its complete steps.",
+            ["Region", *(title for _, title, _ in shown)],
+            [
+                row(title, [number(scaled(_mean(foot["regions"][region], key), factor)) for key, _, factor in shown])
+                for region, title in REGIONS.items()
+                if region in foot["regions"]
+            ],
+        )
+        for side, foot in metrics["feet"].items()
+        if foot["regions"]
+    )
+
+
+def _mean(values: Mapping[str, Any], key: str) -> float | None:
+    spread = values.get(key)
+    return None if spread is None else spread["mean"]
+
+
+def comparison_table(comparison: Mapping[str, Any]) -> str:
+    """Every measure that both recordings have, side by side.
+
+    Args:
+        comparison: What `compare_recordings` returns.
+
+    Returns:
+        HTML.
+    """
+    raw = bool(comparison["a"].get("raw") or comparison["b"].get("raw"))
+    shown = [_shown(key, measure, raw) for key, measure in MEASURES.items()]
+    rows: list[str] = []
+    for side, measures in comparison["difference"].items():
+        rows.append(group_row(f"{side.capitalize()} foot", 6))
+        rows += [row(title, _pair_cells(measures[key], factor)) for key, title, factor in shown if key in measures]
+    if not rows:
+        return "<p>The recordings have no foot with complete steps in common.</p>"
+    return table(
+        "Measures side by side",
+        "Over the complete steps. Effect size: B − A over the pooled standard deviation.",
+        ("Measure", "A: mean ± SD", "B: mean ± SD", "B − A", "B − A (% of A)", "Effect size (Cohen's d)"),
+        rows,
+    )
+
+
+def _pair_cells(pair: Mapping[str, Any], factor: float) -> tuple[str, ...]:
+    return (
+        _mean_and_sd(pair["a"], factor),
+        _mean_and_sd(pair["b"], factor),
+        number(pair["difference"] * factor),
+        number(pair["percent"], 2),
+        number(pair["effect_size"], 2),
+    )

@@ -1,0 +1,246 @@
+"""Gait parameters: what each step of a foot measures. Definitions: docs/metrics.md."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.prints.platform import PlatformPrint
+from plantar.gait.analysis.prints.regions import REGIONS
+from plantar.gait.analysis.steps.baseline import resting_level
+from plantar.gait.analysis.steps.cop_path import averaged_path
+from plantar.gait.analysis.steps.events import EVENT_LEVELS, Contact, Levels, find_contacts, force_levels, run_together
+from plantar.gait.analysis.steps.foot_gait import FootGait, Step
+from plantar.gait.analysis.steps.pressure_measures import region_measures
+from plantar.gait.analysis.steps.stated import stated_contacts
+from plantar.gait.analysis.steps.steady import with_used_steps
+from plantar.gait.analysis.steps.step_footprint import footprint_of_step, print_of_contact, with_picture
+from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads, cell_threshold
+from plantar.gait.analysis.steps.step_measures import step_measures
+from plantar.gait.analysis.steps.step_times import OtherFoot, longest_stride, stride_times, time_measures
+from plantar.gait.analysis.steps.walk_geometry import Place, step_geometry
+from plantar.recordings.pressure_recording import Kind, PressureRecording
+from plantar.sides import Side, other_side
+
+__all__ = ["analyse_feet", "analyse_foot"]
+
+COP_WINDOW = 0.05
+"""Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length."""
+
+_CARRIED = 0.2
+"""Share of a foot's peak that shoes and creases do not press in swing."""
+
+_RAISED = 1.4
+"""How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms."""
+
+BACKWARDS = -0.02
+"""Median travel of the CoP in m over a step under which it looks as if the sensor were turned round."""
+
+
+def analyse_feet(
+    recording: PressureRecording, prints: Sequence[PlatformPrint] = (), options: AnalysisOptions | None = None
+) -> dict[Side, FootGait]:
+    """Find the contacts of every foot and measure its complete steps.
+
+    Args:
+        recording: The recording; that of a platform as `told_apart` gives it.
+        prints: The footprints of a platform.
+        options: Which steps are in the means.
+
+    Returns:
+        The gait of each foot, with the lengths that need both.
+    """
+    known = options or AnalysisOptions()
+    if known.events != "own" and not set(recording.feet) <= set(recording.events):
+        raise InputError(
+            f"{recording.path.name} states no events of "
+            f"{' and '.join(s for s in recording.feet if s not in recording.events)}"
+            "; --events allows own, or a file of events of each foot"
+        )
+    if known.events != "own":
+        _check_clock(recording)
+    feet = _measured_feet(recording, prints, known.events != "own")
+    return {side: with_used_steps(gait, known, recording.kind, recording.raw) for side, gait in feet.items()}
+
+
+def _check_clock(recording: PressureRecording) -> None:
+    """Refuse stated events of another time than the recording's: in ms, or by another clock.
+
+    Raises:
+        InputError: If no event of a foot lies in the recording.
+    """
+    begin, end = float(recording.time[0]), float(recording.time[-1])
+    for side in recording.feet:
+        events = recording.events[side]
+        stated = np.concatenate([events.heel_strikes, events.toe_offs])
+        if len(stated) and not ((stated >= begin) & (stated <= end)).any():
+            raise InputError(
+                f"events of the {side} foot are stated from {stated.min():g} to {stated.max():g} s, the recording goes "
+                f"from {begin:g} to {end:g} s; allowed: times in s by the recording's clock"
+            )
+
+
+def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
+    """The gait of each foot, all of whose steps are in the means."""
+    feet = {side: analyse_foot(recording, side, prints, stated) for side in recording.feet}
+    places = {side: [_place(recording, gait, step, prints) for step in gait.steps] for side, gait in feet.items()}
+    known = {side: [p for p in own if p is not None] for side, own in places.items()}
+    if known != places:  # a step without a place would be taken for a longer stride
+        return feet
+    geometry = step_geometry(known)
+    return {side: _with_measures(gait, geometry[side]) for side, gait in feet.items()}
+
+
+def _with_measures(gait: FootGait, extra: Sequence[Mapping[str, float]]) -> FootGait:
+    """The gait with more measures of each of its steps."""
+    steps = (replace(step, measures={**step.measures, **more}) for step, more in zip(gait.steps, extra, strict=True))
+    return replace(gait, steps=tuple(steps))
+
+
+def analyse_foot(
+    recording: PressureRecording, side: Side, prints: Sequence[PlatformPrint] = (), stated: bool = False
+) -> FootGait:
+    """Find the contacts of one foot and measure its complete steps.
+
+    Args:
+        recording: The recording.
+        side: A foot that it has.
+        prints: The footprints of a platform.
+        stated: Whether the events that the file states are taken.
+
+    Returns:
+        The foot's gait. Measures that need the other foot use its contacts where it was recorded.
+    """
+    gait = _with_events(recording, side, stated)
+    loads = StepLoads(recording, gait.foot, gait.cell_threshold)
+    gait = with_picture(recording, gait, loads)
+    others = _other_foot(recording, side, stated)
+    strides, longest = iter(stride_times(gait.contacts)), longest_stride(gait.contacts)
+    steps: list[Step] = []
+    for contact, previous in zip(gait.contacts, [None, *gait.contacts], strict=False):
+        if contact.complete:
+            print_, region = footprint_of_step(recording, gait, loads, contact, prints)
+            load = loads.of(contact)
+            times = time_measures(contact, previous, next(strides), longest, others)
+            measures = {**times, **step_measures(recording, gait, load, contact, print_)}
+            strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
+            regions = _regions(load, region, lift - strike)
+            steps.append(Step(side, len(steps) + 1, strike, lift, contact, measures, regions, print_, region))
+    return replace(gait, steps=tuple(steps), warnings=tuple(_doubts(recording, gait)))
+
+
+def _with_events(recording: PressureRecording, side: Side, stated: bool) -> FootGait:
+    """One foot with its contacts and its CoP; no step is measured yet."""
+    foot = recording.feet[side]
+    force = foot.vertical_force
+    levels = _levels(recording, side)
+    contacts = _contacts(recording, side, stated)
+    cop = foot.center_of_pressure(levels.release if levels is not None else np.inf)
+    if cop is not None:
+        cop = averaged_path(cop, np.where(np.isfinite(force), force, 1.0), round(COP_WINDOW * recording.rate_hz))
+    return FootGait(foot, levels, tuple(contacts), (), cop, cell_threshold(recording, foot, contacts))
+
+
+def _other_foot(recording: PressureRecording, side: Side, stated: bool) -> OtherFoot | None:
+    """The contacts of the foot across; None where it was not recorded."""
+    if other_side(side) not in recording.feet:
+        return None
+    return OtherFoot(recording, other_side(side), _contacts(recording, other_side(side), stated))
+
+
+def _contacts(recording: PressureRecording, side: Side, stated: bool) -> list[Contact]:
+    """The contacts of a foot: found in its force, or those that the file states."""
+    if stated:
+        return stated_contacts(recording.time, recording.events[side])
+    levels = _levels(recording, side)
+    return [] if levels is None else find_contacts(recording.time, recording.feet[side].vertical_force, levels)
+
+
+def _levels(recording: PressureRecording, side: Side) -> Levels | None:
+    """Levels of a foot's force. Where the least that it carries is much, and no flat level of a sensor, the weight goes
+    from foot to foot and none is lifted."""
+    force = recording.feet[side].vertical_force
+    levels = force_levels(force, recording.kind)
+    if levels is None or levels.rest <= _CARRIED * levels.peak or resting_level(force, recording.rate_hz) is not None:
+        return levels
+    return force_levels(force, recording.kind, lifted=False)
+
+
+def _regions(load: StepLoad, region: NDArray[np.int64] | None, duration: float) -> dict[str, dict[str, float]]:
+    """Measures of each region of the foot in a step; none without geometry."""
+    if region is None or load.pressure is None:
+        return {}
+    return region_measures(load, region, list(REGIONS), duration)
+
+
+def _place(recording: PressureRecording, gait: FootGait, step: Step, prints: Sequence[PlatformPrint]) -> Place | None:
+    """Where a step stands on the ground; None where the recording cannot tell."""
+    placement = gait.foot.placement
+    if placement is not None:
+        middle = (step.contact.begin + step.contact.end) // 2
+        x, y, turn = placement[middle]
+        return Place(step.heel_strike_s, np.array([x, y]), np.array([np.cos(turn), np.sin(turn)]))
+    if recording.kind != "platform" or step.footprint is None:
+        return None
+    of_step = print_of_contact(step.contact, step.side, prints)
+    forward = None if of_step is None else of_step.forward
+    return Place(step.heel_strike_s, step.footprint.origin, step.footprint.axis, forward)
+
+
+def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
+    """What looks odd about a foot's steps."""
+    out: list[str] = []
+    side = gait.foot.side
+    if recording.kind != "insole":
+        return out
+    if gait.footprint is not None and gait.footprint.toe_line is None:
+        out.append(
+            f"no valley of pressure tells the {side} foot's toes from its forefoot: its toe regions begin at 82 % "
+            "of the "
+            "sole's length"
+        )
+    if gait.levels is not None and _raised_by_noise(gait.levels, recording.kind):
+        out.append(
+            f"the {side} foot's force scatters by {gait.levels.noise:.3g} N in swing: heel strikes are found at "
+            f"{100.0 * _release_share(gait.levels):.0f} % of its range and so later than usual, toe offs sooner"
+        )
+    for contact in gait.contacts if gait.levels is not None else ():
+        steps = run_together(gait.foot.vertical_force, recording.rate_hz, cast(Levels, gait.levels), contact)
+        if steps > 1:
+            begin, end = (float(recording.time[i]) for i in (contact.begin, contact.end - 1))
+            out.append(
+                f"the {side} foot seems to be on the ground from {begin:.1f} to {end:.1f} s, but lands {steps} times "
+                "in that: its sensor's offset joins these steps, which are in no mean that can be trusted"
+            )
+    travel = _travel_of_steps(gait)
+    if len(gait.steps) >= 2 and travel and float(np.median(travel)) < BACKWARDS:
+        out.append(
+            f"the {side} foot's centre of pressure moves from front to back in most steps: is the sensor or its "
+            "layout turned round?"
+        )
+    return out
+
+
+def _release_share(levels: Levels) -> float:
+    """Where heel strikes are found, as a share of the range of force."""
+    return (levels.release - levels.rest) / (levels.peak - levels.rest)
+
+
+def _raised_by_noise(levels: Levels, kind: Kind) -> bool:
+    """Whether noise raises the level of heel strikes so that events move."""
+    return _release_share(levels) > _RAISED * EVENT_LEVELS[kind].strike
+
+
+def _travel_of_steps(gait: FootGait) -> list[float]:
+    """How far forward in m the CoP moves in each complete step in which it is known in 4 frames or more."""
+    if gait.cop is None:
+        return []
+    ahead = [gait.cop[c.begin : c.end, 0] for c in gait.contacts if c.complete]
+    known = (path[np.isfinite(path)] for path in ahead)
+    return [float(path[-1] - path[0]) for path in known if len(path) >= 4]

@@ -1,0 +1,142 @@
+"""Platforms and walkways: which cells and frames are one footprint, of which foot, and in which direction it walks.
+
+A platform sees whoever steps on it. Cells that are loaded and touch, or lie a few centimetres apart and are loaded at
+the same time, are one footprint (`platform_parts`). Its foot and the direction come from the pass over the platform
+that it is part of (`platform_walk`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.prints.platform_parts import PlatformLoad, PrintCells, cells_of_prints
+from plantar.gait.analysis.prints.platform_walk import direction_of_walk, passes_over, sides_of_walk
+from plantar.layouts.layout import SoleLayout
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+from plantar.sides import SIDES, Side
+
+__all__ = ["PlatformPrint", "told_apart"]
+
+_TRIGGER = 0.25
+"""Share of the peak up to which load in the first and last frame is the beginning and end of a contact."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlatformPrint:
+    """One footprint on a platform.
+
+    Attributes:
+        side: The foot.
+        begin: First frame in which it is loaded.
+        end: Frame after the last one.
+        cells: Cells (n,) of it, as indices of the platform's.
+        forward: Direction (2,) of walking in the platform's frame.
+    """
+
+    side: Side
+    begin: int
+    end: int
+    cells: NDArray[np.int64]
+    forward: NDArray[np.float64]
+
+
+def told_apart(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
+    """A platform's recording with its footprints told apart.
+
+    The frame is turned so that the first pass walks along x. Frames without load are put before a first and after a
+    last frame that carry little: a platform records from the moment at which it is stepped on.
+
+    Args:
+        recording: A recording; one that is not of a platform is given back as it is.
+
+    Returns:
+        The recording, with the footprints of each foot under its side, and the footprints.
+    """
+    whole = next(iter(recording.feet.values()), None)
+    if recording.kind != "platform" or whole is None or whole.layout is None:
+        return recording, ()
+    time, force, padded = _with_quiet_ends(recording.time, whole.force, 1.0 / recording.rate_hz)
+    warnings = list(recording.warnings)
+    if padded:
+        warnings.append("the platform records while it is loaded: it counts as unloaded just before and after")
+    load = PlatformLoad(whole.layout, np.where(np.isnan(force), 0.0, force), time)
+    cells = cells_of_prints(load, 0.0 if recording.raw else whole.layout.force_threshold)
+    if not cells:
+        return replace(recording, time=time, feet={whole.side: replace(whole, force=force)}), ()
+    prints, notes = _prints(load, cells, cast(Side | None, recording.metadata.get("side")))
+    turn = _rotation(prints[0].forward)
+    told = replace(
+        recording,
+        time=time,
+        feet=_feet(force, _turned(whole.layout, prints[0].forward), prints),
+        warnings=tuple(dict.fromkeys([*warnings, *notes])),
+        metadata={**recording.metadata, "frames": len(recording.time)},
+    )
+    return told, tuple(replace(p, forward=turn @ p.forward) for p in prints)
+
+
+def _feet(force: NDArray[np.float64], layout: SoleLayout, prints: Sequence[PlatformPrint]) -> dict[Side, FootRecording]:
+    """The recording of each foot: what its footprints carried, on the whole platform."""
+    feet: dict[Side, FootRecording] = {}
+    for side in SIDES:
+        own = [p for p in prints if p.side == side]
+        if own:
+            part = np.zeros_like(force)
+            for p in own:
+                part[p.begin : p.end, p.cells] = force[p.begin : p.end, p.cells]
+            feet[side] = FootRecording(side, part, replace(layout, side=side))
+    return feet
+
+
+def _prints(
+    load: PlatformLoad, cells: Sequence[PrintCells], stated: Side | None
+) -> tuple[list[PlatformPrint], list[str]]:
+    """The footprints with their feet and directions, and what had to be assumed."""
+    notes: list[str] = []
+    out: list[PlatformPrint] = []
+    for walk in passes_over(load, cells):
+        forward = direction_of_walk(walk, notes)
+        for own, side in zip(walk.prints, sides_of_walk(walk, forward, stated, notes), strict=True):
+            out.append(PlatformPrint(side, own.begin, own.end, own.cells, forward))
+    return out, list(dict.fromkeys(notes))
+
+
+def _with_quiet_ends(
+    time: NDArray[np.float64], force: NDArray[np.float64], period: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]:
+    """Frames without load put in at the ends and at gaps in time where the neighbouring frame carries little."""
+    total = np.nansum(force, axis=1)
+    little = (total > 0.0) & (total <= _TRIGGER * float(total.max(initial=0.0)))
+    gaps = np.flatnonzero(np.diff(time) > 3.5 * period)
+    first = [i for i in [0, *(gaps + 1).tolist()] if little[i]]
+    last = [i for i in [*gaps.tolist(), len(time) - 1] if little[i]]
+    if not first and not last:
+        return time, force, False
+    at = np.array([*first, *(i + 1 for i in last)])
+    when = np.concatenate([time[first] - period, time[last] + period])
+    order = np.lexsort((when, at))
+    return np.insert(time, at[order], when[order]), np.insert(force, at[order], 0.0, axis=0), True
+
+
+def _rotation(forward: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation (2, 2) that takes a direction to x."""
+    return np.array([[forward[0], forward[1]], [-forward[1], forward[0]]])
+
+
+def _turned(layout: SoleLayout, forward: NDArray[np.float64]) -> SoleLayout:
+    """The layout with a direction turned to x."""
+    if forward[0] == 1.0:
+        return layout
+    whole = np.eye(3)
+    whole[:2, :2] = _rotation(forward)
+    return replace(
+        layout,
+        positions=layout.positions @ whole.T,
+        vertices=layout.vertices @ whole.T,
+        outline=layout.outline @ whole[:2, :2].T,
+    )

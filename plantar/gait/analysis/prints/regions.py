@@ -1,0 +1,153 @@
+"""Regions of the foot, found from the footprint: heel, midfoot, forefoot (medial, central, lateral), hallux and toes.
+
+The toes begin where, in front of the metatarsal heads, the footprint has a gap or its pressure a valley. The print
+without toes is cut into thirds of its length: heel, midfoot, forefoot (as for the arch index); the forefoot into thirds
+of its width; the hallux is the medial part of the toes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.prints.footprint import Footprint
+
+__all__ = ["REGIONS", "regions_of", "with_toe_line"]
+
+REGIONS: Mapping[str, str] = {
+    "heel": "Heel",
+    "midfoot": "Midfoot",
+    "forefoot_medial": "Forefoot, medial",
+    "forefoot_central": "Forefoot, central",
+    "forefoot_lateral": "Forefoot, lateral",
+    "hallux": "Hallux",
+    "toes": "Toes 2 to 5",
+}
+"""Names of the regions, from heel to toes, with their titles."""
+
+_STRIPS = 4
+_DEPTH = 0.6
+"""A valley in front of the forefoot is no more than this share of the lower one of the peaks beside it."""
+
+_TOE_PEAK = 0.08
+"""Toes carry at least this share of the forefoot's peak pressure."""
+
+_HALLUX = 0.40
+"""Share of the width of the toes, from the medial side, that is the hallux."""
+
+_TOES_OF_SOLE = 0.82
+"""Share of an insole's length at which its toe region begins where the pressure shows no valley."""
+
+
+def with_toe_line(print_: Footprint) -> Footprint:
+    """The footprint with its toe line, where one can be told.
+
+    The print is looked at in strips along the foot. In each, the largest pressure as a function of u is followed from
+    the highest point between 45 and 80 % of the length forwards; the lowest place beyond it counts if it is less than
+    60 % of what follows. Strips without a valley take the line of their neighbours.
+
+    Args:
+        print_: The footprint.
+
+    Returns:
+        The same with `toe_line`, None where no strip has a valley.
+    """
+    extent = np.ptp(print_.rings[:, :, 0], axis=1)
+    pitch = float(np.median(extent)) if len(extent) else 0.0
+    if np.ptp(print_.centres[:, 1]) < 2.0 * pitch or print_.length < 6.0 * pitch:
+        return print_
+    found = _valleys(print_, pitch)
+    if len(found) < 2 and not (found and _whole_gap(print_, pitch)):
+        return print_
+    middle = float(np.median([at for _, at in found]))
+    kept = [(place, at) for place, at in found if abs(at - middle) < 0.12 * print_.length]
+    return replace(print_, toe_line=np.array(kept))
+
+
+def _valleys(print_: Footprint, pitch: float) -> list[tuple[float, float]]:
+    """v of the middle of each strip that has a valley, and u of that valley."""
+    v = print_.centres[:, 1]
+    found: list[tuple[float, float]] = []
+    for a, b in pairwise(np.linspace(float(v.min()) - 1e-9, float(v.max()) + 1e-9, _STRIPS + 1)):
+        strip = (v >= a - 0.25 * pitch) & (v <= b + 0.25 * pitch)
+        at = _valley(print_, strip, pitch) if strip.any() else None
+        if at is not None:
+            found.append((0.5 * float(a + b), at))
+    return found
+
+
+def _profile(
+    print_: Footprint, strip: NDArray[np.bool_], pitch: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Largest pressure of the cells that lie over each place along a strip; 0 in gaps."""
+    places = np.arange(0.40 * print_.length, print_.length, 0.5 * max(pitch, print_.length / 200.0))
+    rings, pressure = print_.rings[strip], print_.pressure[strip]
+    first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)
+    over = (first[:, None] <= places) & (last[:, None] >= places)
+    return places, np.where(over, pressure[:, None], 0.0).max(axis=0, initial=0.0)
+
+
+def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float | None:
+    """u of the valley between forefoot and toes in one strip; the middle of the first part of a wide one."""
+    places, height = _profile(print_, strip, pitch)
+    fore = (places >= 0.45 * print_.length) & (places <= 0.80 * print_.length)
+    if not fore.any() or height[fore].max() <= 0.0:
+        return None
+    peak = int(np.flatnonzero(fore)[np.argmax(height[fore])])
+    within = (places >= 0.62 * print_.length) & (places <= 0.92 * print_.length)
+    beyond = np.maximum.accumulate(height[::-1])[::-1]
+    inner = (i for i in range(peak + 1, len(places) - 1) if within[i])
+    candidates = [i for i in inner if _is_valley(height, i, peak, beyond[i + 1])]
+    if not candidates:
+        return None
+    lowest = min(candidates, key=lambda i: float(height[i]))
+    at, depth = float(places[lowest]), float(height[lowest])
+    same = places[(height <= depth + 1e-12) & (np.abs(places - at) < 0.1) & (places >= at)]
+    return float(np.mean(same[:8]))
+
+
+def _is_valley(height: NDArray[np.float64], at: int, peak: int, beyond: float) -> bool:
+    """Whether a place is low enough beside the forefoot's peak and what follows, which carries like toes."""
+    top = float(height[peak])
+    return bool(beyond >= _TOE_PEAK * top and height[at] <= _DEPTH * min(float(beyond), top))
+
+
+def _whole_gap(print_: Footprint, pitch: float) -> bool:
+    """Whether the toes stand apart from the rest over the whole width."""
+    places, height = _profile(print_, np.ones(len(print_.areas), dtype=bool), pitch)
+    front = height[places > 0.6 * print_.length]
+    return bool(len(front) and (front[: -1 if len(front) > 1 else None] == 0.0).any())
+
+
+def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.int64]:
+    """The region of each cell of a footprint.
+
+    Args:
+        print_: The footprint, with its toe line where it has one.
+        of_sole: Length in m of the insole from the print's origin, of a print whose toes no valley tells from the
+            forefoot: they begin at 82 % of it. None where such a print has no toes.
+
+    Returns:
+        Index (n,) into `REGIONS` of each cell.
+    """
+    u, v = print_.centres.T
+    toe = print_.is_toe
+    if print_.toe_line is None and of_sole is not None:
+        toe = u > _TOES_OF_SOLE * of_sole
+    length = float(print_.rings[~toe][:, :, 0].max()) if (~toe).any() else print_.length
+    out = np.zeros(len(u), dtype=np.int64)
+    out[u > length / 3.0] = 1
+    front = (u > 2.0 * length / 3.0) & ~toe
+    for cells, names, shares in (
+        (front, ("forefoot_lateral", "forefoot_central", "forefoot_medial"), (1.0 / 3.0, 2.0 / 3.0)),
+        (toe, ("toes", "hallux"), (1.0 - _HALLUX,)),
+    ):
+        if cells.any():
+            low, high = float(print_.rings[cells][:, :, 1].min()), float(print_.rings[cells][:, :, 1].max())
+            index = np.searchsorted(low + np.array(shares) * (high - low), v[cells])
+            out[cells] = np.array([list(REGIONS).index(name) for name in names])[index]
+    return out

@@ -1,0 +1,305 @@
+"""What sensors read while the foot is in the air: offsets of a foot, and cells that a crease or a shoe keeps loaded.
+
+In swing nothing rests on a sole, yet capacitive cells have offsets that drift, a film in a shoe has creases, and
+single cells stick. A walk shows them: its force returns to the same flat level, for about half a second, again and
+again. Standing does not, whose force wanders about its mean. Only what is found so is taken off, and it is said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.steps.events import MINIMUM_SWING, smoothed, true_runs
+from plantar.gait.analysis.steps.swing_levels import SwingLevels, swing_levels
+from plantar.recordings.let_go import blocks_of_frames, let_go, room
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+
+__all__ = ["RestingLevel", "resting_level", "without_baselines"]
+
+OFFSET = 0.10
+"""A level in swing of more than so much of the walk's range of force is an offset; shoes press less."""
+
+_TOLD = 0.03
+"""A level in swing of more than so much of the range is told, though it is not taken off."""
+
+_PULL = 0.01
+"""A level in swing of so much of the range below zero is an offset, too: no shoe pulls, and cells below zero take the
+centre of pressure out of the sole."""
+
+HOT = 0.5
+"""A cell that reads more in swing than this share of what it reads under load does not measure the foot."""
+
+_WINDOWS = (12.0, 6.0)
+"""Lengths in s of the stretches in which the level in swing is looked for, ten strides or five."""
+
+_FLAT = 0.06
+"""Range of a level in swing, as a share of the range of force."""
+
+_LONGEST_SWING = 1.5
+"""Longest time in s at one level that is a swing and not standing on the other foot."""
+
+_SHARE = (0.15, 0.8)
+"""Share of a walk's time in which a foot is at its level in swing."""
+
+_ABOVE, _SPARSE = 0.30, 0.7
+"""A foot lands and lifts quickly: it spends less than 0.7 of the time at its level between there and 0.3 of the range;
+a sine, as when weight is shifted from foot to foot, 1.3 times as much."""
+
+_LONGEST_CONTACT, _QUICK, _FEW_SHARE = 2.0, 0.2, 0.95
+"""Of recordings of one or two strides: longest contact in s, longest time in s in which a foot that lands or lifts
+passes the lower half of its force (0.03 to 0.15 s in walking, 0.3 s and more where weight is shifted), and largest
+share of the time in swing."""
+
+FOLLOWED = 0.025
+"""Where the level of a single swing lies farther from the usual one, as a share of the range, each swing has a level of
+its own: events lie at 5 % of the range."""
+
+_FRAMES = 4000
+"""Frames in swing from which a cell's reading is averaged: enough for 2 % of its noise."""
+
+
+@dataclass(frozen=True, eq=False)
+class RestingLevel:
+    """What a foot's force is in swing.
+
+    Attributes:
+        level: Its level (n,) in each frame, in the force's unit.
+        swing: Frames (n,) in which the foot is at that level for longer than `MINIMUM_SWING`.
+        span: Range of the force above the level.
+        each: The single swings, where the level is followed from one to the next; else None.
+    """
+
+    level: NDArray[np.float64]
+    swing: NDArray[np.bool_]
+    span: float
+    each: SwingLevels | None = None
+
+
+def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
+    """The level to which a walking foot's force returns, whatever the sensor's offset.
+
+    Args:
+        force: Vertical force (n,), NaN where it was not measured.
+        rate: Frames a second.
+
+    Returns:
+        The level; None where the force returns to no flat level, as in standing. Where it changes, it is that of each
+        swing, as far as these are found.
+
+    Example:
+        >>> time = np.arange(0.0, 12.0, 0.01)
+        >>> walk = 300.0 + 800.0 * np.clip(np.sin(2.0 * np.pi * time), 0.0, None)
+        >>> float(resting_level(walk, 100.0).level[0]), resting_level(500.0 + 20.0 * np.sin(time), 100.0)
+        (300.0, None)
+    """
+    usual, each = _usual_level(force, rate), swing_levels(force, rate)
+    if each is None:
+        return usual
+    level = 0.0 if usual is None else float(np.median(usual.level))
+    if np.abs(each.level - level)[each.swing].max() <= FOLLOWED * each.span:
+        return usual
+    return RestingLevel(each.level, each.swing, each.span, each)
+
+
+def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
+    """The level of stretches of ten strides or five."""
+    n = len(force)
+    tried = []
+    for window in _WINDOWS:
+        edges = np.linspace(0, n, max(1, int(n / rate / window)) + 1).astype(int)
+        found = [_level(force[a:b], rate) for a, b in pairwise(edges)]
+        tried.append((sum(part is not None for part in found) / len(found), edges, found))
+    _, edges, found = max(tried, key=lambda one: one[0])
+    known = [i for i, part in enumerate(found) if part is not None]
+    if not known:
+        return None
+    levels, spans, swing = [], [], np.zeros(n, dtype=bool)
+    for i in known:
+        part = found[i]
+        assert part is not None
+        levels.append(part[0])
+        spans.append(part[1])
+        swing[edges[i] : edges[i + 1]] = part[2]
+    middles = 0.5 * (edges[:-1] + edges[1:])[known]
+    return RestingLevel(np.interp(np.arange(n), middles, levels), swing, float(np.median(spans)))
+
+
+def _level(force: NDArray[np.float64], rate: float) -> tuple[float, float, NDArray[np.bool_]] | None:
+    """Level in swing, range above it and frames (n,) in swing of one stretch; None where it is no walk."""
+    measured = np.isfinite(force)
+    if measured.sum() < 20:
+        return None
+    course = np.full(len(force), np.inf)
+    course[measured] = smoothed(force[measured])
+    low, high = (float(v) for v in np.percentile(course[measured], (3.0, 92.0)))
+    if not high > low:
+        return None
+    near = course <= low + _FLAT * (high - low)
+    above = measured & ~near & (course <= low + _ABOVE * (high - low))
+    if above.sum() > _SPARSE * near.sum():
+        return None
+    runs = [(a, b) for a, b in true_runs(near) if b - a >= MINIMUM_SWING * rate]
+    inner = [(a, b) for a, b in runs if a > 0 and b < len(force)]
+    swing = np.zeros(len(force), dtype=bool)
+    for a, b in runs:
+        edge = (b - a) // 5  # the level is reached and left slowly
+        swing[a + edge : b - edge] = True
+    few = len(inner) < 2 and _steps_show(course, near, low, high - low, rate)
+    if (len(inner) < 2 and not few) or max((b - a for a, b in inner), default=0) > _LONGEST_SWING * rate:
+        return None
+    if not _SHARE[0] <= sum(b - a for a, b in runs) / len(force) <= (_FEW_SHARE if few else _SHARE[1]):
+        return None
+    level = float(np.median(force[swing & measured]))
+    return level, high - level, swing & measured
+
+
+def _steps_show(course: NDArray[np.float64], near: NDArray[np.bool_], low: float, span: float, rate: float) -> bool:
+    """Whether contacts between flat stretches are steps: a foot lands and lifts at once, weight is shifted slowly."""
+    flanks = []
+    for a, b in true_runs(~near):
+        part = course[a:b] - low
+        if a == 0 or b == len(course) or part.max() < 0.5 * span or b - a > _LONGEST_CONTACT * rate:
+            continue
+        half = np.flatnonzero(part >= 0.5 * span)
+        flanks += [half[0] / rate, (b - a - 1 - half[-1]) / rate]
+    return len(flanks) > 0 and max(flanks) <= _QUICK
+
+
+def without_baselines(recording: PressureRecording) -> PressureRecording:
+    """The recording without the offsets of its feet and without what creases and stuck cells read in swing.
+
+    Args:
+        recording: The recording; that of a platform, on which nothing rests, stays as it is.
+
+    Returns:
+        The recording, with a warning for everything that was taken off.
+    """
+    if recording.kind == "platform":
+        return recording
+    feet, notes = dict(recording.feet), list(recording.warnings)
+    for side, foot in recording.feet.items():
+        rest = resting_level(foot.vertical_force, recording.rate_hz)
+        if rest is None:
+            continue
+        offset = float(np.median(rest.level))
+        drift = float(np.ptp(rest.level))
+        pulls = rest.level.min() < -_PULL * rest.span
+        if drift > FOLLOWED * rest.span or np.abs(rest.level).max() > OFFSET * rest.span or pulls:
+            feet[side] = _without_offset(foot, rest)
+            unit = "counts" if recording.raw else "N"
+            moving = f", and drifts by {drift:.3g} {unit}" if drift > 0.05 * rest.span else ""
+            notes.append(
+                f"the {side} foot's sensor reads {offset:.4g} {unit} in swing{moving}: what each cell reads there "
+                "is taken "
+                "off as its baseline (--baseline keep leaves it)"
+            )
+        else:
+            if np.abs(rest.level).max() > _TOLD * rest.span:
+                notes.append(
+                    f"the {side} foot's sensor reads {offset:.3g} {'counts' if recording.raw else 'N'} in swing, "
+                    f"{100.0 * offset / rest.span:.0f} % of its range: it stays in the forces, as a shoe may press so"
+                )
+            hot = _hot_cells(foot, rest)
+            if len(hot):
+                feet[side] = _without_hot(foot, rest, hot)
+                names = foot.layout.ids[hot] if foot.layout is not None else hot + 1
+                notes.append(
+                    f"{_cells(names.tolist())} of the {side} foot read in swing more than half of what they read "
+                    "under load "
+                    "(a crease, or a cell that sticks): what they read in swing is taken off (--baseline keep "
+                    "leaves it)"
+                )
+    return replace(recording, feet=feet, warnings=tuple(notes))
+
+
+def _cells(ids: Sequence[int]) -> str:
+    """Names of a few cells, or how many there are."""
+    if len(ids) > 8:
+        return f"{len(ids)} cells"
+    return f"cell{'s' if len(ids) > 1 else ''} {', '.join(str(i) for i in ids)}"
+
+
+def _frames(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Frames of a mask, of very many some in a row at 40 places: they lie together in a file."""
+    index = np.flatnonzero(mask)
+    if len(index) <= _FRAMES:
+        return index
+    return np.concatenate([part[: _FRAMES // 40] for part in np.array_split(index, 40)])
+
+
+def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Mean reading (k,) of each cell in some frames; 0 of one that measured nothing there."""
+    part = foot.force[frames]
+    let_go(foot.force)
+    known = np.isfinite(part)
+    return np.asarray(np.where(known, part, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1))
+
+
+def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
+    """The foot without what each cell reads in swing, which follows the level where that drifts."""
+    total = None if foot.total is None else foot.total - rest.level
+    if foot.force.shape[1] == 0:
+        return replace(foot, total=total)
+    places, stretches = _stretches(rest)
+    means = [_in_swing(foot, a + _frames(rest.swing[a:b])) for a, b in stretches]
+    at, table = np.array(places), np.array(means)
+    force = room(*foot.force.shape)
+    for rows in blocks_of_frames(foot.force):
+        force[rows] = foot.force[rows] - _between(np.arange(rows.start, rows.stop), at, table)
+        let_go(force)
+    return replace(foot, force=force, total=total)
+
+
+def _between(index: NDArray[np.int64], at: NDArray[np.float64], table: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows (n, k) of a table that is given at some places, on straight lines between them and level beyond them."""
+    if len(at) == 1:
+        return table
+    after = np.clip(np.searchsorted(at, index), 1, len(at) - 1)
+    share = np.clip((index - at[after - 1]) / (at[after] - at[after - 1]), 0.0, 1.0)[:, None]
+    return np.asarray((1.0 - share) * table[after - 1] + share * table[after])
+
+
+def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
+    """Places (frames) at which cells have a baseline of their own, and the stretch of frames that each is of."""
+    if rest.each is not None:
+        return rest.each.places.tolist(), [(int(a), int(b)) for a, b in rest.each.spans]
+    n = len(rest.level)
+    drifts = float(np.ptp(rest.level)) > 0.05 * rest.span
+    count = max(1, n // max(1, _per_stretch(rest))) if drifts else 1
+    edges = np.unique(np.linspace(0, n, 1 + count).astype(int)).tolist()
+    stretches = [(a, b) for a, b in pairwise(edges) if rest.swing[a:b].any()]
+    return [0.5 * (a + b) for a, b in stretches], stretches
+
+
+def _per_stretch(rest: RestingLevel) -> int:
+    """Frames of a stretch in which there are several swings: as many as hold a tenth of all, 20 at the most."""
+    begins = np.flatnonzero(np.diff(rest.swing.astype(np.int8)) == 1)
+    return len(rest.swing) // min(20, max(1, len(begins) // 5))
+
+
+def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
+    """Cells (k,) that read in swing more than a share of what they read under load, and more than their threshold."""
+    if foot.force.shape[1] == 0:
+        return np.zeros(0, dtype=np.int64)
+    air = _in_swing(foot, _frames(rest.swing))
+    with np.errstate(invalid="ignore"):
+        under = foot.force[_frames(foot.vertical_force > rest.level + 0.3 * rest.span)]
+    let_go(foot.force)
+    load = np.percentile(np.where(np.isfinite(under), under, 0.0), 95.0, axis=0) if len(under) else np.zeros(len(air))
+    least = 0.002 * rest.span if foot.layout is None else foot.layout.force_threshold
+    return np.flatnonzero((air > HOT * load) & (air > max(least, 0.002 * rest.span)))
+
+
+def _without_hot(foot: FootRecording, rest: RestingLevel, hot: NDArray[np.int64]) -> FootRecording:
+    """The foot without what some cells read in swing."""
+    force, air = room(*foot.force.shape), _in_swing(foot, _frames(rest.swing))[hot]
+    for rows in blocks_of_frames(foot.force):
+        force[rows] = foot.force[rows]
+        force[rows, hot] = np.maximum(force[rows, hot] - air, 0.0)
+        let_go(force)
+    return replace(foot, force=force)

@@ -1,0 +1,115 @@
+"""The path of the centre of pressure under a foot."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.prints.footprint import Footprint
+from plantar.geometry.polygon import convex_hull
+from plantar.layouts.layout import SoleLayout
+
+__all__ = ["averaged_path", "cop_measures", "excursion_index", "margin_to_outline"]
+
+
+def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
+    """Running mean of points (n, 2), weighted, over about so many frames; NaN stays NaN.
+
+    The window is centred and shrinks towards the ends of a span of points, so that an even motion keeps its ends.
+
+    Args:
+        points: Positions (n, 2); NaN where there is none.
+        weight: Weights (n,), above 0 where there is a position.
+        frames: Width of the window.
+
+    Returns:
+        The averaged positions (n, 2).
+    """
+    known = np.isfinite(points[:, 0])
+    n = len(known)
+    index = np.arange(n)
+    before = index - np.maximum.accumulate(np.where(known, -1, index))
+    after = np.minimum.accumulate(np.where(known, n, index)[::-1])[::-1] - index
+    half = np.minimum(frames // 2, np.minimum(before, after) - 1).clip(0)
+    load = np.where(known, weight, 0.0)
+    total = np.concatenate([[0.0], np.cumsum(load)])
+    out = np.full_like(points, np.nan)
+    first, last = (index - half)[known], (index + half + 1)[known]
+    for axis in range(2):
+        moment = np.concatenate([[0.0], np.cumsum(load * np.where(known, points[:, axis], 0.0))])
+        out[known, axis] = (moment[last] - moment[first]) / (total[last] - total[first])
+    return out
+
+
+def cop_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
+    """Length, range and speed of a path.
+
+    Args:
+        time: Times (m,) in s.
+        points: Positions (m, 2), forward and to the left in m, NaN where there is none.
+
+    Returns:
+        The measures by their key; empty for fewer than two positions.
+
+    Example:
+        >>> t = np.linspace(0.0, 0.5, 51)
+        >>> m = cop_measures(t, np.column_stack([0.4 * t, 0.0 * t]))
+        >>> round(m["cop_path_m"], 6), round(m["cop_velocity_m_s"], 6)
+        (0.2, 0.4)
+    """
+    known = np.isfinite(points[:, 0])
+    if known.sum() < 2:
+        return {}
+    points, time = points[known], time[known]
+    pieces = np.hypot(*np.diff(points, axis=0).T)
+    path = float(pieces.sum())
+    along, across = (float(v) for v in np.ptp(points, axis=0))
+    return {
+        "cop_path_m": path,
+        "cop_excursion_ap_m": along,
+        "cop_excursion_ml_m": across,
+        "cop_velocity_m_s": path / float(time[-1] - time[0]),
+        "cop_velocity_max_m_s": float((pieces / np.diff(time)).max()),
+    }
+
+
+def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
+    """Centre of pressure excursion index (Song et al. 1996) in percent.
+
+    A line joins the first and the last point of the path. At the front third of the foot, the path's distance from it
+    across the foot, positive to the lateral side, is given as a share of the footprint's width there.
+
+    Args:
+        print_: The footprint.
+        points: Positions (m, 2) in the frame that the print was made from, NaN where there is none.
+
+    Returns:
+        The index; NaN where the path does not reach the front third.
+    """
+    path = print_.in_foot(points[np.isfinite(points[:, 0])])
+    at = 2.0 / 3.0 * print_.length
+    if len(path) < 3 or not path[0, 0] < at < path[-1, 0]:
+        return float("nan")
+    crossing = int(np.flatnonzero((path[:-1, 0] <= at) & (path[1:, 0] > at))[0])
+    one, two = path[crossing], path[crossing + 1]
+    own = one[1] + (at - one[0]) / (two[0] - one[0]) * (two[1] - one[1])
+    first, last = path[0], path[-1]
+    line = first[1] + (at - first[0]) / (last[0] - first[0]) * (last[1] - first[1])
+    width = print_.width_at(at)
+    return float(100.0 * (line - own) / width) if width > 0.0 else float("nan")  # v runs to the medial side
+
+
+def margin_to_outline(layout: SoleLayout, points: NDArray[np.float64]) -> float:
+    """Smallest signed distance of points to the edges of a sole's convex outline.
+
+    Args:
+        layout: The sole.
+        points: Positions (m, 2) in the sole frame in m, 1 or more.
+
+    Returns:
+        The distance in m, positive where all points are inside.
+    """
+    hull = convex_hull(layout.outline)
+    edge = np.roll(hull, -1, axis=0) - hull
+    normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(edge[:, 0], edge[:, 1])[:, None]
+    return float(((points[:, None, :] - hull) * normal).sum(axis=2).min())

@@ -1,0 +1,98 @@
+"""What an analysis finds of one foot: its events, its steps and what they measure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.prints.footprint import Footprint
+from plantar.gait.analysis.steps.events import Contact, Levels
+from plantar.recordings.pressure_recording import FootRecording
+from plantar.sides import Side
+
+__all__ = ["FootGait", "Step"]
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One complete contact of one foot.
+
+    Attributes:
+        side: "left" or "right".
+        number: 1 for the first complete contact of its foot.
+        heel_strike_s: Time of heel strike.
+        toe_off_s: Time of toe off.
+        contact: The contact.
+        measures: Measures by their key in `plantar.gait.analysis.measures.MEASURES`; what is not in it is not known.
+        regions: Measures of each region of the foot.
+        footprint: The footprint that lengths, arch index and regions are of; None without geometry.
+        region: Index (k,) into `REGIONS` of each cell, -1 for none; None without geometry.
+        used: Whether it is in the means.
+        unused: Why not; empty where it is.
+        odd: What is odd about it; empty for nothing.
+    """
+
+    side: Side
+    number: int
+    heel_strike_s: float
+    toe_off_s: float
+    contact: Contact
+    measures: Mapping[str, float]
+    regions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    footprint: Footprint | None = None
+    region: NDArray[np.int64] | None = None
+    used: bool = True
+    unused: str = ""
+    odd: str = ""
+
+    def __getitem__(self, key: str) -> float:
+        return self.measures.get(key, float("nan"))
+
+
+@dataclass(frozen=True, eq=False)
+class FootGait:
+    """One foot's recording with its events and steps.
+
+    Attributes:
+        foot: What was measured.
+        levels: Force levels of its events, None where the foot carries no load.
+        contacts: All contacts, also those cut by the recording.
+        steps: The complete ones, measured.
+        cop: Centre of pressure (n, 2) of each frame in the sole frame in m, averaged over 50 ms; NaN without load, None
+            without geometry.
+        cell_threshold: Force in N (k,) above which a cell counts as loaded.
+        picture: Maximum pressure picture (k,) in Pa: the mean over the steps of each cell's largest pressure, of a
+            platform the largest of all; None without geometry.
+        footprint: The footprint of that picture in an insole or sole; None without geometry, and of platforms.
+        region: Index (k,) into `REGIONS` of each cell of the picture, -1 for none; None without geometry.
+        sole: The whole sole as a footprint, of which widths do not depend on what is loaded; None without geometry, and
+            of platforms.
+        warnings: What was found odd.
+    """
+
+    foot: FootRecording
+    levels: Levels | None
+    contacts: tuple[Contact, ...]
+    steps: tuple[Step, ...]
+    cop: NDArray[np.float64] | None
+    cell_threshold: NDArray[np.float64]
+    picture: NDArray[np.float64] | None = None
+    footprint: Footprint | None = None
+    region: NDArray[np.int64] | None = None
+    sole: Footprint | None = None
+    warnings: tuple[str, ...] = ()
+
+    @cached_property
+    def used(self) -> tuple[Step, ...]:
+        """The steps that are in the means."""
+        return tuple(step for step in self.steps if step.used)
+
+    @cached_property
+    def columns(self) -> Mapping[str, NDArray[np.float64]]:
+        """Each measure over the steps that are in the means, NaN where a step has none of it."""
+        keys = dict.fromkeys(key for step in self.used for key in step.measures)
+        return {key: np.array([step[key] for step in self.used]) for key in keys}

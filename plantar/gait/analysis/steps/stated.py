@@ -1,0 +1,82 @@
+"""Events that a file states: contacts made of them, and how far they are from those found in the force."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.steps.events import Contact
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.recordings.pressure_recording import StatedEvents
+
+__all__ = ["stated_beside_own", "stated_contacts"]
+
+_SAME = 0.25
+"""Longest time in s between a stated event and a found one that are the same: less than half of a swing."""
+
+
+def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Contact]:
+    """Contacts from stated heel strikes and toe offs.
+
+    Args:
+        time: Times (n,) of the frames in s.
+        events: The events.
+
+    Returns:
+        The contacts in order, each from a heel strike to the toe off before the next one; a toe off before the first
+        heel strike, and a heel strike without one, are of contacts that the recording cuts.
+    """
+    strikes, lifts = events.heel_strikes, events.toe_offs
+    ends = np.append(strikes[1:], np.inf)
+    pairs: list[tuple[float | None, float | None]] = []
+    if len(strikes):
+        early = lifts[lifts <= strikes[0]]
+        pairs += [(None, float(early[-1]))] if len(early) else []
+    for strike, end in zip(strikes, ends, strict=True):
+        own = lifts[(lifts > strike) & (lifts < end)]
+        pairs.append((float(strike), float(own[0]) if len(own) else None))
+    out = []
+    for begin, end in pairs:
+        first = 0 if begin is None else int(np.searchsorted(time, begin))
+        after = strikes[strikes > begin] if begin is not None and end is None else np.zeros(0)
+        stop = end if end is not None else float(after[0]) if len(after) else float(time[-1]) + 1.0
+        last = int(np.searchsorted(time, stop, side="right"))
+        if last - first >= 2:
+            out.append(Contact(begin, end, first, last))
+    return out
+
+
+def stated_beside_own(events: StatedEvents | None, gait: FootGait) -> dict[str, Any] | None:
+    """The stated events of a foot, and the times of those that were used less the stated ones.
+
+    Args:
+        events: What the file states of the foot; None for nothing.
+        gait: The foot with its contacts.
+
+    Returns:
+        heel_strikes_s and toe_offs_s as stated; heel_strike_difference_s and toe_off_difference_s of those that were
+        found too, each in the order of the stated ones, None where none was found within 0.25 s. None without events.
+    """
+    if events is None:
+        return None
+    found = (
+        [c.heel_strike for c in gait.contacts if c.heel_strike is not None],
+        [c.toe_off for c in gait.contacts if c.toe_off is not None],
+    )
+    out: dict[str, Any] = {}
+    for name, stated, own in zip(
+        ("heel_strike", "toe_off"), (events.heel_strikes, events.toe_offs), found, strict=True
+    ):
+        out[f"{name}s_s"] = stated.tolist()
+        out[f"{name}_difference_s"] = [_difference(float(at), np.array(own)) for at in stated]
+    return out
+
+
+def _difference(at: float, own: NDArray[np.float64]) -> float | None:
+    """Time in s from a stated event to the nearest found one; None where that is another one."""
+    if len(own) == 0:
+        return None
+    nearest = float(own[np.argmin(np.abs(own - at))]) - at
+    return nearest if abs(nearest) <= _SAME else None

@@ -1,0 +1,133 @@
+"""Which steps are in the means: those of steady walking; and which of them are odd, which is said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.steps.foot_gait import FootGait, Step
+
+__all__ = ["FEWEST_STEPS", "with_used_steps"]
+
+FEWEST_STEPS = 12
+"""Steps a foot that reliable means of in-shoe pressure take (Arts & Bus 2011, Clin. Biomech. 26:880)."""
+
+_FEWEST_TO_JUDGE = 5
+"""Steps of a foot from which a usual step can be told from an odd one."""
+
+_ODD = 4.0
+"""Robust standard deviations from the median beyond which a step is odd: one of 16,000 of a normal variable."""
+
+_JUDGED = {"contact_time_s": 0.03, "stride_time_s": 0.03, "peak_force_N": 0.04, "impulse_Ns": 0.05}
+"""Measures by which a step is judged, and the least standard deviation, as a share of the median."""
+
+_WORDS = {
+    "contact_time_s": ("contact", "s"),
+    "stride_time_s": ("stride", "s"),
+    "peak_force_N": ("peak force", "N"),
+    "impulse_Ns": ("impulse", "N s"),
+}
+
+
+def with_used_steps(gait: FootGait, options: AnalysisOptions, kind: str, raw: bool = False) -> FootGait:
+    """The gait with each step marked: whether it is in the means and why not, and what is odd about it.
+
+    Steps at either end of a walk that are odd in time or force start and stop it: they are left out of the means unless
+    the options name steps. An odd step between others stays in the means.
+
+    Args:
+        gait: One foot with its measured steps.
+        options: Which steps the reader wants.
+        kind: What measured; footprints on a platform are no walk of many steps, and none starts it.
+        raw: Whether forces are counts.
+
+    Returns:
+        The gait, with warnings.
+    """
+    steps = list(gait.steps)
+    if not steps:
+        return gait
+    odd = _odd(steps, raw) if len(steps) >= _FEWEST_TO_JUDGE and kind in ("insole", "robot") else [""] * len(steps)
+    used, notes = np.ones(len(steps), dtype=bool), list(gait.warnings)
+    side = gait.foot.side
+    reason = ""
+    if options.steps == "steady":
+        ends = _ends(odd)
+        if ends.any():
+            used &= ~ends
+            reason = "starts or stops the walk"
+            notes.append(
+                f"steady walking of the {side} foot is steps {_range(steps, ~ends)}: {_names(steps, ends)} "
+                f"start{'s' if ends.sum() == 1 else ''} or stop{'s' if ends.sum() == 1 else ''} the walk and "
+                f"{'is' if ends.sum() == 1 else 'are'} left out of the means (--steps all keeps them)"
+            )
+    elif options.steps != "all":
+        first, last = options.steps
+        used &= np.array([first <= step.number <= last for step in steps])
+        reason = f"not one of the steps {first}-{last}"
+    within = np.array([_within(step, options) for step in steps])
+    out = [
+        replace(step, used=bool(u and w), unused=_unused(bool(u), bool(w), reason), odd=o)
+        for step, u, w, o in zip(steps, used, within, odd, strict=True)
+    ]
+    for step in out:
+        if step.used and step.odd:
+            notes.append(f"step {step.number} of the {side} foot is odd and in the means: {step.odd}")
+    count = sum(step.used for step in out)
+    if count == 0:
+        notes.append(f"no step of the {side} foot is among those that were asked for: it has {len(steps)}")
+    elif count < FEWEST_STEPS and kind == "insole":
+        notes.append(
+            f"{count} step{'' if count == 1 else 's'} of the {side} foot {'is' if count == 1 else 'are'} in the means: "
+            f"fewer than {FEWEST_STEPS} a foot are less reliable (Arts & Bus 2011)"
+        )
+    return replace(gait, steps=tuple(out), warnings=tuple(notes))
+
+
+def _unused(chosen: bool, within: bool, reason: str) -> str:
+    """Why a step is not in the means, empty where it is."""
+    return reason if not chosen else "" if within else "outside --from and --to"
+
+
+def _within(step: Step, options: AnalysisOptions) -> bool:
+    begin, end = options.begin, options.end
+    return (begin is None or step.heel_strike_s >= begin) and (end is None or step.toe_off_s <= end)
+
+
+def _odd(steps: Sequence[Step], raw: bool) -> list[str]:
+    """What is odd about each step, empty for nothing."""
+    out = [""] * len(steps)
+    for key, least in _JUDGED.items():
+        values = np.array([step[key] for step in steps])
+        known = np.isfinite(values)
+        if known.sum() < _FEWEST_TO_JUDGE:
+            continue
+        middle = float(np.median(values[known]))
+        spread = max(1.4826 * float(np.median(np.abs(values[known] - middle))), least * abs(middle))
+        word, unit = _WORDS[key]
+        for i in np.flatnonzero(known & (np.abs(values - middle) > _ODD * spread)):
+            shown = unit.replace("N", "counts") if raw else unit
+            out[i] = out[i] or f"{word} of {values[i]:.3g} {shown}, the median is {middle:.3g} {shown}"
+    return out
+
+
+def _ends(odd: Sequence[str]) -> NDArray[np.bool_]:
+    """The odd steps at either end; none where they are more than half of all, for then nothing is usual."""
+    bad = np.array([bool(text) for text in odd])
+    ends = np.logical_and.accumulate(bad) | np.logical_and.accumulate(bad[::-1])[::-1]
+    return ends if ends.sum() <= 0.5 * len(ends) else np.zeros(len(ends), dtype=bool)
+
+
+def _range(steps: Sequence[Step], kept: NDArray[np.bool_]) -> str:
+    """Numbers of the first and the last kept step."""
+    numbers = [step.number for step, keep in zip(steps, kept, strict=True) if keep]
+    return f"{numbers[0]}-{numbers[-1]}"
+
+
+def _names(steps: Sequence[Step], chosen: NDArray[np.bool_]) -> str:
+    """Numbers of some steps, as a list."""
+    return ", ".join(str(step.number) for step, keep in zip(steps, chosen, strict=True) if keep)

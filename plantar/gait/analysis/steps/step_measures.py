@@ -1,0 +1,77 @@
+"""What one step measures without the steps around it: force, pressure, path of the CoP, wrench, footprint."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.prints.footprint import Footprint
+from plantar.gait.analysis.steps.cop_path import cop_measures, excursion_index, margin_to_outline
+from plantar.gait.analysis.steps.events import Contact
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.gait.analysis.steps.force_curve import force_measures, landing_impact
+from plantar.gait.analysis.steps.pressure_measures import pressure_measures, robot_measures
+from plantar.gait.analysis.steps.step_load import StepLoad
+from plantar.recordings.pressure_recording import PressureRecording
+
+__all__ = ["step_measures"]
+
+
+def step_measures(
+    recording: PressureRecording, gait: FootGait, load: StepLoad, contact: Contact, print_: Footprint | None
+) -> dict[str, float]:
+    """Everything of one step that does not need other steps.
+
+    Args:
+        recording: The recording.
+        gait: One foot of it.
+        load: What its cells carried in the step.
+        contact: The step, complete.
+        print_: Its footprint.
+
+    Returns:
+        The measures by their key; what is not in it is not known.
+    """
+    foot = gait.foot
+    force = foot.vertical_force[contact.begin : contact.end]
+    known = np.isfinite(force)
+    strike = cast(float, contact.heel_strike)
+    out = force_measures(load.time[known], force[known], strike, cast(float, contact.toe_off))
+    out["landing_impact_N"] = landing_impact(recording.time, foot.vertical_force, strike)
+    if load.pressure is not None:
+        out |= pressure_measures(load, foot.layout)
+    if gait.cop is not None:
+        out |= _cop_measures(recording, gait, load, gait.cop[contact.begin : contact.end], print_)
+    if foot.wrench is not None:
+        out |= _wrench_measures(recording, foot.wrench[contact.begin : contact.end])
+    if print_ is not None and recording.kind == "platform":
+        out |= {"arch_index": print_.arch_index(), "foot_length_m": print_.length, "foot_width_m": print_.width}
+    return {key: float(value) for key, value in out.items()}
+
+
+def _cop_measures(
+    recording: PressureRecording, gait: FootGait, load: StepLoad, cop: NDArray[np.float64], print_: Footprint | None
+) -> dict[str, float]:
+    """Measures of the CoP (m, 2) of one step: its path, and how far it stays from the edges."""
+    kind, layout = recording.kind, gait.foot.layout
+    # On a platform the foot's own axis is forward, in a sole the sole's.
+    out = cop_measures(load.time, print_.in_foot(cop) if print_ is not None and kind == "platform" else cop)
+    across = gait.sole if kind == "insole" else print_
+    if across is not None and kind != "robot":
+        out["cpei_percent"] = excursion_index(across, cop)
+    if layout is not None:
+        inside = cop[np.isfinite(cop[:, 0])]
+        if kind in ("insole", "robot") and len(inside):
+            out["cop_margin_m"] = margin_to_outline(layout, inside)
+        if kind == "robot" and not recording.raw:
+            out |= robot_measures(load, layout, cop)
+    return out
+
+
+def _wrench_measures(recording: PressureRecording, wrench: NDArray[np.float64]) -> dict[str, float]:
+    """Largest magnitudes of a wrench (m, 6); of a force plate, whose origin is not the sole's, without tx and ty."""
+    fx, fy, _, tx, ty, tz = np.abs(wrench).max(axis=0)
+    out = {"fx_peak_N": fx, "fy_peak_N": fy, "tz_peak_Nm": tz}
+    return out | ({"tx_peak_Nm": tx, "ty_peak_Nm": ty} if recording.kind == "robot" else {})

@@ -1,0 +1,334 @@
+"""One recording of a study: rows of its steps and feet, mean curves over the stance, and maps of the sole."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar import __version__
+from plantar.atomic import replacing
+from plantar.formats import ReadOptions
+from plantar.gait.analysis.analyse import Analysis, analyse, with_layout
+from plantar.gait.analysis.measures import MEASURES, raw_name
+from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.pages.force_figures import stance_curves
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.gait.analysis.study.participants import Participation
+from plantar.gait.analysis.subject import Subject
+from plantar.gravity import GRAVITY
+from plantar.layouts.layout_file import layout_to_dict
+from plantar.sides import Side
+
+__all__ = [
+    "GRID",
+    "RecordingResult",
+    "digest_of",
+    "key_of",
+    "measure_recording",
+    "normalised",
+    "read_result",
+    "sampled",
+    "write_result",
+]
+
+GRID = (36, 14)
+"""Places along and across a sole at which maps are compared: about 8 mm, the pitch of in-shoe sensors."""
+
+_LENGTHS = (
+    "cop_path_m",
+    "cop_excursion_ap_m",
+    "cop_excursion_ml_m",
+    "step_length_m",
+    "step_width_m",
+    "stride_length_m",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class RecordingResult:
+    """What one recording adds to a study.
+
+    Attributes:
+        who: Of whom it is.
+        digest: SHA-256 of the file.
+        key: What file, options and version it was measured with; a result of another key is measured anew.
+        format: Name of its format; empty where it could not be read.
+        error: Why it could not be measured; empty where it was.
+        raw: Whether its values are counts.
+        rows: One row a step: side, step, used, note, heel_strike_s, toe_off_s and every measure; None for unknown
+        values.
+        feet: Of each foot the mean of each measure over the steps in the means, and "steps" of them.
+        curves: Mean vertical force (101,) in N of each foot over the stance.
+        maps: Mean maximum pressure picture `GRID` in Pa of each foot, heel to toes and lateral to medial, NaN off the
+        sole.
+        warnings: What was assumed.
+        walk: Measures of the walk as a whole.
+    """
+
+    who: Participation
+    digest: str
+    key: str
+    format: str
+    error: str
+    raw: bool
+    rows: tuple[Mapping[str, Any], ...]
+    feet: Mapping[Side, Mapping[str, float]]
+    curves: Mapping[Side, NDArray[np.float64]]
+    maps: Mapping[Side, NDArray[np.float64]]
+    warnings: tuple[str, ...]
+    walk: Mapping[str, float | None]
+
+
+def digest_of(path: Path) -> str:
+    """SHA-256 of a file, in blocks.
+
+    Args:
+        path: The file.
+
+    Returns:
+        Its digest in hexadecimal digits; empty where it cannot be read.
+    """
+    found = hashlib.sha256()
+    try:
+        with path.open("rb") as stream:
+            while block := stream.read(1 << 20):
+                found.update(block)
+    except OSError:
+        return ""
+    return found.hexdigest()
+
+
+def key_of(
+    folder: Path, who: Participation, digest: str, choices: AnalysisOptions, options: ReadOptions | None = None
+) -> str:
+    """What decides a result; of layouts it is their content, since a file of the same name may be another one.
+
+    Args:
+        folder: The study's folder.
+        who: What the table says of the recording.
+        digest: SHA-256 of its file.
+        choices: Which steps are in the means, and whose events.
+        options: What is known of all files.
+
+    Returns:
+        A digest of all of them and of the version.
+    """
+    given = options or ReadOptions()
+    known = (given.unit, given.rate_hz, given.side, given.insole_size)
+    layouts = (
+        layout_to_dict(given.layout) if given.layout else "",
+        digest_of(folder / who.layout) if who.layout else "",
+    )
+    told = [__version__, digest, asdict(who), asdict(choices), known, layouts]
+    return hashlib.sha256(json.dumps(told).encode()).hexdigest()
+
+
+def measure_recording(
+    folder: Path, who: Participation, choices: AnalysisOptions, digest: str, options: ReadOptions | None = None
+) -> RecordingResult:
+    """Measure one recording of a study.
+
+    Args:
+        folder: The study's folder.
+        who: Which recording, and of whom.
+        choices: Which steps are in the means, and whose events.
+        digest: SHA-256 of the file.
+        options: What is known of all files; what the table says of one goes before it.
+
+    Returns:
+        The result.
+
+    Raises:
+        PlantarError: If the recording cannot be read.
+    """
+    given = options or ReadOptions()
+    known = ReadOptions(
+        layout=given.layout,
+        unit=who.unit or given.unit,
+        rate_hz=who.rate_hz or given.rate_hz,
+        side=who.side or given.side,  # type: ignore[arg-type]
+        insole_size=who.insole_size or given.insole_size,
+    )
+    known = with_layout(known, folder / who.layout) if who.layout else known
+    subject = Subject(who.participant, who.mass_kg, who.foot_length_m)
+    analysis = analyse(folder / who.file, None, known, choices=choices, subject=subject)
+    recording, raw = analysis.recording, analysis.recording.raw
+    rows = [row for gait in analysis.feet.values() for row in _rows(gait, who, raw)]
+    rows.sort(key=lambda row: float(row["heel_strike_s"]))
+    return RecordingResult(
+        who=who,
+        digest=digest,
+        key=key_of(folder, who, digest, choices, options),
+        format=recording.format,
+        error="",
+        raw=raw,
+        rows=tuple(rows),
+        feet={side: _means(rows, side) for side in analysis.feet},
+        curves={s: stance_curves(recording, g).mean(axis=0) for s, g in analysis.feet.items() if g.used},
+        maps={s: found for s, g in analysis.feet.items() if (found := _map(analysis, g)) is not None},
+        warnings=tuple(analysis.metrics["warnings"]),
+        walk={k: v for k, v in analysis.metrics["gait"].items() if k != "symmetry_percent"},
+    )
+
+
+def _rows(gait: FootGait, who: Participation, raw: bool) -> list[dict[str, Any]]:
+    """One row a step of a foot."""
+    out = []
+    for step in gait.steps:
+        measures = {raw_name(key) if raw else key: step[key] for key in MEASURES}
+        known = {key: float(value) if np.isfinite(value) else None for key, value in measures.items()}
+        out.append(
+            {
+                "side": step.side,
+                "step": step.number,
+                "used": int(step.used),
+                "note": step.unused or step.odd,
+                "heel_strike_s": step.heel_strike_s,
+                "toe_off_s": step.toe_off_s,
+                **known,
+                **normalised(known, who),
+            }
+        )
+    return out
+
+
+def normalised(measures: Mapping[str, float | None], who: Participation) -> dict[str, float | None]:
+    """Forces and impulses as shares of body weight, and lengths as shares of the foot's, where those are known.
+
+    Args:
+        measures: Measures in SI.
+        who: With the mass and the foot's length.
+
+    Returns:
+        Keys with `_percent_bw` (of body weight), `_percent_bw_s` (body weights times seconds) and `_percent_foot`.
+
+    Example:
+        >>> normalised({"peak_force_N": 784.8}, Participation("a.asc", "a", mass_kg=80.0))
+        {'peak_force_percent_bw': 100.0}
+    """
+    out: dict[str, float | None] = {}
+    for key, value in measures.items():
+        if who.mass_kg is not None:
+            scale = 100.0 / (who.mass_kg * GRAVITY)
+            end = next((e for e in ("_N_s", "_Ns", "_N") if key.endswith(e)), None)
+            if end is not None:
+                unit = {"_N_s": "_percent_bw_per_s", "_Ns": "_percent_bw_s", "_N": "_percent_bw"}[end]
+                out[key.removesuffix(end) + unit] = None if value is None else round(value * scale, 9)
+        if who.foot_length_m is not None and key in _LENGTHS:
+            share = None if value is None else round(100.0 * value / who.foot_length_m, 9)
+            out[key.removesuffix("_m") + "_percent_foot"] = share
+    return out
+
+
+def _means(rows: list[dict[str, Any]], side: Side) -> dict[str, float]:
+    """Mean of each measure over the steps of a foot that are in the means."""
+    own = [row for row in rows if row["side"] == side and row["used"]]
+    out: dict[str, float] = {"steps": float(len(own))}
+    for key in own[0] if own else ():
+        if key in ("side", "step", "used", "note", "heel_strike_s", "toe_off_s"):
+            continue
+        values = [row[key] for row in own if row[key] is not None]
+        if values:
+            out[key] = float(np.mean(values))
+    return out
+
+
+def _map(analysis: Analysis, gait: FootGait) -> NDArray[np.float64] | None:
+    """A foot's maximum pressure picture in the frame that all share; None without geometry or steps."""
+    layout, picture = gait.foot.layout, gait.picture
+    if layout is None or picture is None or not gait.used:
+        return None
+    if analysis.recording.kind == "platform":
+        print_ = gait.used[0].footprint
+        if print_ is None:
+            return None
+        points, values = print_.centres, print_.pressure
+        corners = print_.rings.reshape(-1, 2)
+    else:
+        medial = np.array([1.0, 1.0 if gait.foot.side == "right" else -1.0])
+        points, values, corners = layout.positions[:, :2] * medial, picture, layout.outline * medial
+    return sampled(points, values, corners)
+
+
+def sampled(
+    points: NDArray[np.float64], values: NDArray[np.float64], corners: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Values of cells at the places of `GRID`, which spans the sole from heel to toes and side to side.
+
+    Each place takes the nearest cell's value; places farther from every cell than cells are from each other have none.
+
+    Args:
+        points: Centres (k, 2) of the cells, forward and to the medial side.
+        values: Their values (k,).
+        corners: Points (m, 2) whose extent is the sole's.
+
+    Returns:
+        The map.
+    """
+    low, extent = corners.min(axis=0), np.ptp(corners, axis=0)
+    along = low[0] + (np.arange(GRID[0]) + 0.5) / GRID[0] * extent[0]
+    across = low[1] + (np.arange(GRID[1]) + 0.5) / GRID[1] * extent[1]
+    places = np.array([[u, v] for u in along for v in across])
+    squares = ((places[:, None, :] - points[None]) ** 2).sum(axis=2)
+    nearest = squares.argmin(axis=1)
+    between = ((points[:, None, :] - points[None]) ** 2).sum(axis=2)
+    np.fill_diagonal(between, np.inf)
+    beside = np.sort(between, axis=1)[:, min(2, len(points) - 1)]  # to the third nearest: cells are longer than wide
+    found = np.where(squares.min(axis=1) <= 0.6 * float(np.median(beside)), values[nearest], np.nan)
+    return np.asarray(found.reshape(GRID))
+
+
+def write_result(result: RecordingResult, path: Path) -> None:
+    """Keep a result, so that a study that was stopped goes on from there.
+
+    Args:
+        result: The result.
+        path: File to write (.npz).
+    """
+    plain = {
+        **{
+            key: getattr(result, key) for key in ("digest", "key", "format", "error", "raw", "rows", "feet", "warnings")
+        },
+        "walk": dict(result.walk),
+        "who": asdict(result.who),
+    }
+    arrays: dict[str, Any] = {f"curve_{s}": v for s, v in result.curves.items()} | {
+        f"map_{s}": v for s, v in result.maps.items()
+    }
+    with replacing(path) as temporary, temporary.open("wb") as stream:
+        np.savez_compressed(stream, text=np.array(json.dumps(plain, default=dict)), **arrays)
+
+
+def read_result(path: Path, key: str) -> RecordingResult | None:
+    """A result that was kept.
+
+    Args:
+        path: Its file.
+        key: What it has to be measured with.
+
+    Returns:
+        The result; None where there is none, it is damaged, or was measured with something else.
+    """
+    try:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as held:
+            plain = json.loads(str(held["text"]))
+            arrays = {name: held[name] for name in held.files if name != "text"}
+    except Exception:  # a file that was cut short may raise anything; measuring anew is always right
+        return None
+    if plain.get("key") != key:
+        return None
+    return RecordingResult(
+        who=Participation(**plain["who"]),
+        **{name: plain[name] for name in ("digest", "key", "format", "error", "raw", "feet", "walk")},
+        rows=tuple(plain["rows"]),
+        warnings=tuple(plain["warnings"]),
+        curves={n.removeprefix("curve_"): v for n, v in arrays.items() if n.startswith("curve_")},
+        maps={n.removeprefix("map_"): v for n, v in arrays.items() if n.startswith("map_")},
+    )

@@ -1,0 +1,158 @@
+"""The table of a study: which file is of whom, in which condition, and what is known of them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from plantar.errors import FormatError, InputError
+from plantar.files.input_file import open_input
+from plantar.formats.text import number
+from plantar.gait.analysis.subject import BODY_MASSES, FOOT_LENGTHS
+from plantar.sides import SIDES
+
+__all__ = ["Participation", "read_participants"]
+
+_LARGEST = 20_000_000
+_NAMES = {
+    "file": ("file", "recording", "filename", "path"),
+    "participant": ("participant", "participant_id", "subject", "subject_id", "id", "patient"),
+    "condition": ("condition", "group", "shoe", "task"),
+    "mass_kg": ("mass_kg", "mass", "weight_kg", "body_mass_kg"),
+    "foot_length_m": ("foot_length_m", "foot_length"),
+    "side": ("side", "foot"),
+    "insole_size": ("insole_size",),
+    "unit": ("unit",),
+    "rate_hz": ("rate_hz", "rate"),
+    "layout": ("layout",),
+}
+"""Names that a column may have, by what it holds; other columns are carried through to the tables."""
+
+
+@dataclass(frozen=True)
+class Participation:
+    """One recording of a study.
+
+    Attributes:
+        file: Path of the recording relative to the study's folder.
+        participant: Who; the file's name without suffix where no table says it.
+        condition: In which condition; empty where no table says it.
+        mass_kg: Mass of the body in kg, None where it is not known.
+        foot_length_m: Length of the foot in m, None where it is not known.
+        side: "left" or "right" for a file of one foot that does not say which; else None.
+        insole_size: Size of a pedar insole, where the file does not say it; else None.
+        unit: Unit of the values, where the file does not say it; else None.
+        rate_hz: Frames a second, where the file does not say it; else None.
+        layout: Layout file relative to the study's folder; else None.
+        more: What other columns hold.
+        listed: Whether the table names the file.
+    """
+
+    file: str
+    participant: str
+    condition: str = ""
+    mass_kg: float | None = None
+    foot_length_m: float | None = None
+    side: str | None = None
+    insole_size: str | None = None
+    unit: str | None = None
+    rate_hz: float | None = None
+    layout: str | None = None
+    more: Mapping[str, str] = field(default_factory=dict)
+    listed: bool = True
+
+
+def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
+    """Read the table of a study: a CSV or TSV file with a row of names and a row a recording.
+
+    Args:
+        path: The table. Its columns are file, participant and condition, and optionally mass_kg, foot_length_m (or
+        _mm, _cm),
+            side, insole_size, unit, rate_hz and layout; others are carried through.
+
+    Returns:
+        Its rows.
+
+    Raises:
+        FormatError: If it has no rows, lacks a column, or names a file twice.
+        InputError: If a value is not possible.
+    """
+    with open_input(path, FormatError) as stream:
+        text = stream.read(_LARGEST).decode("utf-8-sig", errors="replace")
+    head = text.partition("\n")[0]
+    delimiter = max("\t;,", key=head.count)
+    rows = list(csv.reader(io.StringIO(text), delimiter=delimiter))
+    names = [name.strip().lower() for name in rows[0]] if rows else []
+    columns = {key: at for key, known in _NAMES.items() if (at := _column(names, known)) is not None}
+    missing = [key for key in ("file", "participant", "condition") if key not in columns]
+    if missing:
+        raise FormatError(
+            f"{os.fspath(path)}: the table of participants has no column {' and '.join(missing)}; it needs file, "
+            "participant "
+            "and condition"
+        )
+    lengths = _column(names, ("foot_length_mm",)), _column(names, ("foot_length_cm",))
+    out: list[Participation] = []
+    for line, row in enumerate(rows[1:], 2):
+        if any(cell.strip() for cell in row):
+            where = f"{os.fspath(path)}, line {line}"
+            out.append(_participation(where, names, row, columns, lengths))
+    twice = {p.file for p in out if sum(q.file == p.file for q in out) > 1} if len(out) < 5000 else set()
+    if twice:
+        raise FormatError(f"{os.fspath(path)}: {sorted(twice)[0]} is named twice")
+    if not out:
+        raise FormatError(f"{os.fspath(path)}: the table of participants has no rows")
+    return out
+
+
+def _column(names: list[str], known: tuple[str, ...]) -> int | None:
+    return next((names.index(name) for name in known if name in names), None)
+
+
+def _participation(
+    where: str, names: list[str], row: list[str], columns: Mapping[str, int], lengths: tuple[int | None, int | None]
+) -> Participation:
+    """One row of the table."""
+
+    def text(key: str) -> str | None:
+        at = columns.get(key)
+        return (row[at].strip() or None) if at is not None and at < len(row) else None
+
+    def value(key: str, allowed: tuple[float, float], at: int | None = None, factor: float = 1.0) -> float | None:
+        words = text(key) if at is None else (row[at].strip() if at < len(row) else None)
+        if not words:
+            return None
+        found = number(words)
+        if found is None or not allowed[0] <= found * factor <= allowed[1]:
+            raise InputError(f"{where}: {key} is {words!r}; allowed: {allowed[0]:g} to {allowed[1]:g}, or empty")
+        return found * factor
+
+    length = value("foot_length_m", FOOT_LENGTHS)
+    for at, factor in zip(lengths, (1e-3, 1e-2), strict=True):
+        if length is None and at is not None:
+            length = value("foot_length_m", FOOT_LENGTHS, at, factor)
+    side = text("side")
+    if side is not None and side.lower() not in SIDES:
+        raise InputError(f"{where}: side is {side!r}; allowed: left, right, or empty")
+    file = text("file")
+    if file is None:
+        raise InputError(f"{where}: names no file")
+    used = set(columns.values()) | {at for at in lengths if at is not None}
+    more = {re.sub(r"\W+", "_", names[i]): row[i].strip() for i in range(min(len(names), len(row))) if i not in used}
+    return Participation(
+        file=file,
+        participant=text("participant") or os.path.splitext(os.path.basename(file))[0],
+        condition=text("condition") or "",
+        mass_kg=value("mass_kg", BODY_MASSES),
+        foot_length_m=length,
+        side=side.lower() if side else None,
+        insole_size=text("insole_size"),
+        unit=text("unit"),
+        rate_hz=value("rate_hz", (0.1, 1e5)),
+        layout=text("layout"),
+        more={key: content for key, content in more.items() if key},
+    )

@@ -1,0 +1,296 @@
+"""A study from a folder of recordings to its tables and its page."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar import __version__
+from plantar.atomic import write_text
+from plantar.errors import InputError, PlantarError
+from plantar.formats import ReadOptions, formats
+from plantar.gait.analysis.options import AnalysisOptions
+from plantar.gait.analysis.pages.figure_files import write_figures
+from plantar.gait.analysis.study.compare_conditions import Comparison, compare_conditions, outliers
+from plantar.gait.analysis.study.one_recording import (
+    RecordingResult,
+    digest_of,
+    key_of,
+    measure_recording,
+    read_result,
+    write_result,
+)
+from plantar.gait.analysis.study.participants import Participation, read_participants
+from plantar.gait.analysis.study.study_figures import study_figures
+from plantar.gait.analysis.study.study_page import study_page
+
+__all__ = ["Study", "run_study"]
+
+_CACHE = "measured"
+"""Folder in the output folder that holds the result of each recording."""
+
+_SKIPPED_FORMATS = ("image",)
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A study that was measured.
+
+    Attributes:
+        results: One a recording; those that could not be measured say why in `error`.
+        comparisons: Every two conditions.
+        choices: Which steps are in the means, and whose events.
+        files: The files that were written.
+    """
+
+    results: Sequence[RecordingResult]
+    comparisons: Sequence[Comparison]
+    choices: AnalysisOptions
+    files: Sequence[str] = ()
+
+    def steps(self) -> dict[str, NDArray[Any]]:
+        """The steps as columns, as `pandas.DataFrame(study.steps())` takes them: NaN for what is not known."""
+        return _columns(_step_rows(self))
+
+    def recordings(self) -> dict[str, NDArray[Any]]:
+        """The feet of every recording as columns; a recording that could not be measured is one row with its error."""
+        return _columns(_recording_rows(self))
+
+    def effects(self) -> dict[str, NDArray[Any]]:
+        """The compared measures as columns: conditions, difference, effect size, their intervals and probabilities."""
+        return _columns(_effect_rows(self))
+
+    def summary(self) -> dict[str, Any]:
+        """The study in a few plain values, as study.json holds them."""
+        return {
+            "recordings": len(self.results),
+            "measured": sum(not r.error for r in self.results),
+            "errors": {r.who.file: r.error for r in self.results if r.error},
+            "participants": len({r.who.participant for r in self.results if not r.error}),
+            "conditions": list(dict.fromkeys(r.who.condition for r in self.results if r.who.condition)),
+            "steps": sum(len(r.rows) for r in self.results),
+            "options": asdict(self.choices),
+            "version": __version__,
+            "comparisons": [_plain(c) for c in self.comparisons],
+            "outliers": [o._asdict() for o in outliers(self.results)],
+        }
+
+
+def run_study(
+    folder: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    participants: str | os.PathLike[str] | None = None,
+    progress: Callable[[float, str], None] | None = None,
+    *,
+    choices: AnalysisOptions | None = None,
+    options: ReadOptions | None = None,
+) -> Study:
+    """Measure every recording of a folder; write steps.csv, recordings.csv, comparison.csv, study.json and study.html.
+
+    Recordings that were measured before with the same options and version are not measured again: a study that was
+    stopped goes on where it was. A recording that cannot be read is a row that says why.
+
+    Args:
+        folder: The folder of recordings, looked through with its folders.
+        out: Output folder, made if needed.
+        participants: Table of who walked in which condition, see `read_participants`; without it each file is a
+        participant
+            and nothing is compared.
+        progress: Called with a fraction 0..1 and what is being done.
+        choices: Which steps are in the means, and whose events.
+        options: What is known of all files; what the table says of one goes before it.
+
+    Returns:
+        The study.
+
+    Raises:
+        InputError: If the folder holds no recording, a value in the table is not possible, or the events are those of a
+            file.
+        FormatError: If the table cannot be read.
+    """
+    tell = progress or (lambda fraction, text: None)
+    root, target, chosen = Path(folder), Path(out), choices or AnalysisOptions()
+    chosen.of_several("a study has")
+    listed = read_participants(participants) if participants is not None else []
+    everything = [*listed, *_others(root, target, participants, {p.file for p in listed})]
+    if not everything:
+        raise InputError(
+            f"{root}: no recording in it; allowed: a folder with files of the formats of plantar list formats"
+        )
+    cache = target / _CACHE
+    cache.mkdir(parents=True, exist_ok=True)
+    results = []
+    for i, who in enumerate(everything):
+        tell(0.9 * i / len(everything), f"{i + 1} of {len(everything)}: {who.file}")
+        results.append(_result(root, cache, who, chosen, options))
+    tell(0.9, "comparing")
+    study = Study(results, compare_conditions(results), chosen)
+    files = _write(study, target, root)
+    tell(1.0, "done")
+    return Study(study.results, study.comparisons, chosen, files)
+
+
+def _others(
+    root: Path, target: Path, participants: str | os.PathLike[str] | None, listed: set[str]
+) -> list[Participation]:
+    """Files of the folder that the table does not name and whose names end as recordings' do."""
+    endings = tuple(s for f in formats().values() if f.name not in _SKIPPED_FORMATS for s in f.suffixes)
+    apart = {target.resolve()} if target.exists() else set()
+    table = Path(participants).resolve() if participants is not None else None
+    out: list[Participation] = []
+    for path in sorted(root.rglob("*")):
+        name = str(path.relative_to(root))
+        hidden = any(part.startswith(".") for part in path.relative_to(root).parts)
+        if name in listed or hidden or not path.is_file() or not path.name.lower().endswith(endings):
+            continue
+        if path.resolve() == table or apart & set(path.resolve().parents):
+            continue
+        out.append(Participation(file=name, participant=path.stem, listed=False))
+    return out
+
+
+def _result(
+    root: Path, cache: Path, who: Participation, choices: AnalysisOptions, options: ReadOptions | None
+) -> RecordingResult:
+    """The result of a recording: the one that was kept, or a new one, which is kept."""
+    path = root / who.file
+    digest = digest_of(path)
+    key = key_of(root, who, digest, choices, options)
+    kept = cache / f"{key[:24]}.npz"
+    found = read_result(kept, key)
+    if found is not None:
+        return found
+    try:
+        if not path.resolve().is_relative_to(root.resolve()):
+            raise InputError(f"{who.file} is not in the study's folder")
+        result = measure_recording(root, who, choices, digest, options)
+    except PlantarError as error:
+        text = str(error).replace(f"{path}: ", "").replace(f"{root}{os.sep}", "")
+        return RecordingResult(who, digest, key, "", text, False, (), {}, {}, {}, (), {})
+    write_result(result, kept)
+    return result
+
+
+def _identity(result: RecordingResult) -> dict[str, Any]:
+    """Columns that every table begins with."""
+    who = result.who
+    return {"recording": who.file, "participant": who.participant, "condition": who.condition, **who.more}
+
+
+def _provenance(study: Study, result: RecordingResult) -> dict[str, Any]:
+    """Columns that every table ends with."""
+    return {
+        "format": result.format,
+        "version": __version__,
+        "options": json.dumps(asdict(study.choices), sort_keys=True),
+        "sha256": result.digest,
+    }
+
+
+def _step_rows(study: Study) -> list[dict[str, Any]]:
+    return [{**_identity(r), **row, **_provenance(study, r)} for r in study.results for row in r.rows]
+
+
+def _recording_rows(study: Study) -> list[dict[str, Any]]:
+    """A row a foot of a recording, or one with the reason."""
+    rows: list[dict[str, Any]] = []
+    for result in study.results:
+        who = {"mass_kg": result.who.mass_kg, "foot_length_m": result.who.foot_length_m}
+        ends = {"warnings": " | ".join(result.warnings), "error": result.error, **_provenance(study, result)}
+        if result.error:
+            rows.append({**_identity(result), "side": "", "steps": 0, **who, **ends})
+        for side, means in result.feet.items():
+            walk = {f"walk_{key}": value for key, value in result.walk.items()}
+            rows.append(
+                {**_identity(result), "side": side, "steps": int(means["steps"]), **who, **means, **walk, **ends}
+            )
+    return rows
+
+
+def _effect_rows(study: Study) -> list[dict[str, Any]]:
+    return [
+        {"a": c.a, "b": c.b, "measure": key, **asdict(effect)}
+        for c in study.comparisons
+        for key, effect in c.effects.items()
+    ]
+
+
+def _names(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Every column of some rows, those of later rows put after the one that they follow there."""
+    names: dict[str, None] = {}
+    for row in rows:
+        if not names.keys() >= row.keys():
+            ends = [n for n in ("format", "version", "options", "sha256") if n in names]
+            kept = [n for n in names if n not in ends]
+            names = dict.fromkeys([*kept, *(n for n in row if n not in names and n not in ends), *ends])
+            names |= dict.fromkeys(row)
+    return list(names)
+
+
+def _columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, NDArray[Any]]:
+    """Rows as columns."""
+    out: dict[str, NDArray[Any]] = {}
+    for name in _names(rows):
+        values = [row.get(name) for row in rows]
+        texts = any(isinstance(v, str) for v in values)
+        out[name] = np.array([("" if v is None else v) if texts else math.nan if v is None else v for v in values])
+    return out
+
+
+def _csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Rows as a CSV table; what is not known stays empty."""
+    stream = io.StringIO()
+    writer = csv.DictWriter(stream, _names(rows), restval="", lineterminator="\n")
+    writer.writeheader()
+    for row in rows:
+        known = ((k, v) for k, v in row.items() if v is not None)
+        writer.writerow({k: "" if isinstance(v, float) and not math.isfinite(v) else v for k, v in known})
+    return stream.getvalue()
+
+
+def _plain(comparison: Comparison) -> dict[str, Any]:
+    """A comparison as plain JSON values."""
+    effects = {
+        key: {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(effect).items()}
+        for key, effect in comparison.effects.items()
+    }
+    out: dict[str, Any] = {"a": comparison.a, "b": comparison.b, "paired": comparison.paired, "note": comparison.note}
+    for name, test in (("curve", comparison.curve_test), ("map", comparison.map_test)):
+        if test is not None:
+            out[name] = {
+                "threshold": test.threshold,
+                "permutations": test.permutations,
+                "clusters": [
+                    {"p": p, "places": np.flatnonzero(test.clusters == number).tolist()}
+                    for number, p in enumerate(test.cluster_p, 1)
+                ],
+            }
+    return {**out, "effects": effects}
+
+
+def _write(study: Study, target: Path, root: Path) -> list[str]:
+    """Write the tables, figures and page; returns their paths."""
+    written: list[Path] = []
+    tables: Iterable[tuple[str, list[dict[str, Any]]]] = (
+        ("steps.csv", _step_rows(study)),
+        ("recordings.csv", _recording_rows(study)),
+        ("comparison.csv", _effect_rows(study)),
+    )
+    for name, rows in tables:
+        written.append(write_text(target / name, _csv_text(rows)))
+    summary = study.summary()
+    written.append(write_text(target / "study.json", json.dumps(summary, indent=1, allow_nan=False) + "\n"))
+    figures = write_figures(study_figures(study.comparisons), target)
+    page = study_page(summary, study.results, study.comparisons, figures, root.resolve().name)
+    written.append(write_text(target / "study.html", page))
+    return sorted(str(p) for p in [*written, *(f for png, _ in figures for f in (png, png.with_suffix(".svg")))])

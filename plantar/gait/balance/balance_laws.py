@@ -1,0 +1,67 @@
+"""Which balance law a robot has: by the name in its file, each law's modules loaded only where it is used."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from plantar.errors import InputError
+from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
+from plantar.gait.balance.law import BalanceLaw
+
+if TYPE_CHECKING:
+    from plantar.gait.balance.wrench_balance import WrenchBalanceGains
+
+    LawGains: TypeAlias = BalanceGains | WrenchBalanceGains
+
+__all__ = ["LAWS", "balance_gains", "balance_law"]
+
+LAWS = ("com_admittance", "wrench_distribution")
+"""Names of the balance laws."""
+
+
+def balance_gains(table: Mapping[str, Any]) -> LawGains:
+    """Gains of the law that a robot's `[balance]` table names.
+
+    Args:
+        table: The table: `law` and its gains.
+
+    Returns:
+        The gains; their class is that of the law.
+
+    Raises:
+        InputError: If the law or one of its gains is unknown, or a gain not allowed.
+
+    Example:
+        >>> balance_gains({"law": "com_admittance", "dcm_gain": 3.0}).dcm_gain
+        3.0
+    """
+    law = table.get("law", LAWS[0])
+    if law not in LAWS:
+        raise InputError(f"[balance] law is {law!r}; allowed: {', '.join(LAWS)}")
+    kind: type[BalanceGains] | type[WrenchBalanceGains] = BalanceGains
+    if law == "wrench_distribution":
+        from plantar.gait.balance.wrench_balance import WrenchBalanceGains
+
+        kind = WrenchBalanceGains
+    gains = {k: v for k, v in table.items() if k != "law"}
+    return kind.from_table(gains, "[balance]", note=f" with law '{law}'")
+
+
+def balance_law(gains: LawGains, omega: float, mass: float, period: float) -> BalanceLaw:
+    """The law that the gains belong to.
+
+    Args:
+        gains: Gains of a law.
+        omega: Pendulum frequency in rad/s.
+        mass: Mass of the robot in kg.
+        period: Control period in s.
+
+    Returns:
+        The law, at its beginning.
+    """
+    if isinstance(gains, BalanceGains):
+        return DcmBalance(gains, omega, mass, period)
+    from plantar.gait.balance.wrench_balance import WrenchBalance
+
+    return WrenchBalance(gains, omega, mass, period)

@@ -1,0 +1,114 @@
+"""Balance feedback: DCM error moves the desired ZMP, ZMP error moves the CoM reference (T 4.17-4.20, 4.27-4.29)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
+from plantar.gait.balance.law import BalanceState, Feet, FootAction
+from plantar.gait.balance.load_transfer import transferred
+from plantar.gait.plan.vrp_plan import LipReference
+from plantar.kernels.gait.dcm_feedback import DcmFeedback
+from plantar.settings.schema import Settings, share
+from plantar.sides import Side
+
+__all__ = ["BalanceGains", "DcmBalance"]
+
+_NO_INTEGRAL = (0.0, 0.0, 0.0)
+
+
+class BalanceGains(Settings):
+    """Gains of the DCM feedback with CoM admittance.
+
+    Attributes:
+        dcm_gain: k_xi of T 4.28 in 1/s.
+        zmp_gain: k_f of T 4.29 in 1/s: how fast the CoM reference yields to a ZMP error.
+        com_gain: k_x of T 4.29 in 1/s: how fast the CoM reference returns to the plan.
+        zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
+        zmp_offset: Inner offset in m that the desired ZMP keeps from the support polygon's edge.
+    """
+
+    dcm_gain: float = share(0.371, "1/beat", 0, 50)
+    zmp_gain: float = share(0.124, "1/beat", 0, 50)
+    com_gain: float = share(0.247, "1/beat", 0, 50)
+    zmp_filter: float = share(0.0809, "beat", 0, 1)
+    zmp_offset: float = share(0.065, "sole", 0, 0.1)
+
+
+class DcmBalance:
+    """DCM feedback with CoM admittance.
+
+    Args:
+        gains: The gains.
+        omega: Pendulum frequency in rad/s.
+        mass: Robot mass in kg.
+        period: Control period in s.
+    """
+
+    wants_contacts = False
+
+    def __init__(self, gains: BalanceGains, omega: float, mass: float, period: float) -> None:
+        self.gains = gains
+        self.omega = omega
+        self.mass = mass
+        self.period = period
+        self.states: Counter[str] = Counter()
+        largest = LARGEST_OFFSET * gains.body.leg
+        admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
+        # At xi = xi_r the desired ZMP is the planned VRP; a DCM that is off has its error driven to zero at the rate
+        # k_xi (T 4.28).
+        self._feedback = DcmFeedback(omega, gains.dcm_gain, _NO_INTEGRAL, period, admittance, True, True)
+
+    def desired_zmp(
+        self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Desired ZMP p_d = p_r - (1 + k_xi / w) (xi_r - xi) (T 4.28), kept in a region (T Algorithm 1).
+
+        Args:
+            reference: The plan now.
+            dcm: Measured DCM (2,) in m.
+            region: Convex polygon (k, 2) in the world frame, counter-clockwise, in which p_d has to lie: the support
+                polygon less its safety offset; empty leaves p_d free.
+
+        Returns:
+            Desired ZMP (2,) in m.
+        """
+        zmp: NDArray[np.float64] = self._feedback.desired(reference.vrp, reference.dcm, dcm, region)
+        return zmp
+
+    def update(
+        self,
+        reference: LipReference,
+        dcm: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        region: NDArray[np.float64],
+    ) -> BalanceState:
+        """Decide on CoM and ZMP (see `plantar.gait.balance.law.BalanceLaw`).
+
+        Args:
+            reference: The plan now.
+            dcm: Measured DCM (2,) in m.
+            zmp: Measured ZMP (2,) in m, or None where no foot carries load.
+            region: Where the desired ZMP has to lie (see `desired_zmp`).
+
+        Returns:
+            The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
+        """
+        plan = reference
+        return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
+
+    def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
+        """Load transfer by the plan; the feet do not give way.
+
+        Args:
+            balanced: What `update` decided.
+            feet: The feet.
+
+        Returns:
+            What each foot shall carry.
+        """
+        return transferred(balanced, self.mass, feet)

@@ -1,0 +1,33 @@
+"""Load transfer by the plan: the pendulum's force, shared between the feet by where the desired ZMP lies."""
+
+from __future__ import annotations
+
+from plantar.gait.balance.law import BalanceState, Feet, FootAction
+from plantar.kernels.gait.load_transfer import shared_load
+from plantar.mechanics.lip import GRAVITY
+from plantar.sides import Side
+
+__all__ = ["transferred"]
+
+
+def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, FootAction]:
+    """Share the force of the pendulum, m (a_x, a_y, g), between the feet.
+
+    In single support the stance foot carries all of it. In double support the desired ZMP, projected onto the line
+    between the feet's centres, gives the shares; what it lies beside that line is realised by each foot's own centre
+    of pressure, so that the two together make the desired ZMP.
+
+    Args:
+        balanced: Desired ZMP and CoM acceleration.
+        mass: Robot mass in kg.
+        feet: The feet.
+
+    Returns:
+        What each foot shall carry.
+    """
+    left, right, zmp = feet.states["left"], feet.states["right"], feet.frame.to_command(balanced.zmp_desired)
+    stance = 0 if feet.stance is None else 1 if feet.stance == "left" else 2
+    force, place, other_force, other_place = shared_load(
+        zmp, balanced.com_acceleration, mass, GRAVITY, left, right, stance
+    )
+    return {"left": FootAction(force, place), "right": FootAction(other_force, other_place)}

@@ -1,0 +1,62 @@
+"""No feedback: the plan as it is, for a walk in open loop and for ticks before the estimate has settled."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.balance.law import BalanceState, Feet, FootAction
+from plantar.gait.balance.load_transfer import transferred
+from plantar.gait.plan.vrp_plan import LipReference
+from plantar.sides import Side
+
+__all__ = ["OpenLoop"]
+
+
+class OpenLoop:
+    """Follows the plan, whatever is measured (see `plantar.gait.balance.law.BalanceLaw`).
+
+    Args:
+        mass: Robot mass in kg.
+    """
+
+    wants_contacts = False
+
+    def __init__(self, mass: float) -> None:
+        self.mass = mass
+        self.states: Counter[str] = Counter()
+
+    def update(
+        self,
+        reference: LipReference,
+        dcm: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        region: NDArray[np.float64],
+    ) -> BalanceState:
+        """Take the plan's VRP for the desired ZMP.
+
+        Args:
+            reference: The plan now.
+            dcm: Measured DCM (2,) in m; it does not matter.
+            zmp: Measured ZMP (2,) in m; nor does it.
+            region: Where the desired ZMP has to lie; nor does it.
+
+        Returns:
+            The plan.
+        """
+        return BalanceState(reference.vrp, reference.com, reference.com_velocity, reference.com_acceleration)
+
+    def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
+        """Load transfer by the plan.
+
+        Args:
+            balanced: What `update` took over.
+            feet: The feet.
+
+        Returns:
+            What each foot shall carry.
+        """
+        return transferred(balanced, self.mass, feet)

@@ -1,0 +1,217 @@
+"""Balance by distributing the ground's wrench over the feet: DCM feedback, wrench distribution and foot admittance.
+
+After Caron et al. 2019 (T 4.4.4): the DCM error, proportional and integral, asks for a net wrench; a quadratic program
+shares it between the feet, each within the cone of what it stands on; ankles and legs yield until the soles feel their
+shares; the CoM reference gives way a little to what is left of the ZMP error.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import field, replace
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError, PlantarError
+from plantar.gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
+from plantar.gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
+from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
+from plantar.gait.plan.vrp_plan import LipReference
+from plantar.kernels.gait.dcm_feedback import DcmFeedback
+from plantar.kernels.gait.sole_admittance import SoleAdmittance
+from plantar.kernels.gait.sole_targets import pressed
+from plantar.layouts.layout import Side
+from plantar.mechanics.contact import Contact
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.settings.schema import Setting, Settings, number, share
+from plantar.settings.unknown_keys import refuse_unknown_keys
+
+__all__ = ["WrenchBalance", "WrenchBalanceGains"]
+
+_NO_WRENCH = np.zeros(6)
+_LENGTH = 1 / 6  # leg: lever that makes moments as large as forces in the distribution; 0.1 m for a leg of 0.6 m
+
+
+class WrenchBalanceGains(Settings):
+    """Gains of the law.
+
+    Attributes:
+        dcm_gain: k_xi of T 4.18 in 1/s.
+        dcm_integral: Gain in 1/s of the integral of the DCM error on the desired ZMP.
+        dcm_forgetting: Rate in 1/s at which that integral forgets.
+        largest_integral: Largest part in m that the integral may have in the desired ZMP.
+        zmp_gain: How fast the CoM reference yields to a ZMP error, in 1/s (T 4.29).
+        com_gain: How fast it returns to the plan, in 1/s (T 4.29).
+        zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
+        zmp_offset: Inner offset in m that the desired ZMP keeps from the support polygon's edge.
+        minimum_force: Least normal force in N of a foot that stands.
+        feet: Gains of the feet's admittance.
+    """
+
+    dcm_gain: float = share(0.742, "1/beat", 0, 50)
+    dcm_integral: float = number(0.0, "1/s", 0, 50)
+    dcm_forgetting: float = share(0.0247, "1/beat", 0, 50)
+    largest_integral: float = share(0.13, "sole", 0, 0.2)
+    zmp_gain: float = number(0.0, "1/s", 0, 50)
+    com_gain: float = share(0.247, "1/beat", 0, 50)
+    zmp_filter: float = share(0.0809, "beat", 0, 1)
+    zmp_offset: float = share(0.065, "sole", 0, 0.1)
+    minimum_force: float = share(0.0178, "weight", 0, 10000)
+    feet: AdmittanceGains = field(default_factory=AdmittanceGains)
+
+    @classmethod
+    def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
+        """Make the gains of the law and of the feet's admittance from one table.
+
+        Args:
+            table: Values by name, of either class.
+            where: Name of the table, for messages.
+            error: What is raised.
+            note: On what it depends which keys are allowed, for messages.
+
+        Returns:
+            The gains.
+        """
+        refuse_unknown_keys(table, cls.names(), where, error, note)
+        feet = {k: v for k, v in table.items() if k in AdmittanceGains.names()}
+        own = {k: v for k, v in table.items() if k not in feet}
+        return replace(super().from_table(own, where, error), feet=AdmittanceGains.from_table(feet, where, error))
+
+    @classmethod
+    def names(cls) -> tuple[str, ...]:
+        """Names of the settings of the law, and of those of the feet's admittance, that a table may give."""
+        return (*super().names(), *AdmittanceGains.names())
+
+    @classmethod
+    def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
+        """What there is to say of each setting of the law and of the feet's admittance, for a body."""
+        return (*super().described(body), *AdmittanceGains.described(body))
+
+
+class WrenchBalance:
+    """DCM feedback, wrench distribution and foot admittance.
+
+    Attributes:
+        states: How often the distribution ended in which state.
+
+    Args:
+        gains: Gains of the law.
+        omega: Pendulum frequency in rad/s.
+        mass: Mass of the robot in kg.
+        period: Control period in s.
+        weights: Weights of the distribution.
+    """
+
+    wants_contacts = True
+
+    def __init__(
+        self,
+        gains: WrenchBalanceGains,
+        omega: float,
+        mass: float,
+        period: float,
+        weights: DistributionWeights | None = None,
+    ) -> None:
+        self.gains = gains
+        self.omega = omega
+        self.mass = mass
+        self.period = period
+        self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force, _LENGTH * gains.body.leg)
+        self.feet = FootAdmittance(gains.feet, period)
+        self.states: Counter[str] = Counter()
+        largest = LARGEST_OFFSET * gains.body.leg
+        admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
+        # T 4.18 with an integral that forgets; it stands still while the region holds the desired ZMP back.
+        integral = (gains.dcm_integral, gains.dcm_forgetting, gains.largest_integral)
+        yields = gains.zmp_gain > 0.0
+        self._feedback = DcmFeedback(omega, gains.dcm_gain, integral, period, admittance, yields, False)
+
+    def update(
+        self,
+        reference: LipReference,
+        dcm: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        region: NDArray[np.float64],
+    ) -> BalanceState:
+        """Decide on CoM and ZMP (see `plantar.gait.balance.law.BalanceLaw`).
+
+        Args:
+            reference: The plan now.
+            dcm: Measured DCM (2,) in m.
+            zmp: Measured ZMP (2,) in m, or None where no foot carries load.
+            region: Convex polygon (k, 2) in which the desired ZMP has to lie; empty leaves it free.
+
+        Returns:
+            Desired ZMP and CoM reference.
+        """
+        plan = reference
+        return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
+
+    def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
+        """Share the pendulum's wrench between the feet that stand, and let them give way.
+
+        Args:
+            balanced: What `update` decided.
+            feet: The feet.
+
+        Returns:
+            What each foot shall carry and how it gives way.
+        """
+        states, wanted = feet.states, self.distributed(balanced, feet)
+        measured = {side: foot.wrench for side, foot in states.items() if foot.wrench is not None}
+        corrections = self.feet.update(wanted, measured)
+        return {
+            side: _action(wanted.get(side, _NO_WRENCH), states[side], correction)
+            for side, correction in corrections.items()
+        }
+
+    def distributed(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, NDArray[np.float64]]:
+        """Distribute the pendulum's wrench over the feet that stand.
+
+        Args:
+            balanced: What `update` decided.
+            feet: The feet.
+
+        Returns:
+            Wrench (6,) in its sole frame about its origin that each foot that stands shall feel, by the world on it.
+        """
+        contacts: dict[str, Contact] = {
+            side: foot.contact for side, foot in feet.states.items() if foot.contact is not None
+        }
+        (ax, ay), (x, y) = balanced.com_acceleration.tolist(), balanced.zmp_desired.tolist()
+        shares: dict[str, float] | None = None
+        ground = 0.0
+        if len(contacts) == 2:
+            (one, first), (other, second) = contacts.items()
+            here, there = first.center_in_world, second.center_in_world
+            ground = (here[2] + there[2]) / 2
+            share = _share(x, y, here, there)
+            shares = {one: share, other: 1.0 - share}
+        else:
+            for contact in contacts.values():
+                ground = contact.center_in_world[2]
+        # Along the line from the ZMP to the CoM: no moment about the ZMP.
+        wrench = (self.mass * ax, self.mass * ay, self.mass * GRAVITY, 0.0, 0.0, 0.0)
+        found = self.distribution.solve(contacts, wrench, (x, y, ground), shares)
+        self.states[str(found.state)] += 1
+        return found.wrenches  # type: ignore[return-value]  # of the same names as the contacts
+
+
+def _action(wrench: NDArray[np.float64], foot: FootState, correction: SoleAdmittance) -> FootAction:
+    """A wrench in the sole frame as a force at its centre of pressure, and how the foot gives way."""
+    force, place = pressed(wrench, foot.level, foot.position, foot.center)
+    return FootAction(force, place, correction.roll, correction.pitch, correction.shift)
+
+
+def _share(x: float, y: float, first: tuple[float, ...], second: tuple[float, ...]) -> float:
+    """Share of the first of two points in a ZMP (x, y) between them, 0 to 1."""
+    dx, dy = first[0] - second[0], first[1] - second[1]
+    length = dx * dx + dy * dy
+    if length == 0.0:
+        return 0.5
+    return min(1.0, max(0.0, ((x - second[0]) * dx + (y - second[1]) * dy) / length))

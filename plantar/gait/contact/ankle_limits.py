@@ -1,0 +1,77 @@
+"""What part of a foothold a foot can carry the body on alone: as far from its ankle as the ankle's torque reaches.
+
+A robot of weight W that stands with its ZMP at p on one foot has the torque a . ((p - c) x W e_z) on a joint of the
+ankle with axis a through c. Where that passes the joint's limit the foot turns about the joint, and the ZMP does not
+get there, whatever the ground could carry: on a stone under the toes alone that happens before it is at its middle.
+
+Where a robot is to be loaded at all because its ankles are weak is another matter, which its file decides
+(`plantar.gait.contact.ankle_reach`); here is what the balance law may ask of the foot that carries alone, of any robot.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.geometry.polygon import area, centroid, inner_offset, part_inside
+
+__all__ = ["AnkleLimits"]
+
+_SHARE = 0.95
+"""Share of the torque limit that the weight may take; the rest is for the foot's own motion and the feedback."""
+
+
+class AnkleLimits:
+    """Where one foot can carry the body.
+
+    Args:
+        strips: Strips (m, 4) in the sole frame in which the ankle is within its limits, one for each of its joints: a
+            unit normal (x, y), and the middle and half width of the strip along it in m.
+        margin: Distance in m that the desired ZMP keeps from the edge of a support polygon.
+    """
+
+    def __init__(self, strips: NDArray[np.float64], margin: float) -> None:
+        normal, middle, reach = strips[:, :2], strips[:, 2:3], _SHARE * strips[:, 3:]
+        # |n . x - middle| <= reach as two half-planes n . x <= h.
+        lines = np.vstack([np.hstack([normal, middle + reach]), np.hstack([-normal, reach - middle])])
+        self._lines: list[list[float]] = lines.tolist()
+        self._margin = margin
+
+    def within(self, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What a foot that carries alone may use of what it stands on.
+
+        Args:
+            polygon: Support polygon (k, 2) in the sole frame in m, counter-clockwise.
+
+        Returns:
+            The part (j, 2) of it which, moved inwards by the margin, ends where the ankle's reach does; all of it where
+            nothing would be left.
+        """
+        left = self._cut(polygon, self._margin)
+        return left if area(left) > 0.0 else polygon
+
+    def center(self, polygon: NDArray[np.float64], center: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where it is best loaded.
+
+        Args:
+            polygon: Support polygon (k, 2) in the sole frame in m, counter-clockwise.
+            center: Where it would be best loaded by a strong ankle: its centroid (2,) in m.
+
+        Returns:
+            That where the ankle reaches all of it, else the centroid (2,) of where the desired ZMP may lie; of what the
+            ankle reaches of a polygon that is too narrow for that.
+        """
+        reached = self._cut(polygon)
+        if area(reached) >= area(polygon) * (1.0 - 1e-9):
+            return center
+        for left in (self._cut(inner_offset(polygon, self._margin)), reached):
+            found = centroid(left) if area(left) > 0.0 else None
+            if found is not None:
+                return found
+        return center
+
+    def _cut(self, polygon: NDArray[np.float64], margin: float = 0.0) -> NDArray[np.float64]:
+        """What of a polygon (k, 2) lies within the limits, or up to a margin in m outside of them."""
+        for x, y, h in self._lines:
+            polygon = part_inside(polygon, x, y, h + margin)
+        return polygon

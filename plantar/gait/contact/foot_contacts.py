@@ -1,0 +1,327 @@
+"""What both feet stand on, and what a foot that comes down will stand on: found by their soles (T 4.4.2-4.4.3).
+
+This is perception: what is to be done about a foothold that is not what was planned is for `plantar.gait.propose` to
+say.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.contact.ankle_limits import AnkleLimits
+from plantar.gait.contact.ankle_reach import borne_part, loaded_middle
+from plantar.gait.contact.edge_memory import EdgeMemory
+from plantar.gait.contact.stance_contact import ContactSettings, StanceContact
+from plantar.gait.estimate.sole_slope import SoleSlope
+from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.phases import Phase, PhaseKind
+from plantar.geometry.polygon import inner_offset
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.base_state import BaseState
+from plantar.mechanics.rotation import level_rotation
+from plantar.percepts.percept import Percept
+from plantar.percepts.support import feet_support_polygon, polygon_in_world
+from plantar.sides import SIDES, Side
+
+__all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole"]
+
+
+def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
+    """Where the VRP lies over a whole foothold: see `plantar.gait.contact.ankle_reach.loaded_middle`.
+
+    Args:
+        layout: The sole.
+        reach: How far in m from the sole frame's origin, along the sole, the ankle bears the robot.
+
+    Returns:
+        Its place (2,) in the sole frame in m.
+    """
+    return loaded_middle(layout.outline, reach)
+
+
+@dataclass(frozen=True)
+class FootholdFound:
+    """What a foot was found to stand on.
+
+    Attributes:
+        step: The step that put it down.
+        side: Which foot.
+        polygon: Support polygon (k, 2) in the world in m, counter-clockwise.
+        area_ratio: Its share of the sole's cells.
+        vrp: VRP (2,) over it in the world in m.
+        middle: Its centroid (2,) in the world in m, which is the VRP unless the ankle bears the robot on a part of it.
+        whole: Whether it carries the whole sole.
+        as_planned: Whether it carries the whole sole, and nothing else was found before.
+        seen: Whether the sole saw it before it touched; of what loads alone show, another edge may be found yet.
+    """
+
+    step: int
+    side: Side
+    polygon: NDArray[np.float64]
+    area_ratio: float
+    vrp: NDArray[np.float64]
+    middle: NDArray[np.float64]
+    whole: bool = False
+    as_planned: bool = False
+    seen: bool = True
+
+
+@dataclass(frozen=True)
+class FootholdSeen:
+    """What a foot that comes down was seen to stand on soon, where that is not the whole sole.
+
+    Attributes:
+        step: The step that puts it down.
+        side: Which foot.
+        vrp: VRP (2,) over it in the world in m.
+    """
+
+    step: int
+    side: Side
+    vrp: NDArray[np.float64]
+
+
+@dataclass
+class _Foot:
+    """One foot of the walk: its taxels' view, where its foothold is loaded (2,) and on what (k, 2) its ankle bears the
+    robot, both in the sole, the same in the world where the foothold is known, what (k, 2) of that carries the robot
+    alone within the ankle's limits, and the step that put it down."""
+
+    contact: StanceContact
+    center: NDArray[np.float64]
+    borne: NDArray[np.float64]
+    support: NDArray[np.float64] | None = None
+    alone: NDArray[np.float64] | None = None
+    step: int | None = None
+
+
+class FootContacts:
+    """Contacts of both feet.
+
+    Args:
+        settings: How the contact polygon is found from the taxels.
+        layouts: Sole layout of each side.
+        reach: How far in m from the sole frame's origin, along the sole, an ankle bears the robot.
+        limits: Where each foot carries the body alone within its ankle's torque limits; anywhere where not given.
+    """
+
+    def __init__(
+        self,
+        settings: ContactSettings,
+        layouts: Mapping[Side, SoleLayout],
+        reach: float = math.inf,
+        limits: Mapping[Side, AnkleLimits] | None = None,
+    ) -> None:
+        self._settings = settings
+        self._reach = reach
+        self._limits = limits or {}
+        self._middle = {side: middle_of_sole(layouts[side], reach) for side in SIDES}
+        self._borne = {side: borne_part(layouts[side].outline, reach) for side in SIDES}
+        self._alone = {side: self._within_limits(side, self._borne[side]) for side in SIDES}
+        self._feet = {
+            side: _Foot(StanceContact(layouts[side], settings), self._middle[side], self._borne[side]) for side in SIDES
+        }
+        self._edges = EdgeMemory(settings.body)
+        self._foreseen = -1
+        self._region_of: list[object] = []
+        self._region = np.empty((0, 2))
+
+    def center(self, side: Side) -> NDArray[np.float64]:
+        """Where (2,) a foot's foothold is loaded in its sole frame in m; the whole sole while it is not known."""
+        return self._feet[side].center
+
+    def polygon(self, side: Side) -> NDArray[np.float64]:
+        """What (k, 2) of a foot's foothold its ankle bears the robot on, in its sole frame in m; of the whole sole
+        while it is not known."""
+        return self._feet[side].borne
+
+    def lift_off(self, side: Side, step: int) -> None:
+        """A swing begins: what its foot stood on no longer counts, where it will stand is not known.
+
+        Args:
+            side: Which foot.
+            step: The step that it takes.
+        """
+        foot = self._feet[side]
+        foot.contact.lift()
+        foot.support = foot.alone = None
+        foot.center, foot.borne = self._middle[side], self._borne[side]
+        foot.step = step
+
+    def bear_inside(self, side: Side, distance: float) -> None:
+        """Let a foot that has just landed carry nearer to the robot's middle.
+
+        Args:
+            side: Which foot.
+            distance: How far along the sole's y axis in m.
+        """
+        self._feet[side].center = self._middle[side] + np.array([0.0, distance])
+
+    def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
+        """Feet that take the weight over, or have landed and wait for it. (Later a foot's load wanders, and the ground
+        under it stays.)
+
+        Args:
+            phase: Phase of the walk.
+            time: Time in s.
+            feet: Where the feet are.
+
+        Returns:
+            Their sides, left first.
+        """
+        early = phase.kind == PhaseKind.SINGLE_SUPPORT and time < phase.start + self._settings.watch
+        sides: list[Side] = []
+        for side in SIDES:
+            step = self._feet[side].step
+            taking_over = step == phase.step - 1 and (phase.kind == PhaseKind.DOUBLE_SUPPORT or early)
+            if step is not None and (taking_over or (phase.swing == side and feet.landed)):
+                sides.append(side)
+        return sides
+
+    def find_ahead(
+        self, phase: Phase, time: float, feet: FeetView, state: BaseState, soles: Mapping[Side, Percept]
+    ) -> FootholdSeen | None:
+        """What the swing foot will stand on, from what its taxels see; told once for each step.
+
+        Args:
+            phase: Phase of the walk.
+            time: Time in s.
+            feet: Where the feet are.
+            state: Estimated state.
+            soles: What each sole sees.
+
+        Returns:
+            The foothold, where it is seen now and not whole.
+        """
+        side = phase.swing
+        if side is None or feet.landed:
+            return None
+        contact, rules = self._feet[side].contact, self._settings
+        contact.update_view(soles[side].reading)
+        if self._foreseen == phase.step or math.hypot(*feet.ahead.tolist()) > rules.foresee_reach:
+            return None
+        if phase.end - time < rules.foresee_least:
+            return None
+        turn = state.rotations_sole[side][:2, :2]
+        ground = contact.foresee(turn.T @ feet.ahead)
+        if ground is None:
+            return None
+        self._foreseen = phase.step
+        center = self._center(side, ground)
+        return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
+
+    def find(
+        self,
+        phase: Phase,
+        time: float,
+        feet: FeetView,
+        state: BaseState,
+        soles: Mapping[Side, Percept],
+        slope: SoleSlope | None = None,
+    ) -> tuple[FootholdFound, ...]:
+        """What the feet that come to carry stand on; told when it is found, and when it becomes another.
+
+        Args:
+            phase: Phase of the walk.
+            time: Time in s.
+            feet: Where the feet are.
+            state: Estimated state.
+            soles: What each sole senses.
+            slope: How each sole is turned against the ground, where that is followed.
+
+        Returns:
+            The footholds.
+        """
+        found = []
+        for side in self.coming_to_carry(phase, time, feet):
+            rises = None if slope is None else slope.slope(side)
+            if rises is not None and self._settings.remember:
+                self._remember(side, state)
+            if self._feet[side].contact.update(soles[side].reading, state.loads[side], rises):
+                found.append(self._taken(side, state))
+        return tuple(found)
+
+    def _remember(self, side: Side, state: BaseState) -> None:
+        """Let a foot that lands presume that the ground of the foothold before goes on under it."""
+        foot = self._feet[side]
+        if foot.step is not None and not foot.contact.settled:
+            place, turn = state.positions_sole[side], state.rotations_sole[side]
+            foot.contact.expect(self._edges.expected(foot.step, place, turn))
+
+    def _taken(self, side: Side, state: BaseState) -> FootholdFound:
+        """Take over what a landed foot stands on."""
+        foot, contact = self._feet[side], self._feet[side].contact
+        assert foot.step is not None
+        known = foot.support is not None
+        position, rotation = state.positions_sole[side], state.rotations_sole[side]
+        self._edges.update(foot.step, contact.lines, contact.center_in_sole, position, rotation)
+        polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
+        center = self._center(side, contact.polygon_in_sole)
+        vrp, middle = ((position + rotation[:, :2] @ place)[:2] for place in (center, contact.center_in_sole))
+        as_planned = contact.whole and not known
+        if not as_planned:
+            foot.center, foot.borne = center, borne_part(contact.polygon_in_sole, self._reach)
+            every = foot.borne is contact.polygon_in_sole
+            foot.support = polygon if every else polygon_in_world(foot.borne, rotation, position)
+            foot.alone = polygon_in_world(self._within_limits(side, foot.borne), rotation, position)
+        ratio, whole, seen = contact.area_ratio, contact.whole, contact.seen
+        return FootholdFound(foot.step, side, polygon, ratio, vrp, middle, whole, as_planned, seen)
+
+    def _within_limits(self, side: Side, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What of a support polygon (k, 2) in the sole frame carries the robot alone within the ankle's limits."""
+        limits = self._limits.get(side)
+        return polygon if limits is None else limits.within(polygon)
+
+    def _center(self, side: Side, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where (2,) a part (k, 2) of a sole is best loaded, both in the sole frame."""
+        center, limits = loaded_middle(polygon, self._reach), self._limits.get(side)
+        weak = borne_part(polygon, self._reach) is not polygon  # such an ankle is loaded midway already
+        return center if limits is None or weak else limits.center(polygon, center)
+
+    def zmp_region(
+        self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float
+    ) -> NDArray[np.float64]:
+        """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, moved inwards.
+
+        A foot whose support is not known counts with its whole sole at its commanded place; one that stands alone
+        counts as far as its ankle's torque limits let it. (Two feet share the weight, and reach farther.) The region is
+        made anew only when a foot comes, goes or moves, or another support is found.
+
+        Args:
+            phase: Phase of the walk.
+            feet: Where the feet are commanded.
+            frame_offset: Offset (3,) of the commanded feet's frame in the world in m.
+            margin: Distance in m that the desired ZMP keeps from the edge.
+
+        Returns:
+            Convex polygon (k, 2) in the world in m, counter-clockwise.
+        """
+        standing = [s for s in SIDES if feet.landed or phase.swing != s]
+        alone = len(standing) == 1
+        places: list[object] = [alone]
+        for side in standing:
+            position, yaw = feet.footholds[side]
+            support = self._feet[side].support
+            places.append((side, float(position[0]), float(position[1]), yaw) if support is None else id(support))
+        if places != self._region_of:
+            parts = []
+            for side in standing:
+                foot = self._feet[side]
+                support = foot.alone if alone else foot.support
+                if support is None:
+                    position, yaw = feet.footholds[side]
+                    support = polygon_in_world(
+                        (self._alone if alone else self._borne)[side],
+                        level_rotation(yaw),
+                        np.array([position[0], position[1], 0.0]) + np.array(frame_offset),
+                    )
+                parts.append(support)
+            self._region = inner_offset(feet_support_polygon(parts), margin)
+            self._region.flags.writeable = False
+            self._region_of = places
+        return self._region

@@ -1,0 +1,52 @@
+"""Offset of the CoM from the model's, by where the ground carries a robot that stands still: under its CoM.
+
+A CoM that is elsewhere, a base that is elsewhere over its feet because encoders err, and taxels whose gains differ all
+show alike: as a ZMP beside the model's CoM. For balance they are alike, too. Its height does not show.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.estimate.estimator import Posture
+from plantar.mechanics.rotation import level_rotation
+from plantar.mechanics.wrench import Wrench
+from plantar.mechanics.zmp import zmp_of_feet
+from plantar.sides import SIDES, Side
+
+__all__ = ["com_offset"]
+
+
+def com_offset(
+    posture: Posture,
+    rotation: NDArray[np.float64],
+    feet: Mapping[Side, tuple[float, float, float, float]],
+    wrenches: Mapping[Side, NDArray[np.float64]],
+) -> NDArray[np.float64]:
+    """By how much the CoM of a robot that stands still is elsewhere than its model says.
+
+    Args:
+        posture: Its posture.
+        rotation: Rotation (3, 3) from the base frame to the world.
+        feet: Where each sole stands, flat: x, y, z in m and heading in rad.
+        wrenches: Wrench (6,) on each sole in its own frame in N and N m.
+
+    Returns:
+        Horizontal offset (3,) in the base frame in m; none of a robot that nothing carries.
+    """
+    points: list[NDArray[np.float64] | None] = []
+    bases: list[NDArray[np.float64]] = []
+    for side in SIDES:
+        x, y, z, yaw = feet[side]
+        cop = Wrench.of(wrenches[side]).center_of_pressure
+        points.append(None if cop is None else np.array([x, y]) + level_rotation(yaw)[:2, :2] @ np.array(cop))
+        bases.append(np.array([x, y, z]) - rotation @ posture.positions[side])
+    zmp = zmp_of_feet(points, [float(wrenches[side][2]) for side in SIDES])
+    if zmp is None:
+        return np.zeros(3)
+    com = np.mean(bases, axis=0) + rotation @ posture.com
+    beside = np.array([*(zmp - com[:2]).tolist(), 0.0])
+    return np.asarray(rotation.T @ beside)

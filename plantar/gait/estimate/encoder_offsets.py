@@ -1,0 +1,141 @@
+"""Errors of the encoders' zeros, by two feet that stand flat on the ground at known places.
+
+Both legs make a loop through the ground. Six equations say where one sole is against the other, two more which way
+the soles are against gravity, which the accelerometer measures. The unknowns are an offset a joint and the pose of the
+base. Four combinations of offsets stay unseen, those that move the base against both feet without tilting it; of them,
+as of all, the smallest that explain what is measured are taken. What is left of those is a base that is some
+millimetres elsewhere over its feet. It shows as a CoM that is elsewhere, and is identified as such
+(`plantar.gait.estimate.com_offset`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.mechanics.rotation import heading, level_rotation, orthonormalised, rotation_from_vector, sine_vector
+from plantar.sides import SIDES, Side
+
+__all__ = ["StandingTolerances", "encoder_offsets", "standing_base"]
+
+_STEP = 1e-4  # rad of a joint over which its effect on the soles is differenced; their motion is nearly linear
+_ITERATIONS = 3  # Gauss-Newton steps; offsets of a degree are found to 1e-9 rad by the second one
+
+
+class _Posture(Protocol):
+    @property
+    def positions(self) -> Mapping[Side, NDArray[np.float64]]: ...
+
+    @property
+    def rotations(self) -> Mapping[Side, NDArray[np.float64]]: ...
+
+
+class StandingTolerances(NamedTuple):
+    """Standard deviations by which what is known of a standing robot is weighed.
+
+    Attributes:
+        offset: Of an encoder's zero in rad: how well joints are calibrated.
+        place: Of each coordinate of a foot that stands at a known place in m.
+        turn: Of each angle of a sole against flat ground, and of the accelerometer's mean against gravity, in rad.
+    """
+
+    offset: float
+    place: float
+    turn: float
+
+
+def encoder_offsets(
+    kinematics: Callable[[NDArray[np.float64]], _Posture],
+    joint_positions: NDArray[np.float64],
+    up: NDArray[np.float64],
+    feet: Mapping[Side, tuple[float, float, float, float]],
+    tolerances: StandingTolerances,
+) -> NDArray[np.float64]:
+    """The offsets that explain best how a standing robot's joints are read.
+
+    Args:
+        kinematics: Posture of joint positions (k,) in rad: position (3,) in m and rotation (3, 3) of each sole in the
+            base frame.
+        joint_positions: Mean encoder readings (k,) in rad.
+        up: Unit vector (3,) against gravity in the base frame.
+        feet: Where each sole stands: x, y, z in m and heading in rad.
+        tolerances: How well all of it is known.
+
+    Returns:
+        What each encoder reads too much (k,) in rad.
+    """
+    k = len(joint_positions)
+    offsets = np.zeros(k)
+    rotation, position = standing_base(kinematics(joint_positions), up, feet)
+    for _ in range(_ITERATIONS):
+        posture, moved, turned = _differenced(kinematics, joint_positions - offsets)
+        rows: list[NDArray[np.float64]] = []
+        errors: list[NDArray[np.float64]] = []
+        for side in SIDES:
+            x, y, z, yaw = feet[side]
+            arm = rotation @ posture.positions[side]
+            rows.append(np.hstack([-rotation @ moved[side], -_cross(arm), np.eye(3)]) / tolerances.place)
+            errors.append((position + arm - np.array([x, y, z])) / tolerances.place)
+            lean = sine_vector(rotation @ posture.rotations[side] @ level_rotation(yaw).T)
+            rows.append(np.hstack([-rotation @ turned[side], np.eye(3), np.zeros((3, 3))]) / tolerances.turn)
+            errors.append(lean / tolerances.turn)
+        above = rotation @ up
+        rows.append(np.hstack([np.zeros((2, k)), -_cross(above)[:2], np.zeros((2, 3))]) / tolerances.turn)
+        errors.append(above[:2] / tolerances.turn)
+        rows.append(np.hstack([np.eye(k), np.zeros((k, 6))]) / tolerances.offset)
+        errors.append(offsets / tolerances.offset)
+        step = np.asarray(np.linalg.lstsq(np.vstack(rows), -np.concatenate(errors), rcond=None)[0], dtype=np.float64)
+        offsets = offsets + step[:k]
+        rotation = orthonormalised(rotation_from_vector(step[k : k + 3]) @ rotation)
+        position = position + step[k + 3 :]
+    return offsets
+
+
+def standing_base(
+    posture: _Posture, up: NDArray[np.float64], feet: Mapping[Side, tuple[float, float, float, float]]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Where the base of a robot is that stands on known footholds: level by gravity, headed along and over its feet.
+
+    Args:
+        posture: Position (3,) in m and rotation (3, 3) of each sole in the base frame.
+        up: Unit vector (3,) against gravity in the base frame.
+        feet: Where each sole stands: x, y, z in m and heading in rad.
+
+    Returns:
+        Rotation (3, 3) from the base frame to the world, and the base's position (3,) in m.
+    """
+    forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
+    forward /= float(np.linalg.norm(forward))
+    level = np.vstack([forward, np.cross(up, forward), up])
+    # Mean of two headings as a mean of unit vectors: that of the angles is wrong across +-pi.
+    turns = [feet[side][3] - heading(level @ posture.rotations[side]) for side in SIDES]
+    rotation = level_rotation(math.atan2(sum(map(math.sin, turns)), sum(map(math.cos, turns)))) @ level
+    places = [np.array(feet[side][:3]) - rotation @ posture.positions[side] for side in SIDES]
+    return rotation, np.mean(places, axis=0)
+
+
+def _differenced(
+    kinematics: Callable[[NDArray[np.float64]], _Posture], joints: NDArray[np.float64]
+) -> tuple[_Posture, dict[Side, NDArray[np.float64]], dict[Side, NDArray[np.float64]]]:
+    """A posture, and how each sole moves (3, k) in m/rad and turns (3, k) in the base frame with each joint."""
+    posture = kinematics(joints)
+    moved: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}
+    turned: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}
+    for i in range(len(joints)):
+        bent = joints.copy()
+        bent[i] += _STEP
+        other = kinematics(bent)
+        for side in SIDES:
+            moved[side][:, i] = (other.positions[side] - posture.positions[side]) / _STEP
+            turned[side][:, i] = sine_vector(other.rotations[side] @ posture.rotations[side].T) / _STEP
+    return posture, moved, turned
+
+
+def _cross(v: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Matrix (3, 3) of the cross product with a vector from the left."""
+    x, y, z = v.tolist()
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -1,0 +1,298 @@
+"""Floating-base state from what the robot has: joint encoders, IMU and the soles' readings.
+
+Orientation: the gyro is integrated, less its bias where that is identified; gravity, freed from the acceleration that
+the plan asks for, corrects roll and pitch slowly, and the heading of the loaded feet corrects yaw. (The pendulum's own
+estimate of the acceleration would not do: a wrong tilt moves the estimated CoM over the feet by just what makes it
+agree with the accelerometer.)
+
+Position: the material point of each loaded sole that lies at its centre of pressure does not move, so the base moves
+by what the leg's kinematics say, weighted by load; a foot that rolls about its edge is followed too.
+
+Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the taxels' ZMP p as input and the kinematic
+CoM as measurement, so that no encoder is differentiated. A push on the body, felt or estimated, is another input. A
+Kalman filter (`plantar.gait.estimate.dcm_filter`) may do the same in its place, horizontally.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.gait.estimate.dcm_filter import DcmFilter
+from plantar.gait.estimate.encoder_offsets import standing_base
+from plantar.gait.estimate.gyro_bias import GyroBias
+from plantar.gait.estimate.push_estimate import PushEstimate
+from plantar.gait.estimate.steady_load import SteadyLoad
+from plantar.kernels.gait.floating_base import FloatingBase
+from plantar.layouts.layout import Side
+from plantar.mechanics.base_state import BaseState
+from plantar.mechanics.lip import GRAVITY
+from plantar.record import Record
+from plantar.settings.schema import Settings, share
+from plantar.sides import SIDES
+
+__all__ = [
+    "EstimatorGains",
+    "FloatingBaseEstimator",
+    "LegKinematics",
+    "LiveKinematics",
+    "Posture",
+    "SoleLoad",
+    "live_kinematics",
+]
+
+
+class Posture(Record, frozen=True):
+    """Kinematics of a joint configuration in the base (torso) frame.
+
+    Attributes:
+        com: CoM (3,) in m.
+        positions: Sole frame origin (3,) of each foot in m.
+        rotations: Rotation (3, 3) from each sole frame to the base frame.
+    """
+
+    com: NDArray[np.float64]
+    positions: Mapping[Side, NDArray[np.float64]]
+    rotations: Mapping[Side, NDArray[np.float64]]
+
+
+class SoleLoad(Protocol):
+    """What a sole carries, by its taxels (`plantar.Percept`) or its ankle (`SoleWrench`)."""
+
+    @property
+    def vertical_force(self) -> float:
+        """Vertical force in N."""
+        ...
+
+    @property
+    def position_cop_in_sole(self) -> NDArray[np.float64] | None:
+        """Centre of pressure (2,) in the sole frame in m, None without load."""
+        ...
+
+    @property
+    def wrench_in_sole(self) -> NDArray[np.float64]:
+        """Wrench (6,) about the sole frame's origin."""
+        ...
+
+
+class LegKinematics(Protocol):
+    """What the estimator needs of a robot model."""
+
+    def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """Forward kinematics of joint positions (k,) in rad."""
+        ...
+
+
+@runtime_checkable
+class LiveKinematics(LegKinematics, Protocol):
+    """A robot model that spares its user the copies of each posture."""
+
+    def live_posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """The same as `posture`, in the same arrays at each call, where they hold until the next one of either."""
+        ...
+
+
+def live_kinematics(kinematics: LegKinematics) -> Callable[[NDArray[np.float64]], Posture]:
+    """The quickest forward kinematics of a model, of which a posture is read before the next one is asked for."""
+    return kinematics.live_posture if isinstance(kinematics, LiveKinematics) else kinematics.posture
+
+
+class EstimatorGains(Settings):
+    """Gains of the estimator.
+
+    Attributes:
+        gravity: Roll and pitch correction by the accelerometer in 1/s.
+        averaging: Time in s for which the robot holds still at the start and gravity is averaged.
+        yaw: Heading correction by the loaded feet in 1/s.
+        observer: Bandwidth of the CoM velocity observer in rad/s, more than the pendulum's frequency.
+        tare: Time constant in s with which a foot in the air finds its zero.
+        minimum_load: Vertical force in N that a foot must exceed to count as loaded; above the noise that many unloaded
+            taxels add up to. Feet weigh in with what they carry beyond it.
+    """
+
+    gravity: float = share(0.0495, "1/beat", 0, 50)
+    averaging: float = share(2.02, "beat", 0.01, 10)
+    yaw: float = share(0.495, "1/beat", 0, 50)
+    observer: float = share(4.95, "rad/beat", 0.1, 100)
+    tare: float = share(0.202, "beat", 0.005, 10)
+    minimum_load: float = share(0.083, "weight", 0, 10000)
+
+
+@dataclass
+class FloatingBaseEstimator:
+    """Estimator of the floating base.
+
+    Attributes:
+        kinematics: Forward kinematics of the robot.
+        omega: Pendulum frequency in rad/s.
+        period: Control period in s.
+        feet: Known standing pose (x, y, z, yaw) of each sole at the start.
+        gains: Gains.
+        gyro_bias: Identifies the gyro's bias; None takes the gyro at its word. With it the heading goes by what the
+            gyro has turned more than the legs since the start while feet stood still, so that nothing stays of what a
+            bias turned it before it was known; in between it goes by the gyro less its bias. Without it a foot counts
+            from when it comes to carry.
+        steady: Tells which feet stand still enough to hold the gyro against; None takes all that are loaded.
+        push: Estimates a push on the body from the soles and the IMU; None expects none.
+        dcm_filter: Estimates the horizontal CoM and its velocity; None leaves them to the observer.
+        push_acceleration: Acceleration (2,) of the CoM in m/s^2 that a push gives it at this tick.
+    """
+
+    kinematics: LegKinematics
+    omega: float
+    period: float
+    feet: Mapping[Side, tuple[float, float, float, float]]
+    gains: EstimatorGains = field(default_factory=EstimatorGains)
+    gyro_bias: GyroBias | None = None
+    steady: SteadyLoad | None = None
+    push: PushEstimate | None = None
+    dcm_filter: DcmFilter | None = None
+
+    def __post_init__(self) -> None:
+        gains = self.gains
+        if not gains.observer > self.omega:  # its poles lie at -observer +- omega
+            raise InputError(
+                f"estimator.observer is {gains.observer:g} rad/s; allowed: more than {self.omega:.3g} rad/s, as fast "
+                "as a pendulum of this height falls: what is slower runs away with it"
+            )
+        self._rotation, self._position, self._com, self._velocity = np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3)
+        # The kernel writes the state into these arrays.
+        state = (
+            *(self._rotation, self._position, self._com, self._velocity),
+            *(np.zeros((2, 3)), np.zeros((2, 3, 3)), np.zeros(2), np.zeros(3)),
+        )
+        self._base = FloatingBase(
+            self.omega,
+            self.period,
+            GRAVITY,
+            (gains.averaging, gains.gravity, gains.yaw, gains.observer, gains.minimum_load),
+            state,
+            None if self.gyro_bias is None else self.gyro_bias.kernel,
+            None if self.steady is None else self.steady.kernel,
+        )
+        self._begun = False
+        self._posture = live_kinematics(self.kinematics)
+        self._watched: Posture | None = None
+        self._tare: dict[Side, float] = {"left": 0.0, "right": 0.0}
+        self.push_acceleration = np.zeros(2)
+
+    def update(
+        self,
+        joint_positions: NDArray[np.float64],
+        gyro: NDArray[np.float64],
+        accelerometer: NDArray[np.float64],
+        soles: Mapping[Side, SoleLoad],
+        planned_acceleration: NDArray[np.float64] | None = None,
+        airborne: Side | None = None,
+        felt: NDArray[np.float64] | None = None,
+    ) -> BaseState:
+        """One control tick.
+
+        Args:
+            joint_positions: Encoder readings (k,) in rad.
+            gyro: Angular velocity (3,) of the base in the base frame in rad/s.
+            accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
+            soles: What each sole carries.
+            planned_acceleration: Horizontal CoM acceleration (2,) in m/s^2 that the plan asks for; 0 where None.
+            airborne: Foot that is high in the air by plan: what it reads there becomes its tare.
+            felt: Acceleration (2,) of the CoM in m/s^2 by a push that skin on the body feels; None goes by the soles.
+                Heeded where there is a `push` estimate beside it.
+
+        Returns:
+            The estimated state.
+        """
+        posture = self._posture(joint_positions)
+        if airborne is not None:
+            # The foot is in the air: all that it measures is drift, which is taken off the loads to come.
+            share = min(1.0, self.period / self.gains.tare)
+            self._tare[airborne] += share * (soles[airborne].vertical_force - self._tare[airborne])
+        loads: dict[str, float] = {"left": self._carry(0, "left", soles), "right": self._carry(1, "right", soles)}
+        base = self._base
+        self._watch(posture)
+        if self._begun:
+            planned = (0.0, 0.0) if planned_acceleration is None else planned_acceleration.tolist()
+            zmp = base.follow(*gyro.tolist(), *accelerometer.tolist(), *planned)
+        else:
+            self._begun = True
+            # The robot stands still at the start, so the specific force is gravity alone.
+            base.take()
+            self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
+            zmp = base.place()
+        if self.push is not None:
+            self.push_acceleration = self._pushed(self.push, accelerometer, zmp, felt)
+            base.observe(*self.push_acceleration.tolist())
+        else:
+            base.observe(0.0, 0.0)
+        if self.dcm_filter is not None:
+            self._filter(self.dcm_filter, posture, zmp)
+        rotation, position, com, velocity, left, right, turn_left, turn_right = base.snapshot()
+        return BaseState(
+            rotation,
+            position,
+            com,
+            velocity,
+            zmp,
+            loads,
+            {"left": left, "right": right},
+            {"left": turn_left, "right": turn_right},
+        )
+
+    def _carry(self, index: int, side: Side, soles: Mapping[Side, SoleLoad]) -> float:
+        """Tell the kernel what a foot carries; the load in N."""
+        sole = soles[side]
+        load, point = max(0.0, sole.vertical_force - self._tare[side]), sole.position_cop_in_sole
+        x, y = (0.0, 0.0) if point is None else point.tolist()
+        # Ground never pulls; what the tare leaves below zero is noise.
+        self._base.carry(index, load, point is not None, x, y)
+        return load
+
+    def stand_again(self, joint_positions: NDArray[np.float64]) -> None:
+        """Take the robot to stand on the known footholds again: it has not moved, but its kinematics are known better.
+
+        Args:
+            joint_positions: Encoder readings (k,) in rad.
+        """
+        if not self._begun:
+            return
+        posture = self.kinematics.posture(joint_positions)
+        self._watch(posture)
+        self._base.take()
+        self._stand(posture, self._rotation[2].copy())
+        self._base.rest()
+
+    def _watch(self, posture: Posture) -> None:
+        """Let the kernel read a posture; one that is live it knows already."""
+        if posture is not self._watched:
+            self._watched, places, turns = posture, posture.positions, posture.rotations
+            self._base.watch(posture.com, places["left"], places["right"], turns["left"], turns["right"])
+
+    def _stand(self, posture: Posture, up: NDArray[np.float64]) -> None:
+        """Level the base by a unit vector (3,) against gravity in the base frame, head it along the feet, and stand on
+        the known footholds."""
+        rotation, position = standing_base(posture, up, self.feet)
+        self._base.stand(rotation, position, *(self.feet[side][3] for side in SIDES))
+        if self.dcm_filter is not None:
+            self.dcm_filter.reset()
+
+    def _pushed(
+        self,
+        push: PushEstimate,
+        accelerometer: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        felt: NDArray[np.float64] | None,
+    ) -> NDArray[np.float64]:
+        """The push at this tick: what skin on the body feels of it, else what the soles tell."""
+        pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp)
+        estimated = push.update(self._rotation.dot(accelerometer)[:2], pendulum)
+        return estimated if felt is None else felt
+
+    def _filter(self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None) -> None:
+        """Take the horizontal CoM and its velocity from a filter in the observer's place."""
+        com = self._position + self._rotation.dot(posture.com)
+        told = dcm_filter.update(com[:2], None, zmp, self.push_acceleration / self.omega**2)
+        self._com[:2], self._velocity[:2] = told.com, self.omega * (told.dcm - told.com)

@@ -1,0 +1,168 @@
+"""The robot as it is found to be: kinematics of its model, less what encoders err, with the CoM where it shows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.estimate.com_offset import com_offset
+from plantar.gait.estimate.encoder_offsets import StandingTolerances, encoder_offsets, standing_base
+from plantar.gait.estimate.estimator import LegKinematics, Posture, SoleLoad, live_kinematics
+from plantar.gait.estimate.identification import IdentificationRules
+from plantar.gait.estimate.opening_stand import OpeningStand
+from plantar.sides import Side
+
+__all__ = ["IdentifiedBody"]
+
+_TENTHS_MOST = 2.0  # that the torso leans for: h1 then by 5 degrees, which brings its CoM 3 cm nearer to the hip
+
+_EVEN = 0.03  # share that hips carry more up to which the torso does not lean: what taxels' gains leave uncertain
+_MASS_RATIOS = (0.7, 1.4)  # that are believed of the mass over the model's; beyond, taxels are broken
+
+
+class IdentifiedBody:
+    """Identifies encoder offsets and CoM in the opening stand, and corrects kinematics by them from then on.
+
+    What is measured is corrected at once; what is commanded follows gradually (`joint_offsets`, `com_shift`), as joints
+    that jump by 0.3 degrees would jerk at the ground.
+
+    Attributes:
+        encoder_offsets: What each encoder reads too much (k,) in rad; empty until it is known, and without a stand.
+        com_offset: By how much the CoM is elsewhere than in the model (3,), in the base frame in m.
+        mass_ratio: Mass by the ground's forces over the model's; of many taxels the gains' errors cancel for the most.
+        known: Whether the stand is over and these are known.
+
+    Args:
+        kinematics: Kinematics of the model.
+        weight: Weight of the model in N.
+        feet: Where each sole stands at the start: x, y, z in m and heading in rad.
+        rules: What is identified.
+        period: Control period in s.
+    """
+
+    def __init__(
+        self,
+        kinematics: LegKinematics,
+        weight: float,
+        feet: Mapping[Side, tuple[float, float, float, float]],
+        rules: IdentificationRules,
+        period: float,
+    ) -> None:
+        self.encoder_offsets = np.zeros(0)
+        self.com_offset = np.zeros(3)
+        self.mass_ratio = 1.0
+        self.known = False
+        self._weight = weight
+        self._kinematics = kinematics
+        self._live_posture = live_kinematics(kinematics)
+        self._reads_off = self._lies_off = False  # whether encoders, and the CoM, are known to differ from the model
+        self._com = np.zeros(3)
+        self._corrected: tuple[Posture, Posture] | None = None  # the model's live posture, and the body's
+        self._feet = feet
+        self._rules = rules
+        self._stand = OpeningStand()
+        self._share = self._tenths = 0.0
+        self._step = period / rules.fade
+
+    def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """Forward kinematics of encoder readings (k,) in rad (see `LegKinematics`), as far as is known."""
+        if not self.known:
+            return self._kinematics.posture(joint_positions)
+        read = joint_positions - self.encoder_offsets if len(self.encoder_offsets) else joint_positions
+        posture = self._kinematics.posture(read)
+        return Posture(posture.com + self.com_offset, posture.positions, posture.rotations)
+
+    def live_posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """The same in the same arrays at each call (see `LiveKinematics`)."""
+        read = joint_positions - self.encoder_offsets if self._reads_off else joint_positions
+        posture = self._live_posture(read)
+        if not self._lies_off:
+            return posture
+        corrected = self._corrected
+        if corrected is None or corrected[0] is not posture:
+            corrected = self._corrected = posture, Posture(self._com, posture.positions, posture.rotations)
+        np.add(posture.com, self.com_offset, out=self._com)
+        return corrected[1]
+
+    def stand(
+        self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, SoleLoad]
+    ) -> None:
+        """A tick in which the robot stands still.
+
+        Args:
+            joint_positions: Encoder readings (k,) in rad.
+            accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
+            soles: What each sole carries.
+        """
+        self._stand.update(joint_positions, accelerometer, soles)
+
+    def conclude(self) -> None:
+        """The stand is over: identify by it."""
+        stood, rules = self._stand.mean(), self._rules
+        self.known = True
+        if stood is None:
+            return
+        self.encoder_offsets = np.zeros(len(stood.joint_positions))
+        if rules.encoders:
+            tolerances = StandingTolerances(rules.encoder_error, rules.place_error, rules.turn_error)
+            found = encoder_offsets(self._kinematics.posture, stood.joint_positions, stood.up, self._feet, tolerances)
+            # What noise explains stays out: it would turn the soles of a robot that is as its model says, for good.
+            if float(np.sqrt(np.mean(found**2))) > rules.encoder_least:
+                self.encoder_offsets = _limited(found, float(np.abs(found).max()), rules.encoder_largest)
+        carried = sum(float(wrench[2]) for wrench in stood.wrenches.values())
+        self.mass_ratio = min(_MASS_RATIOS[1], max(_MASS_RATIOS[0], carried / self._weight))
+        if rules.com:
+            posture = self._kinematics.posture(stood.joint_positions - self.encoder_offsets)
+            rotation, _ = standing_base(posture, stood.up, self._feet)
+            beside = com_offset(posture, rotation, self._feet, stood.wrenches)
+            size = float(np.linalg.norm(beside))
+            if size > rules.com_least:
+                self.com_offset = _limited(beside, size, rules.com_largest)
+        self._reads_off, self._lies_off = bool(self.encoder_offsets.any()), bool(self.com_offset.any())
+        lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
+        more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
+        self._tenths = min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)
+
+    def advance(self) -> None:
+        """A tick after the stand: what is commanded follows what is known."""
+        self._share = min(1.0, self._share + self._step)
+
+    @property
+    def joint_offsets(self) -> NDArray[np.float64] | None:
+        """What joint set-points have to be higher by (k,) in rad, as servos go by the encoders; None for nothing."""
+        return self._faded * self.encoder_offsets if len(self.encoder_offsets) else None
+
+    @property
+    def com_shift(self) -> NDArray[np.float64]:
+        """How far (3,) in m in the base frame the model's CoM has to be from where the CoM shall be, less of it."""
+        return self._faded * self.com_offset
+
+    @property
+    def lean(self) -> float:
+        """Roll of the torso over the stance foot in rad per metre of the CoM's distance from the middle of the feet.
+
+        The torque at the hip that carries goes with the weight and with the distance to the CoM from it, half the
+        distance of the feet in the model. Motors have a tenth to spare, h1's at the hip's roll a sixth.
+        """
+        return self._faded * self._rules.lean * self._tenths
+
+    @property
+    def _faded(self) -> float:
+        s = self._share
+        return s * s * (3.0 - 2.0 * s)  # starts and ends without a jump in speed
+
+    def summary(self) -> dict[str, Any]:
+        """What was identified in the stand, for a run's summary."""
+        return {
+            "encoder_offsets_deg": np.round(np.degrees(self.encoder_offsets), 4).tolist(),
+            "com_offset_m": np.round(self.com_offset, 5).tolist(),
+            "mass_ratio": round(self.mass_ratio, 4),
+        }
+
+
+def _limited(vector: NDArray[np.float64], size: float, largest: float) -> NDArray[np.float64]:
+    return vector if size <= largest else vector * (largest / size)

@@ -1,0 +1,470 @@
+"""Where the feet are commanded to be: footholds that stand, a foot that swings, and how it lands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.contact.ground_map import GroundView
+from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.gait.feet.swing import SwingTrajectory
+from plantar.gait.feet.swing_compliance import SwingCompliance, turned_to_ground
+from plantar.gait.feet.swing_fit import SwingFit, SwingFitRules
+from plantar.gait.feet.swing_flight import LEAST_TIME, SwingFlight
+from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.phases import Phase, PhaseKind
+from plantar.kernels.base.vectors import close, vector, vector2
+from plantar.mechanics.easing import minimum_jerk
+from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
+from plantar.mechanics.same_time import SAME_TIME
+from plantar.percepts.percept import Percept
+from plantar.record import Record
+from plantar.settings.schema import Settings, number, share, switch
+from plantar.sides import SIDES, Side, other_side
+
+__all__ = ["FootMotion", "Landing", "SoleSense"]
+
+# Distances as shares of the leg:
+_RETAKE_HEIGHT = 1 / 15  # above what the foot met that a step taken once more rises at most
+_CLOSE_BY = 0.1  # before its place from which a swing turns its sole to the ground
+_NEARLY_THERE = 0.02  # before its place from which a swing judges the ground that it will land on
+_TOUCHING = 1 / 60  # from the ground that it sees within which less than a blind foot's load is taken for a touch
+_SAME_PLACE = 1 / 6000  # between two places that are one
+_AT_THE_GROUND = 1 / 300  # from it within which the least load is
+
+
+class SoleSense(Record, frozen=True):
+    """What is known of a sole: what it senses, and its estimated pose in the world."""
+
+    percept: Percept
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+
+
+class Landing(Settings):
+    """How a foot lands.
+
+    Attributes:
+        contact_force: Vertical force in N on the swing foot that counts as touchdown (the papers' 70 N).
+        press_force: Vertical force in N up to which a foot that has touched is pressed down.
+        depth: Depth in m below the expected ground that the swing aims for, so that the foot rests on it with some
+            tens of newtons and does not hover.
+        speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
+        acceleration: Its acceleration in m/s^2.
+        reach: Distance in m that it goes down at most.
+        relax_time: Time constant in s with which, once the robot stands, the foot that landed last comes to be
+            commanded at the height at which it is estimated to stand; 0 leaves it where it was pressed to.
+        ground_share: Share of a new foothold's height in the height at which the next one is expected: 1 expects it as
+            high as the last one, less averages over more footholds of uneven ground.
+        levelling: How fast in 1/s a foot that does not see the ground turns parallel to the one that stands, where only
+            forces tell what it stands on; 0 leaves it as it comes.
+        probing: Whether such a foot, once it has load, turns until its centre of pressure is in the middle of what it
+            is believed to stand on: taxels there carry, or deny it, before it gets the body's weight.
+        approach_height: Height in m above the expected ground from which a swing goes down slowly (see
+            `SwingTrajectory`); 0 comes down in one move.
+        approach_speed: Speed of that in m/s.
+    """
+
+    contact_force: float = share(0.083, "weight", 0, 10000)
+    press_force: float = share(0.237, "weight", 0.1, 100000)
+    depth: float = share(1 / 1500, "leg", 0, 0.05)
+    speed: float = share(0.0124, "leg/beat", 0.0001, 1)
+    acceleration: float = share(0.102, "leg/beat^2", 0.01, 100)
+    reach: float = share(0.05, "leg", 0, 0.2)
+    relax_time: float = number(0.0, "s", 0, 100)
+    ground_share: float = number(0.3, "1", 0, 1)
+    levelling: float = share(10.0, "1/beat", 0, 200)
+    probing: bool = switch(True)
+    approach_height: float = number(0.0, "m", 0, 0.2)
+    approach_speed: float = share(0.0247, "leg/beat", 0.001, 1)
+
+
+class FootMotion:
+    """Commanded footholds over time.
+
+    Attributes:
+        footholds: Position (3,) in m and heading in rad of each sole in the command frame.
+        landed: Whether the foot that swung last has touched the ground.
+        comes_down: Whether the foot that swung last is in the second half of its swing, or past it.
+        surprise: How much higher in m than expected the ground is that a swing sees where it will land, or has met.
+
+    Args:
+        feet: Where the feet stand at the start.
+        period: Control period in s.
+        swing_height: Clearance of the swing foot in m.
+        landing: How a foot lands.
+        compliance: Preemptive compliance of each foot; None lands blindly.
+        fit: What a swing is fitted to, anew at every tick; its height is the clearance. None takes polynomials that
+            change only with the plan.
+    """
+
+    def __init__(
+        self,
+        feet: Mapping[Side, Footstep],
+        period: float,
+        swing_height: float,
+        landing: Landing,
+        compliance: Mapping[Side, SwingCompliance] | None = None,
+        fit: SwingFitRules | None = None,
+    ) -> None:
+        self.footholds: dict[Side, tuple[NDArray[np.float64], float]] = {
+            s: (feet[s].position.copy(), feet[s].yaw) for s in SIDES
+        }
+        self.landed = True
+        self.comes_down = False
+        self._period = period
+        self._height = swing_height
+        self._landing = landing
+        self._leg = landing.body.leg
+        self._compliance = compliance
+        self._fit_rules = fit
+        self._fit: SwingFit | None = None
+        self._falls = 0.0
+        self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in SIDES}
+        self._rotations: dict[Side, tuple[float, NDArray[np.float64], NDArray[np.float64]]] = {}
+        self._lifted_tilt = np.zeros(3)
+        self._expected = float(np.mean([feet[s].z for s in SIDES]))
+        self._swing: SwingFlight | None = None
+        self._side: Side = "left"
+        self._target: Footstep | None = None
+        self._start = 0.0
+        self._step = -1
+        self.surprise = 0.0
+        self._lift_off = self._touchdown = False
+        self._distance: NDArray[np.float64] | None = None
+        self._lowered = self._lowering = 0.0
+        self._touch = (0.0, 0.0)
+        self._rises_first: set[Side] = set()
+
+    @property
+    def last_side(self) -> Side | None:
+        """The foot that swings or swung last; None before the first step."""
+        return None if self._swing is None else self._side
+
+    @property
+    def proximity_sides(self) -> tuple[Side, ...]:
+        """Feet whose proximity the motion depends on: the one in the air, with preemptive compliance."""
+        side = self.last_side
+        return () if self._compliance is None or self.landed or side is None else (side,)
+
+    @property
+    def ahead(self) -> NDArray[np.float64]:
+        """How far (2,) in m the swing foot still has to go horizontally, command frame; zero before the first step."""
+        if self._swing is None:
+            return np.zeros(2)
+        (x, y, _), (here_x, here_y, _) = self._swing.end.tolist(), self.footholds[self._side][0].tolist()
+        return vector2(x - here_x, y - here_y)
+
+    @property
+    def view(self) -> FeetView:
+        """The feet at this tick, as a value."""
+        footholds = self.footholds
+        close(footholds["left"][0])
+        close(footholds["right"][0])
+        return FeetView(
+            footholds.copy(),
+            self.last_side,
+            self.landed,
+            self._lift_off,
+            self._touchdown,
+            self.ahead,
+            self.surprise,
+            self._distance,
+        )
+
+    def rotation(self, side: Side) -> NDArray[np.float64]:
+        """Rotation (3, 3) from a sole at its foothold to the command frame: its heading, and the ground's slope."""
+        yaw, tilt = self.footholds[side][1], self._tilts[side]
+        known = self._rotations.get(side)
+        if known is None or known[0] != yaw or known[1] is not tilt:
+            level = level_rotation(yaw)
+            rotation = level if self._compliance is None else np.asarray(level.dot(tilt))
+            rotation.flags.writeable = False  # shared until the foot moves
+            known = self._rotations[side] = (yaw, tilt, rotation)
+        return known[2]
+
+    def turn_standing(self, side: Side, turn: NDArray[np.float64], pivot: NDArray[np.float64]) -> None:
+        """Turn the sole of a foot that stands a little further.
+
+        Args:
+            side: Which foot.
+            turn: Turn (2,) about the sole's x and y axes in rad.
+            pivot: Point (2,) in the sole frame in m that keeps its height.
+        """
+        before = self.rotation(side)
+        self._tilts[side] = self._tilts[side] @ rotation_from_vector(np.array([turn[0], turn[1], 0.0]))
+        rise = float((before - self.rotation(side))[2, :2] @ pivot)
+        position, yaw = self.footholds[side]
+        self.footholds[side] = (position + np.array([0.0, 0.0, rise]), yaw)
+
+    def outward_rise(self, side: Side) -> float:
+        """Slope in rad across a foot's stand, positive where its outer edge is the higher one."""
+        return math.asin(float(self._tilts[side][1, 2])) * (-1.0 if side == "left" else 1.0)
+
+    def update(
+        self,
+        phase: Phase,
+        time: float,
+        target: Footstep | None,
+        loads: Mapping[str, float],
+        frame: CommandFrame,
+        senses: Mapping[Side, SoleSense] | None = None,
+        press: float | None = None,
+        heights: Mapping[Side, float] | None = None,
+    ) -> None:
+        """Advance the swing foot; stop it at touchdown, lower it further while it has met no ground or bounced off.
+
+        Args:
+            phase: Phase of the walk.
+            time: Time in s.
+            target: The footstep that is being taken, in single support.
+            loads: Vertical force on each foot in N.
+            frame: Frame that the footholds are commanded in.
+            senses: What the soles sense, for preemptive compliance.
+            press: Force in N that a foot that sees the ground holds in single support; its gains' own where None.
+            heights: Estimated height of each sole in the world in m, for feet that relax.
+        """
+        if self._compliance is not None and senses is not None:
+            for side, compliance in self._compliance.items():
+                if loads[side] > compliance.touchdown.touch_force:
+                    compliance.ground.stand(senses[side].position, senses[side].rotation)
+        self._lift_off = phase.swing is not None and self._step != phase.step
+        if self._lift_off and target is not None:
+            self._begin(phase.step, (phase.start, phase.touchdown), target, frame)
+        if self._swing is None:
+            return
+        before = self.landed
+        self.comes_down = self._swing.comes_down(time - self._start)
+        if self._compliance is not None and senses is not None:
+            side = self._side
+            self._comply(self._compliance[side], side, phase, time, loads[side], senses[side], frame, press)
+        else:
+            self._advance(phase, time, loads[self._side])
+        if heights is not None and phase.kind == PhaseKind.STANDING and self._landing.relax_time > 0.0:
+            self._relax(heights)
+        self._touchdown = self.landed and not before
+
+    def _relax(self, heights: Mapping[Side, float]) -> None:
+        """Command the foot that landed last as much above the other one as it is estimated to stand.
+
+        What it was pressed down too much or too little would stay in the legs, and the body lean by it. (While the
+        robot walks, its estimated attitude is off by a few milliradians, and the feet by as much as is to be found.)
+        """
+        side, other = self._side, other_side(self._side)
+        position, yaw = self.footholds[side]
+        stands = self.footholds[other][0].item(2) + heights[side] - heights[other]
+        share = min(1.0, self._period / self._landing.relax_time)
+        self.footholds[side] = (position + np.array([0.0, 0.0, share * (stands - position.item(2))]), yaw)
+
+    def stand_at(self, side: Side, place: NDArray[np.float64], yaw: float) -> None:
+        """Command a foot that has landed to another place than the one that it was swung to.
+
+        Args:
+            side: Which foot.
+            place: Where it stands (3,) in the command frame in m.
+            yaw: Its heading in rad.
+        """
+        self.footholds[side] = (place.copy(), yaw)
+
+    def _advance(self, phase: Phase, time: float, load: float) -> None:
+        """Advance a foot that does not see the ground."""
+        assert self._swing is not None
+        if phase.swing is not None:
+            # On its way up a sole still carries what the ground that it leaves gives back.
+            if self.comes_down and load > self._landing.contact_force:
+                self.landed = True
+            if not self.landed:
+                self.footholds[self._side] = self._reference(self._swing, time - self._start)
+                return
+        self.landed = True  # it touched, or the plan puts weight on it now
+        self._press(self._side, load)
+
+    def _reference(self, swing: SwingFlight, elapsed: float) -> tuple[NDArray[np.float64], float]:
+        """Where the swing foot shall be (3,) in m, and its heading in rad, some time in s after lift-off; asked for
+        once a tick, since a fitted path goes on from where it was at the tick before."""
+        if self._fit is None:
+            return swing.at(elapsed)
+        path = swing.path
+        # A swing with a slow approach is above its place before that; from there on it goes down as it would anyhow.
+        approaches = path.approach_height > 0.0
+        share = path.arrived / path.duration if approaches else 1.0
+        point = self._fit.aim(swing.end, elapsed, share * swing.duration)
+        position, self._falls = point.position, -point.velocity.item(2)
+        planned, yaw = swing.at(elapsed)
+        if approaches:
+            position[2] = planned.item(2)
+        return position, yaw
+
+    def _falling(self, swing: SwingFlight, elapsed: float, height: float) -> float:
+        """Speed downwards in m/s that the swing's plan asks for, at some time in s after lift-off at a height in m."""
+        if self._fit is not None and swing.path.approach_height == 0.0:
+            return self._falls
+        return (height - swing.at(elapsed + self._period)[0].item(2)) / self._period
+
+    def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame) -> None:
+        """Follow a plan that has changed while the foot swings: it goes elsewhere, or is there at another time.
+
+        A foot in the air is aimed anew; one that has landed already lifts again and takes its step once more.
+
+        Args:
+            phase: Phase of the walk.
+            time: Time in s.
+            target: The footstep that is being taken.
+            frame: Frame that the footholds are commanded in.
+        """
+        if self._swing is None or phase.swing is None or phase.step != self._step:
+            return
+        moves = target != self._target
+        if not moves and (self.landed or abs(phase.touchdown - self._start - self._swing.duration) < SAME_TIME):
+            return
+        if self.landed:
+            here = self.footholds[self._side][0]
+            if math.dist(frame.to_command(target.position[:2]), here[:2]) < _SAME_PLACE * self._leg:
+                self._target = target  # the plan has only taken over where it stands
+            else:
+                self._retake(time, phase.touchdown, target, frame)
+            return
+        self._target = target
+        place = frame.to_command(target.position[:2]) if moves else self._swing.end[:2]
+        yaw = target.yaw - frame.turn if moves else self._swing.yaw_end
+        least = LEAST_TIME * self._landing.body.beat
+        self._swing = self._swing.aimed(time - self._start, place, yaw, phase.touchdown - self._start, least)
+
+    def _begin(self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame) -> None:
+        """Begin the swing of a step, from and until some times in s."""
+        side = target.side
+        if self._swing is not None:
+            # Where the other foot found the ground is the best guess of where this one will.
+            landed = float(self.footholds[other_side(side)][0][2])
+            self._expected += self._landing.ground_share * (landed - self._expected)
+        position, yaw = self.footholds[side]
+        place = np.array([*frame.to_command(target.position[:2]), self._expected - self._landing.depth])
+        path = SwingTrajectory(
+            position.copy(),
+            place,
+            yaw,
+            target.yaw - frame.turn,
+            self._height,
+            times[1] - times[0],
+            approach_height=self._landing.approach_height,
+            approach_speed=self._landing.approach_speed,
+            rises_first=side in self._rises_first,
+        )
+        self._swing = SwingFlight.on(path)
+        # What stands beside the foot is no condition that a path is fitted to.
+        rules = None if path.rises_first else self._fit_rules
+        self._fit = None if rules is None else SwingFit(replace(rules, height=self._height), position, self._period)
+        self._rises_first.discard(side)
+        self._step, self._side, self._target = index, side, target
+        self._start = times[0]
+        self.surprise = 0.0
+        self.landed = False
+        self._distance = None
+        self._lowered = self._lowering = 0.0
+        if self._compliance is not None:
+            self._compliance[side].begin()
+            self._lifted_tilt = vector_from_rotation(self._tilts[side])
+
+    def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
+        """Lift the foot that has landed again and take its step once more, to another place."""
+        expected, height = self._expected, self._height
+        # It has to clear only what it has just met, in what is left of the step.
+        self._height = min(height, _RETAKE_HEIGHT * self._leg)
+        self._begin(self._step, (time, touchdown), target, frame)
+        self._expected, self._height = expected, height
+        self._rises_first.add(self._side)  # what it has met stands beside it then
+
+    def _comply(
+        self,
+        compliance: SwingCompliance,
+        side: Side,
+        phase: Phase,
+        time: float,
+        load: float,
+        sense: SoleSense,
+        frame: CommandFrame,
+        press: float | None,
+    ) -> None:
+        """Advance a foot that sees the ground: soften its swing, turn it to the slope, hand over to the real load."""
+        assert self._swing is not None
+        swing, period = self._swing, self._period
+        position, yaw = self.footholds[side]
+        elapsed = time - self._start
+        if not self.landed:
+            view = compliance.ground.update(sense.percept, sense.position, sense.rotation, time)
+            if self.comes_down and compliance.update_load(load) and self._may_touch(compliance, view, load):
+                self.landed = True
+                self._touch = (time, float(sense.position[2]))
+                self.surprise = max(self.surprise, self._touch[1] - frame.offset[2] - self._expected)
+                compliance.ground.touched()
+                self._distance = compliance.ground.distance
+                self._distance.flags.writeable = False
+        if not self.landed:
+            progress, lifted = swing.progress(elapsed), swing.path.lifted
+            planned, heading = self._reference(swing, elapsed)
+            if progress < lifted:
+                self.footholds[side] = (planned, heading)
+                share = 1.0 - minimum_jerk(progress / lifted)[0]
+                self._tilts[side] = rotation_from_vector(share * self._lifted_tilt)
+                return
+            falling = self._falling(swing, elapsed, planned.item(2))
+            time_left = (phase.end if phase.swing is not None else phase.start) - time
+            if time_left <= 0.0:
+                falling = self._landing.speed
+            remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
+            drop = compliance.descent(view, falling, remaining, time_left, period)
+            if view is not None and remaining < _NEARLY_THERE * self._leg:
+                self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
+            if view is not None and remaining < _CLOSE_BY * self._leg:
+                self._turn(compliance, side, view)
+            self.footholds[side] = (vector(planned[0], planned[1], position[2] - drop), heading)
+            return
+        touched_at, height = self._touch
+        hold = compliance.holding(time - touched_at) if press is None else press
+        above = max(0.0, float(sense.position[2]) - height)
+        if phase.swing is not None:
+            drop = compliance.yielding(load, hold, above, period)
+        else:
+            share = min(1.0, 2.0 * (time - phase.start) / (phase.end - phase.start))
+            target = hold + share * (self._landing.press_force - hold)
+            drop = max(0.0, compliance.yielding(load, target, above, period))
+        self.footholds[side] = (position - vector(0.0, 0.0, drop), yaw)
+
+    def _may_touch(self, compliance: SwingCompliance, view: GroundView | None, load: float) -> bool:
+        """Whether a load can be a touch: the farther the ground that it sees, the likelier a foot feels noise."""
+        blind = self._landing.contact_force
+        if load > blind:
+            return True
+        touching, there = _TOUCHING * self._leg, _AT_THE_GROUND * self._leg
+        if view is None or view.distance >= touching:
+            return False
+        far = (view.distance - there) / (touching - there)
+        least = compliance.touchdown.contact_force
+        return far <= 0.0 or compliance.force > least + far * (blind - least)
+
+    def _turn(self, compliance: SwingCompliance, side: Side, view: GroundView) -> None:
+        """Turn the sole a little to the ground's slope, or back to level where there is too little to follow."""
+        gains = compliance.gains
+        share = min(1.0, self._period / gains.turning)
+        if view.slope is None:
+            self._tilts[side] = rotation_from_vector((1.0 - share) * vector_from_rotation(self._tilts[side]))
+        elif view.distance < 0.8 * compliance.ground.settings.sensing_range:
+            largest = compliance.turn_rate(view.distance, view.slope) * self._period
+            self._tilts[side] = turned_to_ground(self._tilts[side], view.slope, share, largest)
+
+    def _press(self, side: Side, load: float) -> None:
+        """Press down the more gently the more the foot carries; a switch at one force would make it tap."""
+        landing = self._landing
+        missing = 1.0 - load / landing.press_force
+        wanted = landing.speed * missing if missing > 0.0 and self._lowered < landing.reach else 0.0
+        self._lowering = min(wanted, self._lowering + landing.acceleration * self._period)
+        if self._lowering > 0.0:
+            drop = self._lowering * self._period
+            self._lowered += drop
+            position, yaw = self.footholds[side]
+            self.footholds[side] = (position - vector(0.0, 0.0, drop), yaw)

@@ -1,0 +1,237 @@
+"""Feet that take the ground's shape: the commanded sole turns until the ground carries it where it shall be loaded.
+
+A rigid sole comes to rest on three bumps, in an orientation that no sensor saw before. A stiff ankle would keep the
+commanded one and lean the body instead. Each foot therefore turns with its centre of pressure's error (damping control
+of a foot, Caron et al. 2019), as fast as its load allows, or faster where it rolls over an edge:
+
+    w = k ((p - c) x e_z),     [w_x, w_y] = k [p_y - c_y, -(p_x - c_x)].
+
+- A foot that takes the weight over turns until the contacts found so far enclose its middle c; its centre of pressure
+  keeps its height meanwhile.
+- The foot that carries the body turns where the desired ZMP c lies beyond them, on to the next bump. (A foot that
+  turns between its contacts, too, swings: a servo's stiffness moves its load by ten metres for each radian.)
+- The foot that gives the weight away keeps its orientation.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.contact.contact_memory import ContactMemory
+from plantar.gait.plan.phases import Phase
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.base_state import BaseState
+from plantar.percepts.percept import Percept
+from plantar.settings.schema import Settings, number, share, whole
+from plantar.sides import SIDES, Side
+
+__all__ = ["ConformityGains", "FootTurn", "GroundConformity", "SoleTurn"]
+
+_ORIGIN = np.zeros(2)
+
+
+class ConformityGains(Settings):
+    """Gains of feet that take the ground's shape.
+
+    Attributes:
+        firm: k on firm ground, in rad/s per m for each newton that the foot carries.
+        rolling: k of a foot that rolls over an edge in rad/s per m.
+        nearly: Distance in m from its target at which an incoming foot stays as it is.
+        largest_rate: Largest rate of a turn in rad/s.
+        least_load: Vertical force in N from which a centre of pressure means something.
+        press: Force in N that a landed foot holds before it takes the weight over.
+        follows: Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground.
+        watch: Number of control ticks over which that is judged.
+        least_turn: Turn in rad from which it is.
+        carries: Running mean in N from which a cell touches the ground.
+        gap: Rise in m from which a cell that has touched has lifted off.
+    """
+
+    firm: float = share(0.289, "rad/beat/sole/weight", 0, 1)
+    rolling: float = share(0.285, "rad/beat/sole", 0, 100)
+    nearly: float = share(0.0433, "sole", 0, 0.1)
+    largest_rate: float = share(0.148, "rad/beat", 0, 10)
+    least_load: float = share(0.0178, "weight", 0, 10000)
+    press: float = share(0.0948, "weight", 0, 10000)
+    follows: float = share(4.33, "sole/rad", 0, 100)
+    watch: int = whole(10, "ticks", 1, 1000)
+    least_turn: float = number(0.002, "rad", 0, 0.5)
+    carries: float = share(0.00948, "weight", 0, 1000)
+    gap: float = share(1 / 300, "leg", 0, 0.05)
+
+
+class SoleTurn(NamedTuple):
+    """A turn of a standing sole: (2,) about its x and y axes in rad, and the point (2,) in m that keeps its height."""
+
+    turn: NDArray[np.float64]
+    pivot: NDArray[np.float64]
+
+
+class FootTurn:
+    """How one foot turns.
+
+    Args:
+        gains: The gains.
+        period: Control period in s.
+    """
+
+    def __init__(self, gains: ConformityGains, period: float) -> None:
+        self.gains = gains
+        self.period = period
+        self._past: deque[tuple[NDArray[np.float64], float]] = deque(maxlen=max(1, int(gains.watch)))
+
+    def lift(self) -> None:
+        """The foot is in the air."""
+        self._past.clear()
+
+    def hold(self, center_of_pressure: NDArray[np.float64]) -> None:
+        """One control tick without a turn.
+
+        Args:
+            center_of_pressure: Where the load acts (2,) in the sole frame in m.
+        """
+        self._past.append((center_of_pressure.copy(), 0.0))
+
+    def incoming(
+        self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """One control tick of a foot that takes the weight over.
+
+        Args:
+            load: Vertical force on it in N.
+            center_of_pressure: Where that acts (2,) in the sole frame in m.
+            target: Where it shall act (2,) in the sole frame in m.
+
+        Returns:
+            Turn (2,) about the sole's x and y axes in rad.
+        """
+        g = self.gains
+        away = math.dist(center_of_pressure, target)
+        if away <= g.nearly:
+            self.hold(center_of_pressure)
+            return np.zeros(2)
+        # Begins at zero where "nearly" ends, so that the turn does not start and stop at that distance.
+        rate = (1.0 - g.nearly / away) * self._rate(load, center_of_pressure, target)
+        return self._turn(rate, center_of_pressure, target)
+
+    def stance(
+        self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """One control tick of the foot that carries the body.
+
+        Args:
+            load: Vertical force on it in N.
+            center_of_pressure: Where that acts (2,) in the sole frame in m.
+            target: Where it shall act (2,) in the sole frame in m: the desired ZMP.
+
+        Returns:
+            Turn (2,) about the sole's x and y axes in rad.
+        """
+        return self._turn(self._rate(load, center_of_pressure, target), center_of_pressure, target)
+
+    def _rate(self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> float:
+        """k in rad/s per m. On firm ground a servo's stiffness K moves the load by K / force for each rad: turns in
+        proportion to the load keep the loop as fast as its delay allows."""
+        g = self.gains
+        return g.rolling if self._rolls(center_of_pressure, target) else min(g.rolling, g.firm * load)
+
+    def _rolls(self, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> bool:
+        """Whether the turns of the last ticks have not moved the centre of pressure."""
+        g, past = self.gains, self._past
+        away = math.dist(center_of_pressure, target)
+        if len(past) != past.maxlen or away <= g.nearly:
+            return False
+        # On firm ground a turn moves the load at once; one that does not rolls over an edge or a bump.
+        turned = sum(turn for _, turn in past)
+        moved = float((past[0][0] - center_of_pressure) @ (center_of_pressure - target)) / away
+        return turned > g.least_turn and moved < g.follows * turned
+
+    def _turn(
+        self, rate: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        dx, dy = (center_of_pressure - target).tolist()
+        away = math.hypot(dx, dy)
+        speed = min(self.gains.largest_rate, rate * away)
+        self._past.append((center_of_pressure.copy(), self.period * speed))
+        if away == 0.0:
+            return np.zeros(2)
+        return self.period * speed / away * np.array([dy, -dx])
+
+
+class GroundConformity:
+    """Both feet of a walk.
+
+    Args:
+        gains: The gains.
+        layouts: Sole layout of each side.
+        middles: Where each whole sole would best be loaded (2,) in its frame in m.
+        period: Control period in s.
+        turns_stance: Whether it turns the foot that carries the body, too; not where the balance law does.
+    """
+
+    def __init__(
+        self,
+        gains: ConformityGains,
+        layouts: Mapping[Side, SoleLayout],
+        middles: Mapping[Side, NDArray[np.float64]],
+        period: float,
+        turns_stance: bool = True,
+    ) -> None:
+        self.gains = gains
+        self.turns_stance = turns_stance
+        self._middles = middles
+        self._turns = {side: FootTurn(gains, period) for side in SIDES}
+        self._contacts = {
+            side: ContactMemory(layouts[side], least_force=gains.carries, gap=gains.gap) for side in SIDES
+        }
+
+    def update(
+        self,
+        phase: Phase,
+        incoming: Side | None,
+        zmp_desired: NDArray[np.float64],
+        state: BaseState,
+        percepts: Mapping[Side, Percept],
+        landed: bool,
+    ) -> dict[Side, SoleTurn]:
+        """One control tick: how the soles that stand turn.
+
+        Args:
+            phase: Phase of the walk.
+            incoming: The standing foot that takes the weight over now; None at the two ends of the walk.
+            zmp_desired: Desired ZMP (2,) in the world in m.
+            state: Estimated state.
+            percepts: What each sole senses.
+            landed: Whether the swing foot has touched the ground.
+
+        Returns:
+            The turns of the soles that do.
+        """
+        turned: dict[Side, SoleTurn] = {}
+        for side in SIDES:
+            turns, contacts = self._turns[side], self._contacts[side]
+            if phase.swing == side and not landed:
+                turns.lift()
+                contacts.lift()
+                continue
+            load, cop = state.loads[side], percepts[side].position_cop_in_sole
+            if cop is None or load < self.gains.least_load:
+                continue
+            position, rotation = state.positions_sole[side], state.rotations_sole[side]
+            contacts.update(percepts[side].reading, rotation, cop)
+            if phase.stance == side:
+                target = rotation[:2, :2].T @ (zmp_desired - position[:2])
+                if self.turns_stance and not contacts.encloses(target):
+                    turned[side] = SoleTurn(turns.stance(load, cop, target), _ORIGIN)
+                    continue
+            elif side == incoming and not contacts.encloses(self._middles[side]):
+                turned[side] = SoleTurn(turns.incoming(load, cop, self._middles[side]), cop)
+                continue
+            turns.hold(cop)
+        return turned

@@ -1,0 +1,185 @@
+"""Preemptive foot compliance: a swing that sees the ground before it touches it (T 4.4.1, Fig. 49).
+
+- Damping: on level ground the virtual force of T 4.26 is f_p = n k_p (range - distance); slowing down in proportion to
+  the distance that is left is slowing down by f_p. The swing ends at a crawl, where T 4.31 stops at f_p > epsilon_stop:
+  so it meets what noise and bias leave of the distance.
+- Orientation: the sole turns until the ground shows no slope, or until the virtual moment is zero.
+- Hand-over: once the taxels carry load, T 4.30 (corrected) drops the virtual part.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.contact.ground_map import GroundMap, GroundMapSettings, GroundView
+from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.rotation import rotation_from_vector
+from plantar.sensing.virtual_wrench import SoleWrenchSwitch
+
+__all__ = ["SwingCompliance", "turned_to_ground"]
+
+
+_DOUBT = 1 / 600  # leg past the ground that it sees at which a sole that has not touched goes down twice as fast
+_THERE = 1 / 300  # leg before its place from which a sole is above it
+_KEPT = 1 / 150  # leg from the ground that a sole keeps until then, and more the further it has to go
+_LARGEST_RISE = 0.0412  # leg/beat at which a sole goes up that is too near to the ground
+_LARGEST_DRIFT = 0.00206  # leg/beat that a body moves up or down above a foot that has touched
+_LARGEST_YIELD = 0.00824  # leg/beat at which a foot that has touched gives way
+_SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to have
+
+
+class SwingCompliance:
+    """How one sole comes down, and the load on it, from lift-off to the end of its landing.
+
+    Attributes:
+        ground: What the sole sees of the ground.
+        force: Vertical force in N on the sole, filtered.
+
+    Args:
+        layout: The sole.
+        gains: How it comes down.
+        touchdown: Which load is a touchdown, and which one it carries from then on.
+        ground: How the map of the ground is kept.
+    """
+
+    def __init__(
+        self, layout: SoleLayout, gains: ComplianceGains, touchdown: TouchdownGains, ground: GroundMapSettings
+    ) -> None:
+        self.layout = layout
+        self.gains = gains
+        self.touchdown = touchdown
+        self.ground = GroundMap(layout, ground)
+        self.switch = SoleWrenchSwitch(touchdown.contact_force)
+        self.force = 0.0
+        self._leg, self._speed_unit = gains.body.in_si("leg"), gains.body.in_si("leg/beat")
+        self._arm = 0.5 * float(np.linalg.norm(np.ptp(layout.outline, axis=0)))  # m from the middle to an edge
+        self._speed = self._drift = 0.0
+        self._aim: float | None = None
+
+    def begin(self) -> None:
+        """A swing begins."""
+        self.ground.begin()
+        self._speed = self._drift = 0.0
+        self._aim = None
+        self.switch.reset()
+        self.force = 0.0
+
+    def update_load(self, load: float) -> bool:
+        """Touchdown detection: whether the foot has landed (T 4.30 corrected).
+
+        Args:
+            load: Vertical force in N on the sole, less its tare.
+        """
+        self.force += 0.5 * (load - self.force)
+        up = np.array([0.0, 0.0, self.force, 0.0, 0.0, 0.0])
+        self.switch.update(up, np.zeros(6))
+        return self.switch.landed
+
+    def descent(
+        self, view: GroundView | None, planned: float, remaining: float, time_left: float, period: float
+    ) -> float:
+        """How far the foot goes down in one control tick, in m; negative: up.
+
+        Args:
+            view: What the sole sees.
+            planned: Speed downwards in m/s of the swing's own plan, which holds while nothing is seen.
+            remaining: Horizontal distance in m that the foot still has to go.
+            time_left: Time in s until the plan puts weight on the foot; negative where it does already.
+            period: Control period in s.
+
+        Returns:
+            The distance.
+        """
+        g = self.gains
+        if view is None:
+            self._aim = None
+            self._speed = min(planned, self._speed + g.acceleration * period)
+            return self._speed * period
+        if self._aim is None:
+            self._aim = view.distance
+        above = remaining < _THERE * self._leg
+        left = self._aim - (g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining))
+        hurry = min(1.0, max(0.0, 2.0 - time_left / g.reserve)) if g.reserve > 0.0 else float(time_left <= 0.0)
+        doubt = max(0.0, -view.distance) / (_DOUBT * self._leg)  # it should have touched already
+        crawl = g.touch_speed * (1.0 + (g.late_speed_ratio - 1.0) * hurry + doubt)
+        damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
+        rise = -_LARGEST_RISE * self._speed_unit
+        wanted = left / damping + crawl if left > 0.0 else max(rise, left / g.damping)
+        if above:
+            wanted = max(wanted, crawl)
+        self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
+        behind = view.distance - self._aim
+        self._aim -= self._speed * period
+        return period * min(g.top_speed, max(rise, self._speed + behind / g.correction))
+
+    def turn_rate(self, distance: float, slope: tuple[float, float]) -> float:
+        """Largest rate in rad/s at which the sole turns: its edge goes down no faster than the whole of it does, but
+        where the slope that is left is more than what noise makes of the ground.
+
+        Args:
+            distance: How far down in m the first contact is.
+            slope: Rise of the ground along the sole's x and y (tangents).
+
+        Returns:
+            The rate.
+        """
+        g = self.gains
+        gentle = (g.touch_speed + max(0.0, distance) / g.damping) / self._arm
+        return min(g.turn_rate, gentle + max(0.0, math.hypot(*slope) - _SLOPE_OF_NOISE) / g.turning)
+
+    def holding(self, since: float) -> float:
+        """Force in N that a foot shall carry some time after it touched, until weight is put on it.
+
+        Args:
+            since: Time in s since it touched.
+        """
+        t = self.touchdown
+        return t.touch_force + min(1.0, since / t.load_time) * (t.hold_force - t.touch_force)
+
+    def yielding(self, load: float, target: float, above: float, period: float) -> float:
+        """How far a foot on the ground goes down in one control tick, in m, for a force; negative: up.
+
+        Args:
+            load: Vertical force in N on the sole.
+            target: Force in N that it should have.
+            above: How far in m it is above where it touched; a foot that has lost the ground comes back from there.
+            period: Control period in s.
+
+        Returns:
+            The distance.
+        """
+        g, t = self.gains, self.touchdown
+        missing = t.admittance * (target - load)
+        drift = _LARGEST_DRIFT * self._speed_unit
+        self._drift = min(drift, max(-drift, self._drift + missing * period / t.settling))
+        wanted = missing + self._drift
+        if load < 0.3 * t.hold_force:
+            wanted = max(wanted, g.touch_speed + above / g.damping)
+        fastest = _LARGEST_YIELD * self._speed_unit
+        self._speed = min(fastest, max(-fastest, wanted))
+        return self._speed * period
+
+
+def turned_to_ground(
+    rotation: NDArray[np.float64], slope: tuple[float, float], share: float, largest: float
+) -> NDArray[np.float64]:
+    """Turn a sole a share of the way to the ground's slope.
+
+    Args:
+        rotation: Rotation (3, 3) of the sole.
+        slope: Rise of the ground along the sole's x and y (tangents).
+        share: Share of the way, 0..1.
+        largest: Largest turn in rad.
+
+    Returns:
+        Rotation (3, 3) of the turned sole.
+    """
+    turn = np.array([share * slope[1], -share * slope[0], 0.0])
+    size = math.hypot(float(turn[0]), float(turn[1]))
+    if size > largest:
+        turn *= largest / size
+    return np.asarray(rotation.dot(rotation_from_vector(turn)))

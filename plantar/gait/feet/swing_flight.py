@@ -1,0 +1,179 @@
+"""A swing that can be given another place and another time of touchdown while it is in the air.
+
+A flight follows its trajectory until it is aimed anew. From then on, horizontally and in heading, it takes a polynomial
+of fifth order from where it is, with its velocity and acceleration, to rest above its new place; vertically it goes on
+along its trajectory, whose clock runs faster or slower from then on. Neither position, velocity nor acceleration jumps.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.feet.swing import SwingTrajectory
+from plantar.mechanics.same_time import SAME_TIME
+from plantar.settings.body_scale import REFERENCE_BODY
+
+__all__ = ["LEAST_TIME", "SwingFlight"]
+
+LEAST_TIME = 0.404
+"""Beats before touchdown from which a flight is not aimed anew: the foot would have to be thrown."""
+
+_RAMP = 0.2  # share of the time left in which the clock comes to its new rate
+_STEP = 1e-4  # s of the differences that velocity and acceleration are taken from
+_LATE = 0.6  # of the time left in which a foot that is above its old place already goes to the new one
+
+
+@dataclass(frozen=True)
+class _Clock:
+    """Time of the trajectory over the time of the flight, from a moment on: its rate goes smoothly to another one."""
+
+    since: float
+    shown: float
+    rate: float
+    last: float
+    until: float
+    shows: float
+
+    @classmethod
+    def to(cls, since: float, shown: float, rate: float, until: float, shows: float) -> _Clock:
+        """A clock that shows a time and runs at a rate at one moment, and shows another time at a later one."""
+        left = until - since
+        last = (shows - shown - rate * left) / (left * (1.0 - 0.5 * _RAMP)) + rate
+        return cls(since, shown, rate, last, until, shows)
+
+    def at(self, time: float) -> float:
+        """What it shows."""
+        if time >= self.until:
+            return self.shows
+        length = self.until - self.since
+        s = max(0.0, time - self.since) / length
+        # Integral of a rate that rises linearly and then stays: no jump in speed, whatever the plan changed.
+        ramp = 0.5 * s * s / _RAMP if s < _RAMP else s - 0.5 * _RAMP
+        return self.shown + length * (self.rate * s + (self.last - self.rate) * ramp)
+
+
+@dataclass(frozen=True)
+class _Course:
+    """Horizontal position and heading (3,) as a polynomial of fifth order that ends at rest."""
+
+    since: float
+    until: float
+    coefficients: NDArray[np.float64]
+
+    @classmethod
+    def to(
+        cls,
+        since: float,
+        until: float,
+        start: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
+        end: NDArray[np.float64],
+    ) -> _Course:
+        """The course from a position, velocity and acceleration (3,) to rest at an end (3,)."""
+        t, (p, v, a) = until - since, start
+        v, a, way = t * v, t * t * a, end - p
+        # The fifth-order polynomial in s = 0..1 with speed and acceleration given at its start and zero at its end.
+        third = 10.0 * way - 6.0 * v - 1.5 * a
+        fourth = -15.0 * way + 8.0 * v + 1.5 * a
+        fifth = 6.0 * way - 3.0 * v - 0.5 * a
+        return cls(since, until, np.array([p, v, 0.5 * a, third, fourth, fifth]))
+
+    def at(self, time: float) -> NDArray[np.float64]:
+        s = min(1.0, max(0.0, (time - self.since) / (self.until - self.since)))
+        value = np.zeros(3)
+        # Horner's rule.
+        for c in self.coefficients[::-1]:
+            value = value * s + c
+        return value
+
+
+@dataclass(frozen=True)
+class SwingFlight:
+    """A swing foot's way.
+
+    Attributes:
+        path: The trajectory that it set out on.
+        duration: Time in s from lift-off to the planned touchdown.
+        end: Planned sole position (3,) at touchdown in m.
+        yaw_end: Heading in rad at touchdown.
+
+    Example:
+        >>> path = SwingTrajectory(np.zeros(3), np.array([0.2, 0.0, 0.0]), 0.0, 0.0, 0.05, 0.9)
+        >>> flight = SwingFlight.on(path).aimed(0.4, np.array([0.3, 0.05]), 0.0, 1.2)
+        >>> flight.at(1.2)[0].round(6).tolist()
+        [0.3, 0.05, 0.0]
+    """
+
+    path: SwingTrajectory
+    duration: float
+    end: NDArray[np.float64]
+    yaw_end: float
+    _clock: _Clock | None = None
+    _course: _Course | None = None
+
+    @classmethod
+    def on(cls, path: SwingTrajectory) -> SwingFlight:
+        """A flight at its beginning."""
+        return cls(path, path.duration, path.end, path.yaw_end)
+
+    def progress(self, time: float) -> float:
+        """Time in s on the trajectory's own clock, at a time in s since lift-off."""
+        return time if self._clock is None else self._clock.at(time)
+
+    def comes_down(self, time: float) -> bool:
+        """Whether more than half of the swing is over at a time in s since lift-off."""
+        return self.progress(time) > 0.5 * self.path.duration
+
+    def at(self, time: float) -> tuple[NDArray[np.float64], float]:
+        """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside 0..duration."""
+        position, yaw = self.path.at(self.progress(time))
+        if self._course is not None and time >= self._course.since:
+            x, y, yaw = self._course.at(time).tolist()
+            position[:2] = x, y
+        return position, yaw
+
+    def aimed(
+        self,
+        time: float,
+        place: NDArray[np.float64],
+        yaw: float,
+        duration: float,
+        least_time: float = LEAST_TIME * REFERENCE_BODY.beat,
+    ) -> SwingFlight:
+        """The flight with another end, from a moment on; the same where too little time is left.
+
+        Args:
+            time: That moment in s since lift-off.
+            place: Sole position (2,) at touchdown in m.
+            yaw: Heading at touchdown in rad.
+            duration: Time in s from lift-off to touchdown.
+            least_time: Time in s to touchdown below which the flight is left alone (`LEAST_TIME` of the robot's beats).
+
+        Returns:
+            The flight.
+        """
+        old, new = self.duration - time, duration - time
+        if min(old, new) < least_time:
+            return self
+        shown = self.progress(time)
+        rate = (self.progress(time + _STEP) - shown) / _STEP
+        clock = self._clock
+        if abs(duration - self.duration) > SAME_TIME:
+            clock = _Clock.to(time, shown, rate, duration, self.path.duration)
+        end = np.array([place[0], place[1], self.end[2]])
+        flight = replace(self, duration=duration, end=end, _clock=clock)
+        left = (self.path.arrived - shown) / (self.path.duration - shown)
+        until = time + new * max(left, _LATE)
+        before, now, after = (self._horizontal(time + k * _STEP) for k in (-1, 0, 1))
+        start = (now, (after - before) / (2.0 * _STEP), (after - 2.0 * now + before) / _STEP**2)
+        turn = now[2] + math.remainder(yaw - now[2], 2.0 * math.pi)
+        course = _Course.to(time, until, start, np.array([place[0], place[1], turn]))
+        return replace(flight, yaw_end=turn, _course=course)
+
+    def _horizontal(self, time: float) -> NDArray[np.float64]:
+        """Position and heading (3,) at a time in s since lift-off."""
+        position, yaw = self.at(max(0.0, time))
+        return np.array([position[0], position[1], yaw])

@@ -1,0 +1,98 @@
+"""Bridge a sudden move of the plan's DCM: a VRP that swings aside for a moment and pushes the CoM where it has to be.
+
+A foothold that carries only a part of the sole moves the VRP of its stance to the part's centroid, and with it the DCM
+that the plan should have now. The VRP of a window of time is moved by what makes up for that, as far as the support
+polygon allows (T 4.4.2).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
+from plantar.geometry.polygon import closest_point
+from plantar.mechanics.same_time import SAME_TIME
+
+__all__ = ["bridged"]
+
+_RAMP = 0.15  # of the bridge's time at both ends, in which the VRP moves to where it bridges and back
+
+Knots = tuple[list[float], list[NDArray[np.float64]]]
+
+
+def bridged(
+    plan: VrpPlan,
+    knots: Knots,
+    now: tuple[float, LipReference],
+    window: tuple[float, float] | None,
+    region: NDArray[np.float64],
+    kept: tuple[int, NDArray[np.float64], float],
+) -> tuple[VrpPlan, NDArray[np.float64]]:
+    """The plan from now on over other knots, with a bridge in a window of time.
+
+    Args:
+        plan: The plan until now.
+        knots: Times in s and VRPs (2,) in m of the stances that are built anew.
+        now: The time in s, and the plan at it.
+        window: Beginning and end in s of the bridge; None bridges nothing.
+        region: Convex polygon (k, 2) in the world in m in which the VRP may be in the bridge; empty does not limit it.
+        kept: Index of the first knot of the old plan that is kept after the new ones, by how much (2,) in m such knots
+            move, and by how much in s they come later.
+
+    Returns:
+        The plan, and the DCM (2,) in m by which it jumps because the region does not let it be bridged.
+    """
+    (time, state), (first, shift, delay) = now, kept
+    times, points, bridge = _with_bridge(knots, (time, state.vrp), window, plan.vrps[-1])
+    new = plan.replanned(times, points, first, shift=shift, delay=delay)
+    gap = state.dcm - new.dcm_waypoints[0]
+    if bridge:
+        push = gap / _response(times[: bridge[1] + 2], plan.omega)
+        for i in bridge:
+            wanted = points[i] + push
+            nearest = closest_point(region, wanted)
+            points[i] = wanted if nearest is None else nearest
+        new = plan.replanned(times, points, first, shift=shift, delay=delay)
+        gap = state.dcm - new.dcm_waypoints[0]
+    return new, gap
+
+
+def _with_bridge(
+    knots: Knots, now: tuple[float, NDArray[np.float64]], window: tuple[float, float] | None, end: NDArray[np.float64]
+) -> tuple[list[float], list[NDArray[np.float64]], list[int]]:
+    """Knots from now on with those of a bridge among them, and the indices of the two that may move."""
+    times, points = list(knots[0]), list(knots[1])
+    head_times, head = [now[0]], [now[1]]
+    bridge: list[int] = []
+    if window is not None:
+        length = window[1] - window[0]
+        before = [i for i, t in enumerate(times) if t <= window[0] + SAME_TIME]
+        for i in before:
+            if times[i] > now[0] + SAME_TIME:
+                head_times.append(times[i])
+                head.append(points[i])
+        del times[: len(before)], points[: len(before)]
+        ahead = points[0] if times else end
+        bridge = [len(head), len(head) + 1]
+        for share in (_RAMP, 1.0 - _RAMP):
+            head_times.append(window[0] + share * length)
+            head.append(head[bridge[0] - 1] + share * (ahead - head[bridge[0] - 1]))
+        if times and times[0] > window[1] + SAME_TIME:  # a bridge inside a stance ends where the stance's VRP is
+            head_times.append(window[1])
+            head.append(ahead)
+    fresh = [i for i, t in enumerate(times) if t > head_times[-1] + 1e-6]
+    return head_times + [times[i] for i in fresh], head + [points[i] for i in fresh], bridge
+
+
+def _response(times: list[float], omega: float) -> float:
+    """DCM at the first of some knots by 1 m of VRP at the last two knots but one."""
+    dcm = 0.0
+    vrp = [0.0] * (len(times) - 3) + [1.0, 1.0, 0.0]
+    for i in range(len(times) - 2, -1, -1):
+        length = times[i + 1] - times[i]
+        rate = (vrp[i + 1] - vrp[i]) / length
+        dcm = vrp[i] + rate / omega + math.exp(-omega * length) * (dcm - vrp[i + 1] - rate / omega)
+    return dcm

@@ -1,0 +1,384 @@
+"""The plan of a walk and its one owner: footsteps, timing and VRPs (T 4.1.3, steps 2 and 3; T 4.4.2).
+
+A VRP stands still over the stance foot in single support and moves on to the next foot in double support. Whoever wants
+the plan to be another one returns a `PlanChange`; `WalkPlan.apply` is the only thing that changes anything, and keeps a
+record of it. What the plan hands out are values: nobody else can move a footstep.
+
+The plan goes on from where its DCM and CoM are: a sudden move of the DCM waypoint is bridged
+(`plantar.gait.plan.bridge`). Where the support polygon does not allow that, the double support is made longer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.errors import InputError
+from plantar.gait.plan.bridge import bridged
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
+from plantar.gait.plan.plan_change import AppliedChange, MovedStep, PlanChange
+from plantar.gait.plan.vrp_plan import LipReference, VrpPlan
+from plantar.mechanics.same_time import SAME_TIME
+from plantar.sides import Side, other_side
+
+__all__ = ["PlanView", "PlannedStep", "WalkPlan", "vrp_of_step"]
+
+_DELAY = 0.202  # beats by which a double support that is too short grows at a time
+_MOST_DELAY = 1.21  # beats in all
+_SHORT = 0.02  # leg of the DCM that the feedback is left to deal with
+_STANCE_BRIDGE = 1.62  # beats in which a change that comes in single support is bridged
+_FORESIGHT = 0.243  # beats before touchdown from which a foothold that is seen coming is bridged on the stance foot
+_LEAST_BRIDGE = 0.202  # beats: with less time left nothing is bridged
+_AT_REST = 4.04  # beats of standing before the first weight shift, and after the last, that the VRP rests in
+_REBUILT = 4  # stances that a replan builds anew; later ones keep what they have
+_REMEMBERED = 4  # steps behind the current one that a plan without an end keeps
+_RECORDED = 1000  # changes that the record keeps
+
+
+def vrp_of_step(step: Footstep, vrp_in_sole: ArrayLike) -> NDArray[np.float64]:
+    """VRP over a footstep (T 4.13).
+
+    Args:
+        step: The footstep.
+        vrp_in_sole: Its place (2,) in the sole frame in m.
+
+    Returns:
+        VRP (2,) in the world frame in m.
+    """
+    return np.asarray(step.position[:2] + step.rotation_sole_to_world[:2, :2] @ np.asarray(vrp_in_sole, dtype=float))
+
+
+@dataclass(frozen=True)
+class PlannedStep:
+    """A footstep with the VRP over it.
+
+    Attributes:
+        foothold: Where the sole is planned to stand.
+        vrp: VRP (2,) over it in the world in m, read-only.
+    """
+
+    foothold: Footstep
+    vrp: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        self.vrp.flags.writeable = False
+
+
+@dataclass(frozen=True)
+class PlanView:
+    """The plan as it stands: a value that later changes leave alone.
+
+    Attributes:
+        first: Index of the first step that is kept; 0 but for a walk without an end.
+        steps: The steps from that one on.
+        schedule: The phases.
+        standing: VRP (2,) over each foot in m before the first step that is kept.
+        last: The change that was applied last.
+    """
+
+    first: int
+    steps: tuple[PlannedStep, ...]
+    schedule: WalkSchedule
+    standing: Mapping[Side, NDArray[np.float64]]
+    last: AppliedChange | None = None
+
+    @property
+    def count(self) -> int:
+        """Number of steps of the walk from its beginning to its end as planned."""
+        return self.first + len(self.steps)
+
+    def foothold(self, step: int) -> Footstep:
+        """Where a step puts its foot."""
+        return self.steps[step - self.first].foothold
+
+    def vrp(self, step: int) -> NDArray[np.float64]:
+        """VRP (2,) in m over the foothold of a step."""
+        return self.steps[step - self.first].vrp
+
+    def vrp_before(self, step: int, side: Side) -> NDArray[np.float64]:
+        """VRP over a foot before a step is taken.
+
+        Args:
+            step: Index of the step.
+            side: Which foot.
+
+        Returns:
+            VRP (2,) in the world in m.
+        """
+        for planned in reversed(self.steps[: step - self.first]):
+            if planned.foothold.side == side:
+                return planned.vrp
+        return self.standing[side]
+
+    def stance_vrp(self, step: int) -> NDArray[np.float64]:
+        """VRP (2,) in m over the foot that carries while a step is taken."""
+        return self.vrp_before(step, other_side(self.foothold(step).side))
+
+    def middle(self, step: int) -> NDArray[np.float64]:
+        """Point (2,) in m between the feet's VRPs before a step is taken."""
+        return np.asarray(0.5 * (self.vrp_before(step, "left") + self.vrp_before(step, "right")))
+
+    def knots(self, time: float, last: int) -> tuple[list[float], list[NDArray[np.float64]]]:
+        """Knots of the VRP plan after a time, up to the stance before a step; and those of the final standing.
+
+        Args:
+            time: Time in s.
+            last: Index of that step.
+
+        Returns:
+            Times in s, and the VRP (2,) in m at each.
+        """
+        times: list[float] = []
+        points: list[NDArray[np.float64]] = []
+        rest = _AT_REST * self.schedule.timing.body.beat
+        for phase in self.schedule.phases[self.schedule.index(time) :]:
+            if phase.kind == PhaseKind.SINGLE_SUPPORT:
+                if phase.step >= last:
+                    return times, points
+                vrp = self.stance_vrp(phase.step)
+                times += [phase.start, phase.end]
+                points += [vrp, vrp]
+            elif phase.kind == PhaseKind.STANDING and math.isfinite(phase.start):
+                vrp = self.middle(phase.step)
+                times += [phase.start, min(phase.end, phase.start + rest)]
+                points += [vrp, vrp]
+        return times, points
+
+
+class WalkPlan:
+    """Footsteps, timing and VRPs of a walk.
+
+    Args:
+        feet: Where the feet stand at the start.
+        steps: The footsteps in order.
+        timing: The durations.
+        vrp_in_sole: VRP (2,) in each sole's frame in m, usually the sole's centroid.
+        omega: Pendulum frequency in rad/s.
+        begin: Time in s at which the first double support begins; before it the robot stands.
+    """
+
+    def __init__(
+        self,
+        feet: Mapping[Side, Footstep],
+        steps: Sequence[Footstep],
+        timing: Timing,
+        vrp_in_sole: Mapping[Side, NDArray[np.float64]],
+        omega: float,
+        begin: float = 0.0,
+    ) -> None:
+        self._vrp_in_sole = dict(vrp_in_sole)
+        self._omega = omega
+        self._body = timing.body
+        self._record: deque[AppliedChange] = deque(maxlen=_RECORDED)
+        schedule = WalkSchedule.of([step.side for step in steps], timing, begin)
+        standing = {s: vrp_of_step(feet[s], vrp_in_sole[s]) for s in feet}
+        for vrp in standing.values():
+            vrp.flags.writeable = False
+        self._view = PlanView(0, tuple(map(self._planned, steps)), schedule, standing)
+        first = schedule.phases[0].end
+        start = self._view.middle(0)
+        times, points = self._view.knots(-math.inf, len(steps))
+        if times and times[0] <= first:  # no step at all
+            del times[0], points[0]
+        self._vrps = VrpPlan([first - _AT_REST * timing.body.beat, first, *times], [start, start, *points], omega)
+        self._asked = (-math.inf, self._vrps, self._vrps.at(-math.inf))
+        self._next = (-math.inf, self._vrps, self._vrps.at(-math.inf).dcm)
+
+    @property
+    def view(self) -> PlanView:
+        """The plan as it stands."""
+        return self._view
+
+    @property
+    def schedule(self) -> WalkSchedule:
+        """The phases as they stand."""
+        return self._view.schedule
+
+    @property
+    def vrps(self) -> VrpPlan:
+        """VRP, DCM and CoM over time."""
+        return self._vrps
+
+    @property
+    def record(self) -> tuple[AppliedChange, ...]:
+        """The changes that were applied, the last thousand of them."""
+        return tuple(self._record)
+
+    def at(self, time: float) -> LipReference:
+        """The plan at a time in s (see `VrpPlan.at`)."""
+        last, vrps, reference = self._asked
+        if last != time or vrps is not self._vrps:  # a tick asks more than once, and seldom changes the plan in between
+            reference = self._vrps.at(time)
+            self._asked = (time, self._vrps, reference)
+        return reference
+
+    def dcm_after(self, phase: Phase) -> NDArray[np.float64]:
+        """Where the plan has the DCM (2,) in m at the end of one of its phases."""
+        end, vrps, dcm = self._next
+        if end != phase.end or vrps is not self._vrps:  # asked at each tick of the phase
+            dcm = self._vrps.at(phase.end).dcm
+            self._next = (phase.end, self._vrps, dcm)
+        return dcm
+
+    @property
+    def end(self) -> NDArray[np.float64]:
+        """Where the CoM comes to rest (2,) in m."""
+        return np.asarray(self._vrps.vrps[-1])
+
+    def apply(self, change: PlanChange, time: float, region: NDArray[np.float64]) -> AppliedChange:
+        """Change the plan from now on.
+
+        Args:
+            change: What shall change.
+            time: Now in s.
+            region: Convex polygon (k, 2) in the world in m in which the VRP may be while it bridges: in what is left of
+                the single support where that is enough, else in the double support that follows; counter-clockwise,
+                empty does not limit it.
+
+        Returns:
+            What it did, as it stands in the record.
+
+        Raises:
+            InputError: If the change is about a step that the plan does not have, or ends a phase before it begins.
+        """
+        before = self._view
+        if not before.first <= change.step < max(before.count, 1) and change.following is None:
+            raise InputError(f"step {change.step} is not in the plan; allowed: {before.first} to {before.count - 1}")
+        self._view = self._changed(change, time)
+        now = self._vrps.at(time)
+        shift = np.asarray(change.shift if change.vrp_shift is None else change.vrp_shift)
+        gap, delay = self._bridge(change, time, now, region, shift)
+        moved = _moved(before, self._view, change)
+        applied = AppliedChange(time, change, moved, (float(gap[0]), float(gap[1])), delay)
+        self._view = replace(self._view, last=applied)
+        if change.following is not None:
+            self._forget(time)
+        self._record.append(applied)
+        return applied
+
+    def _planned(self, step: Footstep) -> PlannedStep:
+        return PlannedStep(step, vrp_of_step(step, self._vrp_in_sole[step.side]))
+
+    def _changed(self, change: PlanChange, time: float) -> PlanView:
+        """The plan's footsteps, VRPs and phases with a change."""
+        view = self._view
+        steps, schedule, k = list(view.steps), view.schedule, change.step - view.first
+        if change.following is not None:
+            steps = steps[: k + 1] + [self._planned(step) for step in change.following]
+            schedule = schedule.followed_by(change.step, [step.side for step in change.following], time)
+        if change.foothold is not None:
+            steps[k] = self._planned(change.foothold)
+        if change.vrp is not None:
+            steps[k] = PlannedStep(steps[k].foothold, np.array(change.vrp))
+        vrp_shift = change.shift if change.vrp_shift is None else change.vrp_shift
+        if any(change.shift) or any(vrp_shift):
+            (dx, dy), later = change.shift, np.asarray(vrp_shift)
+            for i in range(k + 1, len(steps)):
+                foothold = steps[i].foothold
+                moved = replace(foothold, x=foothold.x + dx, y=foothold.y + dy)
+                steps[i] = PlannedStep(moved, steps[i].vrp + later)
+        if change.longer is not None:
+            schedule = schedule.delayed(schedule.at(time), change.longer, change.wait)
+        return replace(view, steps=tuple(steps), schedule=schedule)
+
+    def _bridge(
+        self,
+        change: PlanChange,
+        time: float,
+        now: LipReference,
+        region: NDArray[np.float64],
+        shift: NDArray[np.float64],
+    ) -> tuple[NDArray[np.float64], float]:
+        """Solve the VRPs anew, bridged; the DCM (2,) in m that stays unbridged, and how much longer a double support
+        becomes for it in s."""
+        step, phase, beat = change.step, self.schedule.at(time), self._body.beat
+        anew = change.following is not None
+        if change.longer is not None or anew:
+            window = (time, time if change.resets else min(phase.end, time + _STANCE_BRIDGE * beat))
+            return self._solved(time, now, window, region, shift, late=change.longer or 0.0, anew=anew), 0.0
+        takes_over = phase.step == step + 1 and phase.kind == PhaseKind.DOUBLE_SUPPORT
+        if phase.step == step and phase.kind == PhaseKind.SINGLE_SUPPORT and phase.end - time >= _FORESIGHT * beat:
+            return self._solved(time, now, (time, phase.end), region, shift), 0.0
+        if takes_over or phase.step == step:
+            following = phase if takes_over else self.schedule.following(phase)
+            return self._bridged_in_double_support(following, time, now, region, shift)
+        window = (time, min(phase.end, time + _STANCE_BRIDGE * beat))
+        return self._solved(time, now, window, region, shift), 0.0
+
+    def _bridged_in_double_support(
+        self,
+        phase: Phase,
+        time: float,
+        now: LipReference,
+        region: NDArray[np.float64],
+        shift: NDArray[np.float64],
+    ) -> tuple[NDArray[np.float64], float]:
+        """Bridge in a double support, which becomes longer where the region leaves no room."""
+        window, delay, old = (max(time, phase.start), phase.end), 0.0, self._vrps
+        while True:
+            self._vrps = old
+            gap = self._solved(time, now, window, region, shift, delay)
+            if float(np.hypot(*gap)) <= _SHORT * self._body.leg or delay > _MOST_DELAY * self._body.beat:
+                break
+            delay += _DELAY * self._body.beat
+            window = (window[0], phase.end + delay)
+        if delay > 0.0:
+            self._view = replace(self._view, schedule=self.schedule.delayed(phase, delay))
+        return gap, delay
+
+    def _solved(
+        self,
+        time: float,
+        now: LipReference,
+        window: tuple[float, float],
+        region: NDArray[np.float64],
+        shift: NDArray[np.float64],
+        delay: float = 0.0,
+        late: float = 0.0,
+        anew: bool = False,
+    ) -> NDArray[np.float64]:
+        """Solve the VRPs from now on, with a bridge in a window of time; the DCM (2,) in m that stays unbridged."""
+        n = self._view.count
+        last = n if anew else min(self.schedule.at(time).step + _REBUILT, n)
+        if last >= n - 1:
+            last = n
+        times, points = self._view.knots(time, last)
+        if delay:
+            times = [t + delay if t >= window[1] - delay - SAME_TIME else t for t in times]
+        kept = len(self._vrps.times) - (0 if last == n else 2 * (n - last) + 2)
+        self._vrps, gap = bridged(
+            self._vrps,
+            (times, points),
+            (time, now),
+            window if window[1] - window[0] >= _LEAST_BRIDGE * self._body.beat else None,
+            region,
+            (kept, shift, delay + late),
+        )
+        return gap
+
+    def _forget(self, time: float) -> None:
+        """Forget what lies far behind, in a walk without an end."""
+        view = self._view
+        first = max(view.first, min(view.schedule.at(time).step - _REMEMBERED, view.count))
+        gone = view.steps[: first - view.first]
+        standing = dict(view.standing) | {p.foothold.side: p.vrp for p in gone}
+        schedule = view.schedule.since(time - 1.0)
+        self._view = replace(view, first=first, steps=view.steps[len(gone) :], standing=standing, schedule=schedule)
+
+
+def _moved(before: PlanView, after: PlanView, change: PlanChange) -> tuple[MovedStep, ...]:
+    """The footsteps that differ between two plans."""
+    moved = []
+    for k in range(max(change.step, after.first), after.count):
+        old = before.foothold(k) if before.first <= k < before.count else None
+        new = after.foothold(k)
+        if new != old:
+            reason = change.reason if k == change.step or not change.because else change.because
+            moved.append(MovedStep(k, new.x, new.y, new.yaw, reason, old))
+    return tuple(moved)

@@ -1,0 +1,96 @@
+"""End a double support sooner or later, where no VRP of the support polygon brings the DCM to its goal (K 4.3).
+
+While one does (K 25-27), the double support keeps its length. Else it ends when the DCM misses the place where the next
+single support begins least, weighed against the change (DSP-Opt, `plantar.gait.propose.dsp_opt`): a longer one has the
+longest support polygon there is to brake in, a shorter one frees the foot that has to catch the body.
+"""
+
+from __future__ import annotations
+
+import math
+
+from plantar.gait.balance.ankle_strategy import Saturation, double_support_vrp, within_support
+from plantar.gait.plan.phases import PhaseKind
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.propose.dsp_opt import DspProblem, DspWeights, solve_dsp
+from plantar.gait.propose.proposer import Pendulum, Priority, Tick
+from plantar.settings.schema import Settings, share
+
+__all__ = ["DoubleSupportTiming", "DoubleSupportTimingRules"]
+
+
+class DoubleSupportTimingRules(Settings):
+    """When a double support ends sooner or later than planned.
+
+    Attributes:
+        least_error: Distance in m by which the DCM is off the plan, below which the timing stays.
+        least_left: Time in s until its end from which it stays; none ends sooner.
+        pause: Time in s between two changes.
+    """
+
+    least_error: float = share(0.0867, "sole", 0, 0.2)
+    least_left: float = share(0.202, "beat", 0, 5)
+    pause: float = share(0.202, "beat", 0, 5)
+
+
+class DoubleSupportTiming:
+    """Proposes another end of the double support.
+
+    Args:
+        rules: When.
+        weights: What a change is weighed by.
+        confidence: c of K 37.
+        period: Control period in s, the unit of a change.
+    """
+
+    priority = Priority.TIMING
+
+    def __init__(self, rules: DoubleSupportTimingRules, weights: DspWeights, confidence: float, period: float) -> None:
+        self._rules = rules
+        self._weights = weights
+        self._confidence = confidence
+        self._period = period
+        self._changed = -math.inf
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """Another end of the double support, where that helps (see `plantar.gait.propose.proposer.Proposer`)."""
+        phase, pendulum, rules, plan = tick.phase, tick.pendulum, self._rules, tick.plan
+        if pendulum is None or phase.kind != PhaseKind.DOUBLE_SUPPORT or not plan.first < phase.step < plan.count:
+            return None
+        left = phase.end - tick.time
+        if left < rules.least_left or tick.time < self._changed + rules.pause or not len(pendulum.zmp_region):
+            return None
+        if math.dist(pendulum.dcm, pendulum.reference.dcm) < rules.least_error:
+            return None
+        found = self._best(tick, pendulum)
+        if found is None:
+            return None
+        change = round((found - (phase.end - phase.start)) / self._period) * self._period
+        change = max(change, rules.least_left - left)
+        if abs(change) < 1.5 * self._period:
+            return None
+        self._changed = tick.time
+        # It is about the footstep that the double support ends with.
+        return PlanChange("double support adjusted", phase.step - 1, longer=change, resets=True)
+
+    def _best(self, tick: Tick, pendulum: Pendulum) -> float | None:
+        """Length of the double support in s that is best; None where the VRP does without another one."""
+        phase, plan = tick.phase, tick.plan
+        end, begun, length = plan.stance_vrp(phase.step), tick.time - phase.start, phase.end - phase.start
+        wanted = double_support_vrp(pendulum.dcm, pendulum.goal, end, length, begun, pendulum.offset, pendulum.omega)
+        kept = within_support(wanted, pendulum.zmp_region)
+        if kept.saturated != Saturation.SUPPORT:
+            return None
+        problem = DspProblem(
+            omega=pendulum.omega,
+            dcm=pendulum.dcm,
+            goal=pendulum.goal,
+            vrp=kept.vrp,
+            end=end,
+            offset=pendulum.offset,
+            elapsed=begun,
+            target=length,
+            nominal=plan.schedule.timing.double_support,
+            confidence=self._confidence,
+        )
+        return solve_dsp(problem, self._weights).time

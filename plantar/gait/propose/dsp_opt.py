@@ -1,0 +1,289 @@
+"""DSP-Opt: how long a double support lasts, so that the DCM is where the next single support begins (K 34-38).
+
+One number, T_d, is weighed: the DCM that is missed at its end, and how far it leaves its nominal value and that of the
+tick before, shortening weighed more than lengthening (K 36). The DCM at the end of a double support that lasts T (K 34,
+with x = T - T_c to go, the VRP now at u*, and p the pull of `ankle_strategy.double_support_pull`) is
+
+    xi(T) = u_e - u_w + e^(w x) (xi_c - u_e + u_w + (u_e - u*) p(x, T)),
+
+smooth in T, but its cost need not be convex. The cost is sampled over the whole interval, and between the neighbours of
+the least sample the zero of its derivative, which is exact, is bracketed and found to rounding.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arrays import array
+from plantar.errors import InputError
+from plantar.gait.balance.ankle_strategy import MOST_GROWTH, SHORTEST_TIME, double_support_pull
+from plantar.settings.schema import Settings, number
+
+__all__ = ["DspProblem", "DspSolution", "DspWeights", "solve_dsp"]
+
+_SAMPLES = np.linspace(0.0, 1.0, 33)
+_LEVELS = 6  # each with samples 16 times as close as the one before
+_SMALL = 1e-3  # 1 - cos(w_d x) below which the closed form of the pull cancels too many digits
+_TURNS = 100  # far more than any bracket takes, halved now and then, to come to its last bit
+
+
+class DspWeights(Settings):
+    """What a change of the double support is weighed by (K Table 1).
+
+    Attributes:
+        dynamics: w_d: of the DCM that is missed at its end.
+        nominal: w_n: of leaving the nominal duration, with the confidence.
+        smooth: w_s: of leaving the duration of the tick before, with what the confidence leaves.
+        longer: w_+: factor on a duration that is longer.
+        shorter: w_-: factor on one that is shorter: the risk of being too quick.
+        least: gamma_min: shortest duration as a share of the nominal one.
+        most: gamma_max: longest duration as a share of the nominal one.
+    """
+
+    dynamics: float = number(15.0, "1", 1e-3, 1e6)
+    nominal: float = number(1.0, "1", 1e-3, 1e6)
+    smooth: float = number(1.0, "1", 1e-3, 1e6)
+    longer: float = number(1.0, "1", 1e-3, 1e6)
+    shorter: float = number(5.0, "1", 1e-3, 1e6)
+    least: float = number(0.5, "1", 0.0, 1.0)
+    most: float = number(5.0, "1", 1.0, 100.0)
+
+
+class DspProblem(NamedTuple):
+    """A double support, now. All places are in the world.
+
+    Attributes:
+        omega: Pendulum frequency in rad/s.
+        dcm: xi_c (2,) in m.
+        goal: xi_d (2,), where the next single support begins, in m (`plantar.gait.balance.ankle_strategy.target_dcms`).
+        vrp: u* (2,) in m: where the VRP is now, cut to the support.
+        end: u_e (2,), the middle of the foot that comes to carry, in m.
+        offset: u_w (2,) in m by which a push is expected to move the VRP.
+        elapsed: T_c: time since the double support began in s.
+        target: T_d of the tick before in s.
+        nominal: The nominal T_d in s, above 0.
+        confidence: c: 1 keeps the nominal duration, 0 goes on from the tick before.
+    """
+
+    omega: float
+    dcm: ArrayLike
+    goal: ArrayLike
+    vrp: ArrayLike
+    end: ArrayLike
+    offset: ArrayLike
+    elapsed: float
+    target: float
+    nominal: float
+    confidence: float = 0.0
+
+
+class DspSolution(NamedTuple):
+    """The best duration.
+
+    Attributes:
+        time: T_d in s, from the double support's begin.
+        missed: By how much (2,) in m the DCM is off where the next phase begins: xi(T_d) - xi_d.
+        at_bound: -1 where the shortest duration holds, 1 where the longest does, else 0.
+        residual: How fast the cost still falls in an allowed direction, beside the largest term of its derivative.
+    """
+
+    time: float
+    missed: NDArray[np.float64]
+    at_bound: int
+    residual: float
+
+
+def solve_dsp(problem: DspProblem, weights: DspWeights) -> DspSolution:
+    """The best duration of a double support (K 37-38).
+
+    Args:
+        problem: The double support.
+        weights: What a change is weighed by.
+
+    Returns:
+        The solution. A double support that has lasted as long as it may ends now.
+
+    Raises:
+        InputError: If a place is not two finite numbers, or frequency or nominal duration not above 0.
+
+    Example:
+        The DCM lags behind: the double support lasts longer.
+
+        >>> late = DspProblem(3.44, [0.16, 0.0], [0.23, 0.0], [0.06, 0.0], [0.2, 0.0], [0.0, 0.0], 0.1, 0.2, 0.2)
+        >>> found = solve_dsp(late, DspWeights())
+        >>> round(found.time, 4), found.at_bound, found.residual < 1e-8
+        (0.3437, 0, True)
+    """
+    if not (0.0 < problem.omega < math.inf and 0.0 < problem.nominal < math.inf):
+        raise InputError(
+            f"pendulum frequency and nominal duration are {problem.omega} rad/s and {problem.nominal} s; "
+            "allowed: finite values above 0"
+        )
+    cost = _Cost(problem, weights)
+    low = max(weights.least * problem.nominal, problem.elapsed + SHORTEST_TIME)
+    high = min(weights.most * problem.nominal, problem.elapsed + MOST_GROWTH / problem.omega)
+    if high <= low:
+        return DspSolution(low, np.array(cost.slope(low)[2]), 1, 0.0)  # no direction is allowed
+    left, right = low, high
+    for _ in range(_LEVELS):
+        times = left + (right - left) * _SAMPLES
+        k = int(cost.values(times).argmin())
+        left, right = float(times[max(k - 1, 0)]), float(times[min(k + 1, len(times) - 1)])
+        at_left, at_right = cost.slope(left)[0], cost.slope(right)[0]
+        if at_left < 0.0 < at_right:
+            return _solution(cost, _zero(cost, left, right, at_left, at_right), 0)
+        if at_left >= 0.0 and left == low:
+            return _solution(cost, low, -1)
+        if at_right <= 0.0 and right == high:
+            return _solution(cost, high, 1)
+        # Beside the least sample the cost falls away from it: there is another minimum between, to be sampled finer.
+    return _solution(cost, float(times[k]), 0)
+
+
+def _solution(cost: _Cost, time: float, bound: int) -> DspSolution:
+    slope, size, missed = cost.slope(time)
+    left = abs(slope) if bound == 0 else max(0.0, -slope if bound < 0 else slope)
+    return DspSolution(time, np.array(missed), bound, left / max(size, 1e-300))
+
+
+def _zero(cost: _Cost, low: float, high: float, at_low: float, at_high: float) -> float:
+    """Where the slope, negative at one end and positive at the other, passes 0 (Chandrupatla's method).
+
+    Inverse quadratic interpolation where the three last points allow it, else halving: T. R. Chandrupatla, "A new
+    hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives",
+    Advances in Engineering Software 28, 1997.
+    """
+    a, b, fa, fb = low, high, at_low, at_high
+    share = fa / (fa - fb)
+    best = b
+    for _ in range(_TURNS):
+        time = a + share * (b - a)
+        slope, size, _ = cost.slope(time)
+        best = time
+        if abs(slope) <= 1e-12 * size:
+            break
+        c, fc = a, fa
+        if (slope > 0.0) != (fa > 0.0):
+            c, fc, b, fb = b, fb, a, fa
+        a, fa = time, slope
+        if abs(b - a) <= 4e-16 * abs(b):
+            break
+        xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
+        share = 0.5
+        if phi * phi < xi and (1.0 - phi) * (1.0 - phi) < 1.0 - xi:
+            share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
+    return best
+
+
+class _Cost:
+    """Cost of a duration (K 35-37) and its derivative.
+
+    Args:
+        problem: The double support.
+        weights: What a change is weighed by.
+    """
+
+    def __init__(self, problem: DspProblem, weights: DspWeights) -> None:
+        x, y = array(problem.dcm, "DCM", (2,), finite=True).tolist()
+        gx, gy = array(problem.goal, "goal of the DCM", (2,), finite=True).tolist()
+        px, py = array(problem.vrp, "VRP", (2,), finite=True).tolist()
+        ex, ey = array(problem.end, "end of the VRP", (2,), finite=True).tolist()
+        ox, oy = array(problem.offset, "VRP offset", (2,), finite=True).tolist()
+        self._omega, self._elapsed, self._dynamics = problem.omega, problem.elapsed, weights.dynamics
+        self._begun = (x - ex + ox, y - ey + oy)
+        self._ahead = (ex - px, ey - py)
+        self._goal = (gx - ex + ox, gy - ey + oy)
+        self._both = np.array((self._begun, self._ahead, self._goal))[:, :, None]
+        c = min(max(problem.confidence, 0.0), 1.0)
+        self._kept = (
+            (c * weights.nominal, problem.nominal),
+            ((1.0 - c) * weights.smooth, problem.target),
+        )
+        self._longer, self._shorter = weights.longer, weights.shorter
+
+    def slope(self, time: float) -> tuple[float, float, tuple[float, float]]:
+        """Derivative of the cost by the duration, the size of its largest term, and the DCM that is missed."""
+        w, (ax, ay), (bx, by) = self._omega, self._begun, self._ahead
+        left = time - self._elapsed
+        grown = math.exp(min(w * left, MOST_GROWTH))
+        pull, rate = _pull_and_rate(w, time, left)
+        mx, my = ax + bx * pull, ay + by * pull
+        missed = (grown * mx - self._goal[0], grown * my - self._goal[1])
+        dx, dy = grown * (w * mx + bx * rate), grown * (w * my + by * rate)
+        total = self._dynamics * (missed[0] * dx + missed[1] * dy)
+        size = self._dynamics * (abs(missed[0] * dx) + abs(missed[1] * dy))
+        for weight, kept in self._kept:
+            part = weight * (self._longer if time >= kept else self._shorter) * (time - kept)
+            total += part
+            size += abs(part)
+        return total, size, missed
+
+    def values(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The cost (n,) of durations (n,)."""
+        w, left = self._omega, times - self._elapsed
+        rate = (0.5 * math.pi) / times
+        angle = rate * left
+        cosine, decayed = np.cos(angle), np.exp(-w * left)
+        c = w / (w * w + rate * rate)
+        turned = c * (w * (cosine - decayed) + rate * np.sin(angle))
+        # The first sample may lie where all of this cancels.
+        cosine[0] = 0.0
+        pull = (1.0 - decayed - turned) / (1.0 - cosine)
+        pull[0] = double_support_pull(w, float(times[0]), float(left[0]))
+        missed = (self._both[0] + self._both[1] * pull) / decayed - self._both[2]
+        total: NDArray[np.float64] = (0.5 * self._dynamics) * (missed * missed).sum(axis=0)
+        for weight, kept in self._kept:
+            if weight > 0.0:
+                off = times - kept
+                off *= off
+                total += off * np.where(times >= kept, 0.5 * weight * self._longer, 0.5 * weight * self._shorter)
+        return total
+
+
+def _pull_and_rate(omega: float, time: float, left: float) -> tuple[float, float]:
+    """Pull of a VRP over the rest of a double support, and its derivative by the duration.
+
+    Args:
+        omega: Pendulum frequency in rad/s.
+        time: T_d in s.
+        left: T_d - T_c in s, which grows with it.
+    """
+    rate = 0.5 * math.pi / time
+    angle = rate * left
+    turning = rate * (1.0 - left / time)  # of the angle, by the duration
+    half = math.sin(0.5 * angle) ** 2
+    if 2.0 * half < _SMALL:
+        return _pull_and_rate_near_the_end(omega, left, angle, turning)
+    cosine, sine, decayed = math.cos(angle), math.sin(angle), math.exp(-omega * left)
+    square = omega * omega + rate * rate
+    c = omega / square
+    slower = -rate / time  # of w_d
+    c_rate = -2.0 * c * rate * slower / square
+    kept = 1.0 - omega * c
+    swing = omega * cosine + rate * sine
+    whole = 1.0 - c * swing - decayed * kept
+    swing_rate = turning * (rate * cosine - omega * sine) + slower * sine
+    whole_rate = -c_rate * swing - c * swing_rate + decayed * (omega * kept + omega * c_rate)
+    pull = whole / (2.0 * half)
+    return pull, (whole_rate - pull * sine * turning) / (2.0 * half)
+
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
+_SHARES, _PARTS = (0.5 * (_NODES + 1.0)).tolist(), (0.5 * _WEIGHTS).tolist()
+
+
+def _pull_and_rate_near_the_end(omega: float, left: float, angle: float, turning: float) -> tuple[float, float]:
+    """The same by ten nodes, where the closed form cancels; the angle is small there, and sin v a / sin a hardly v."""
+    bottom, back = math.sin(0.5 * angle), 1.0 / math.tan(0.5 * angle)
+    exponent = omega * left
+    pull = slower = turned = 0.0
+    for v, part in zip(_SHARES, _PARTS, strict=True):
+        term = part * math.exp(-exponent * (1.0 - v)) * (math.sin(0.5 * angle * v) / bottom) ** 2
+        pull += term
+        slower += term * (1.0 - v)
+        turned += term * (v / math.tan(0.5 * angle * v) - back)
+    return exponent * pull, omega * pull - omega * exponent * slower + exponent * turned * turning

@@ -1,0 +1,92 @@
+"""A foot that comes down with a side over nothing: the steps to come move off that edge.
+
+Dead reckoning knows the heading to some milliradians, and in a walk of twenty metres the feet are centimetres beside
+where they are thought to be. On ground that ends there, what the sole sees beyond its edge alone tells.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.plan.phases import PhaseKind
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.propose.proposer import Priority, Tick, was_applied
+from plantar.layouts.layout import SoleLayout
+from plantar.sides import Side
+
+__all__ = ["EdgeBeside"]
+
+_LEAST_OVER = 0.08
+"""Share of the taxels that see nothing, of an edge: half of the row along a side. Fewer are a hole, or have failed."""
+
+_MOST_OVER = 0.5
+"""Share beyond which it is no foothold with an edge any more."""
+
+
+class EdgeBeside:
+    """Proposes footsteps that lie further on the ground that a foot was seen to land on.
+
+    An edge along a side that cuts off a share f of a sole of the width w moves the middle of what is left by f w / 2,
+    and the steps to come move by as much. The next foot of that side then stands on whole ground, or shows what is
+    left.
+    Only what lies across the sole moves them: before and behind, the next foothold is another piece of ground.
+
+    Args:
+        layouts: Sole layout of each side.
+        drop: Distance in m from the sole from which there is no ground.
+        largest: Largest distance in m by which one landing moves the steps.
+    """
+
+    priority = Priority.FOOTHOLD
+
+    def __init__(self, layouts: Mapping[Side, SoleLayout], drop: float, largest: float) -> None:
+        self._places = {side: layout.positions[:, :2] for side, layout in layouts.items()}
+        self._drop = drop
+        self._largest = largest
+        self._proposed: PlanChange | None = None
+        self._moved = (-1, 0.0)
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """The steps to come, moved across, at touchdown (see `plantar.gait.propose.proposer.Proposer`)."""
+        if self._proposed is not None and (was_applied(self._proposed, tick) or self._begun(self._proposed.step, tick)):
+            self._proposed = None
+        if tick.feet.touchdown:
+            self._proposed = self._off_the_edge(tick)
+        return self._proposed
+
+    @staticmethod
+    def _begun(step: int, tick: Tick) -> bool:
+        """Whether the step after one is being taken already."""
+        return tick.phase.step > step and tick.phase.kind == PhaseKind.SINGLE_SUPPORT
+
+    def _off_the_edge(self, tick: Tick) -> PlanChange | None:
+        side, distance, phase = tick.feet.side, tick.feet.distance, tick.phase
+        if side is None or distance is None:
+            return None
+        step = phase.step if phase.swing is not None else phase.step - 1
+        across = self._across(side, distance)
+        if not across or step + 1 >= tick.plan.count or self._begun(step, tick):
+            return None
+        last, way = self._moved
+        self._moved = step, across
+        if step == last + 1 and across * way < 0.0:
+            return None  # the ground of the other foot ends on its other side: there is no way between both
+        dx, dy = (across * tick.place(side).rotation_sole_to_world[:2, 1]).tolist()
+        return PlanChange("an edge beside", step, shift=(dx, dy), because="off the edge beside")
+
+    def _across(self, side: Side, distance: NDArray[np.float64]) -> float:
+        """How far in m to the sole's left the middle of what it stands on lies; 0 of a sole without an edge beside."""
+        places = self._places[side]
+        known = ~np.isnan(distance)
+        over = known & (distance > self._drop)
+        count = int(known.sum())
+        share = int(over.sum()) / count if count else 0.0
+        if not _LEAST_OVER <= share <= _MOST_OVER:
+            return 0.0
+        ahead, across = (places[known & ~over].mean(axis=0) - places[known].mean(axis=0)).tolist()
+        if abs(across) <= abs(ahead):
+            return 0.0
+        return float(min(self._largest, max(-self._largest, across)))

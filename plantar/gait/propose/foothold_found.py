@@ -1,0 +1,158 @@
+"""A foothold is not what was planned: the VRP moves over it, and the steps to come onto the strip that it is part of.
+
+T 4.4.2-4.4.3.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.contact.foot_contacts import FootholdFound
+from plantar.gait.contact.support_strip import SupportStrip
+from plantar.gait.plan.phases import PhaseKind
+from plantar.gait.plan.plan_change import PlanChange, Point
+from plantar.gait.plan.walk_plan import vrp_of_step
+from plantar.gait.propose.foothold_rules import FootholdRules
+from plantar.gait.propose.proposer import Priority, Tick, was_applied
+from plantar.mechanics.rotation import level_rotation
+from plantar.sides import Side
+
+__all__ = ["FootholdCarries"]
+
+_NARROW = 0.75
+"""Share of the sole across the walk below which the ground is narrow. The widest that counts as a strip, half a sole,
+is seen with an error of a taxel at either edge, a fourteenth of a sole of 42 taxels."""
+
+_NEAR = 0.5
+"""Share of what an ankle bears up to which the load may lie from it without the footsteps being moved."""
+
+_BORNE = 0.75
+"""Share of what an ankle bears on which a foot is loaded that is still to come; the rest is to balance with."""
+
+
+class FootholdCarries:
+    """Proposes the VRP over what a foot was found to stand on, and footsteps on the strip that the ground goes on as.
+
+    Args:
+        rules: How far a foothold has to lie off the plan, and how far one moves the footsteps to come.
+        middles: Where (2,) each sole is loaded where it stands whole, in its frame in m.
+        outlines: Outline (k, 2) of each sole in its frame in m.
+        strip: Where the ground goes on.
+        reach: How far in m from the sole frame's origin, along the sole, an ankle bears the robot.
+    """
+
+    priority = Priority.FOOTHOLD
+
+    def __init__(
+        self,
+        rules: FootholdRules,
+        middles: Mapping[Side, NDArray[np.float64]],
+        outlines: Mapping[Side, NDArray[np.float64]],
+        strip: SupportStrip,
+        reach: float = math.inf,
+    ) -> None:
+        self._rules = rules
+        self._reach = reach
+        self._middles = middles
+        self._outlines = outlines
+        self._strip = strip
+        self._moved, self._moved_step = -math.inf, -1
+        self._waiting: FootholdFound | None = None
+        self._proposed: PlanChange | None = None
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """The VRP over what was found last (see `plantar.gait.propose.proposer.Proposer`)."""
+        if self._proposed is not None and was_applied(self._proposed, tick):
+            self._waiting = None
+        for found in tick.found:
+            if self._is_news(found, tick):
+                self._waiting = found
+        self._proposed = None if self._waiting is None else self._over(self._waiting, tick)
+        if self._proposed is None:
+            self._waiting = None
+        else:
+            self._moved, self._moved_step = tick.time, self._proposed.step
+        return self._proposed
+
+    def _is_news(self, found: FootholdFound, tick: Tick) -> bool:
+        """Take a foothold into the strip; whether it may move the plan now."""
+        if found.whole:
+            self._strip.clear()
+        elif not found.seen or self._is_narrow(found, tick):
+            self._strip.update(found.step, found.side, found.middle)
+        rested = tick.time >= self._moved + self._rules.replan_pause or self._moved_step != found.step
+        return rested and not found.as_planned
+
+    def _is_narrow(self, found: FootholdFound, tick: Tick) -> bool:
+        """Whether a foothold may be a part of a strip along the walk: ground that ends along the walk is as wide as the
+        sole, and where its centroid lies says nothing of what comes. (How wide it is has to be seen: loads show one of
+        its edges after the other.)"""
+        turn = level_rotation(tick.plan.foothold(max(found.step, tick.plan.first)).yaw)[:2, :2]
+        sole = self._outlines[found.side] @ turn.T @ self._strip.across
+        ground = found.polygon @ self._strip.across
+        return float(np.ptp(ground)) < _NARROW * float(np.ptp(sole))
+
+    def _over(self, found: FootholdFound, tick: Tick) -> PlanChange | None:
+        if found.step < tick.plan.first:
+            return None
+        shift, vrp_shift = self._moved_steps(found, tick)
+        x, y = found.vrp.tolist()
+        away = math.dist(found.vrp, tick.plan.vrp(found.step))
+        if max(away, math.hypot(*vrp_shift), math.hypot(*shift)) < self._rules.least_move:
+            return None
+        return PlanChange(
+            "foothold found",
+            found.step,
+            vrp=(x, y),
+            shift=shift,
+            vrp_shift=vrp_shift,
+            because="onto the strip that carries",
+        )
+
+    def _moved_steps(self, found: FootholdFound, tick: Tick) -> tuple[Point, Point]:
+        """By how much in m the footsteps to come move, which one foothold moves only so far, and by how much the VRPs
+        over them."""
+        upcoming, phase = found.step + 1, tick.phase
+        begun = phase.step == upcoming and phase.kind == PhaseKind.SINGLE_SUPPORT
+        if begun or upcoming >= tick.plan.count:
+            return (0.0, 0.0), (0.0, 0.0)
+        if not self._strip.known:
+            shift = self._into_reach(found, tick)
+            return shift, shift
+        return self._onto_strip(upcoming, tick)
+
+    def _into_reach(self, found: FootholdFound, tick: Tick) -> Point:
+        """Footsteps move along the sole until the ankle comes over ground that it stands on the end of."""
+        foot = tick.plan.foothold(found.step)
+        forward = foot.rotation_sole_to_world[:2, 0]
+        near = abs(float((found.vrp - foot.position[:2]) @ forward)) <= _NEAR * self._reach
+        if near or self._moved_step == found.step:
+            return 0.0, 0.0
+        off = float((found.vrp - vrp_of_step(foot, self._middles[found.side])) @ forward)
+        most = self._rules.largest_shift
+        x, y = (min(most, max(-most, off)) * forward).tolist()
+        return x, y
+
+    def _onto_strip(self, upcoming: int, tick: Tick) -> tuple[Point, Point]:
+        """By how much in m the footsteps to come move onto the strip, and by how much the VRPs over them."""
+        strip = self._strip
+        foot = tick.plan.foothold(upcoming)
+        center = vrp_of_step(foot, self._middles[foot.side])
+        place, lateral = strip.coordinates(center)
+        missing = strip.lateral(place) - lateral
+        reach = self._rules.largest_shift
+        shift = min(reach, max(-reach, missing)) * strip.across
+        beside = center + missing * strip.across - foot.position[:2] - shift
+        forward = foot.rotation_sole_to_world[:2, 0]
+        along = float(beside @ forward)
+        most = _BORNE * self._reach
+        vrp = foot.position[:2] + shift + beside
+        if abs(along) > most:
+            vrp += (math.copysign(most, along) - along) * forward
+        dx, dy = shift.tolist()
+        vx, vy = (vrp - tick.plan.vrp(upcoming)).tolist()
+        return (dx, dy), (vx, vy)

@@ -1,0 +1,236 @@
+"""Keeps a walk off bad footholds: doubt, probe, step on or walk around, stop where there is no way (T 4.3.2).
+
+    walking --(ground higher than expected)--> doubting: the single support is made longer, the foot lands softly
+    doubting --(touchdown)--> probing: the foot presses, the rule decides
+    probing --(feasible)--> walking on over it
+    probing --(refused)--> the foot lifts again and goes around: walking
+    probing --(no way around, or too many tries)--> the foot goes back beside the other one, and the walk ends
+
+All of it before weight is transferred.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.phases import Phase
+from plantar.gait.plan.plan_change import PlanChange, Point
+from plantar.gait.propose.feasibility import FeasibilityRules, Foothold, FootholdProbe, room_ahead, way_around
+from plantar.gait.propose.proposer import Priority, Tick
+from plantar.layouts.layout import SoleLayout
+from plantar.sides import Side, other_side
+
+__all__ = ["CheckedStep", "StepGuard"]
+
+
+_LASTING = 4  # control ticks for which ground has to look higher than expected
+
+
+class _State(Enum):
+    WALKING = 0
+    DOUBTING = 1
+    PROBING = 2
+    TRUSTING = 3
+    STOPPED = 4
+
+
+@dataclass(frozen=True)
+class CheckedStep:
+    """A foothold that was checked.
+
+    Attributes:
+        step: Index of the step.
+        foothold: What was found.
+        shift: How far the foothold was moved (2,) along the planned foot's axes in m; None where it stayed, or where
+            there was no way around.
+    """
+
+    step: int
+    foothold: Foothold
+    shift: NDArray[np.float64] | None
+
+
+class StepGuard:
+    """Checks the footholds of a walk.
+
+    Attributes:
+        checked: The footholds that were checked, in order.
+        stopped: Whether it ended the walk because there was no way on.
+        press: Force in N that a foot that probes shall press with; None while none does.
+
+    Args:
+        rules: Rules.
+        layouts: Sole layout of each side.
+    """
+
+    priority = Priority.SAFETY
+
+    def __init__(self, rules: FeasibilityRules, layouts: Mapping[Side, SoleLayout]) -> None:
+        self.rules = rules
+        self.checked: list[CheckedStep] = []
+        self.stopped = False
+        self.press: float | None = None
+        self._layouts = layouts
+        self._state = _State.WALKING
+        self._step = -1
+        self._tries = 0
+        self._refuge: Footstep | None = None
+        self._probe: FootholdProbe | None = None
+        self._began = self._since = 0.0
+        self._surprised = 0
+        self._reading_time = -1.0
+
+    def summary(self) -> dict[str, object]:
+        """What was checked, for a run's summary."""
+        checks = [
+            {
+                "step": c.step,
+                "feasible": bool(c.foothold.feasible),
+                "area_ratio": round(c.foothold.area_ratio, 3),
+                "ankle_moment_Nm": None if c.foothold.moment is None else round(c.foothold.moment, 2),
+                "shift_m": None if c.shift is None else [round(float(v), 3) for v in c.shift],
+            }
+            for c in self.checked
+        ]
+        return {"feasibility": checks}
+
+    @property
+    def probing(self) -> bool:
+        """Whether a foot presses on something unexpected."""
+        return self._state is _State.PROBING
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """A longer single support for a foothold that is doubted, another place for one that is refused.
+
+        It takes each of its changes for applied: nobody's comes before `Priority.SAFETY`.
+
+        Args:
+            tick: What there is to know, after the feet's motion.
+
+        Returns:
+            The change, or None.
+        """
+        phase, side = tick.phase, tick.phase.swing
+        if side is None or self.stopped:
+            self.press = None
+            return None
+        if phase.step != self._step:
+            self._begin(phase, side, tick)
+        # For some ticks on end, so that one noisy height does not hold a walk up.
+        self._surprised = self._surprised + 1 if tick.feet.surprise > self.rules.surprise else 0
+        if self._state is _State.WALKING and self._surprised >= _LASTING:
+            self._state = _State.DOUBTING
+            return _waiting(phase, self.rules.hold)
+        if self._state is _State.DOUBTING and tick.feet.landed:
+            return self._touch(phase, side, tick)
+        if self._state is not _State.PROBING or self._probe is None:
+            return None
+        self._read(side, tick)
+        if tick.time < self._since + 1.5 * self.rules.probe_time:
+            return None
+        self.press = None
+        return self._judge(phase, side, tick)
+
+    def _begin(self, phase: Phase, side: Side, tick: Tick) -> None:
+        """A step begins: it comes back beside the other foot if there is no way on."""
+        self._step, self._tries, self._state = phase.step, 0, _State.WALKING
+        origin, stance = tick.place(side), tick.place(other_side(side))
+        ahead = origin.rotation_sole_to_world[:2, 0]
+        way = np.array([stance.x, stance.y]) - [origin.x, origin.y]
+        dx, dy = (ahead * float(way @ ahead)).tolist()
+        self._refuge = replace(origin, x=origin.x + dx, y=origin.y + dy)
+
+    def _touch(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
+        """The foot has met something: it begins to press, and the stance foot carries for long enough."""
+        rules = self.rules
+        self._state = _State.PROBING
+        self._began, self._since, self._reading_time = tick.time, math.inf, -1.0
+        self.press = rules.probe_force
+        self._probe = FootholdProbe(self._layouts[side], rules)
+        if tick.feet.distance is not None:
+            self._probe.update_view(tick.feet.distance)
+        # The DCM has to be back over the stance foot, and to stay there, until the rule has decided.
+        missing = tick.time + rules.probe_limit + 1.5 * rules.probe_time + rules.reserve - phase.end
+        return _waiting(phase, missing) if missing > 0.0 else None
+
+    def _read(self, side: Side, tick: Tick) -> None:
+        """Let the probe read what the foot presses on, once it presses."""
+        assert self._probe is not None
+        rules, reading, load, time = self.rules, tick.readings[side], tick.loads[side], tick.time
+        # The rule reads a foot that has its load; where that does not come, what there is after the time for it.
+        if self._since == math.inf and (load > 0.7 * rules.probe_force or time > self._began + rules.probe_limit):
+            self._since = time
+        if time > self._since + 0.5 * rules.probe_time and reading.time > self._reading_time:
+            self._reading_time = reading.time
+            pressing = load > 0.5 * rules.probe_force
+            self._probe.update_load(reading.force, tick.moments.get(side) if pressing else None)
+
+    def _judge(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
+        """Step on it, go around it, or back."""
+        assert self._probe is not None
+        found, step = self._probe.verdict(), tick.plan.foothold(phase.step)
+        if found.feasible:
+            self._state = _State.TRUSTING
+            self.checked.append(CheckedStep(phase.step, found, None))
+            return None
+        self._tries += 1
+        shift = way_around(found.polygon_in_sole, self._layouts[side].outline, side, self.rules)
+        if self._tries > self.rules.attempts:
+            shift = None
+        self.checked.append(CheckedStep(phase.step, found, shift))
+        if shift is None:
+            return self._back(phase, tick)
+        x, y = (step.rotation_sole_to_world[:2, :2] @ shift).tolist()
+        self._state = _State.WALKING
+        later, wait = (
+            self._shift_of_later(step, shift, found, side, tick),
+            self._wait(self.rules.swing_time, phase, tick),
+        )
+        return PlanChange(
+            "foothold refused",
+            phase.step,
+            foothold=replace(step, x=step.x + x, y=step.y + y),
+            shift=later,
+            longer=wait[0],
+            wait=wait[1],
+            because="foothold before it refused",
+        )
+
+    def _back(self, phase: Phase, tick: Tick) -> PlanChange:
+        """The foot goes back beside the other one, and the walk ends."""
+        self.stopped, self._state = True, _State.STOPPED
+        longer, wait = self._wait(self.rules.return_time, phase, tick)
+        return PlanChange(
+            "no way around, back", phase.step, foothold=self._refuge, following=(), longer=longer, wait=wait
+        )
+
+    def _shift_of_later(
+        self, step: Footstep, shift: NDArray[np.float64], found: Foothold, side: Side, tick: Tick
+    ) -> Point:
+        """By how much in m the steps to come move. A shorter or longer step shifts them; one to the side is made up for
+        by the next. What was not stepped on must not be met again by the same foot's next step."""
+        longer, following = float(shift[0]), tick.phase.step + 2
+        if following < tick.plan.count:
+            ahead = tick.plan.foothold(following).position - step.position
+            place = step.rotation_sole_to_world[:, :2].T @ ahead + [longer, 0.0]
+            longer += room_ahead(found.polygon_in_sole, self._layouts[side].outline, place, self.rules)
+        x, y = (step.rotation_sole_to_world[:2, 0] * longer).tolist()
+        return x, y
+
+    @staticmethod
+    def _wait(duration: float, phase: Phase, tick: Tick) -> tuple[float, float]:
+        """By how much in s a single support has to become longer for a swing, and how long the foot is down by then."""
+        missing = tick.time + duration - phase.end
+        return max(0.0, missing), max(0.0, -missing)
+
+
+def _waiting(phase: Phase, by: float) -> PlanChange:
+    """The single support longer by some s, for which the foot is down already."""
+    return PlanChange("ground higher than expected", phase.step, longer=by, wait=phase.wait + by)

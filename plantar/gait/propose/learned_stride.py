@@ -1,0 +1,122 @@
+"""Strides that learn from who pushes (beyond K 6.1): what a partner asks for step after step becomes the robot's own.
+
+A robot that goes along with pushes forgets them with the step: whoever wants longer strides has to push each one. Here
+two numbers are learned online, by how much strides along the walk and across it are longer than planned. Each step that
+went along moves them by a share of what it went too far; every later footstep of the plan is the planned stride, so
+much longer, from where the feet stand. Figures that close, such as a box, close at any size.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.plan.walk_plan import PlanView
+from plantar.gait.propose.proposer import Priority, Tick, was_applied
+from plantar.settings.schema import Settings, number, share
+from plantar.sides import Side
+
+__all__ = ["LearnedStride", "LearnedStrideRules"]
+
+
+class LearnedStrideRules(Settings):
+    """How fast strides learn.
+
+    Attributes:
+        rate: Share of what a step went farther than its stride that the next ones take over.
+        least_stride: Stride in m below which a direction has no stride that could become longer.
+        least_change: Change in m of a stride below which the plan stays.
+        largest: Factor by which strides become longer at most.
+    """
+
+    rate: float = number(0.3, "1", 0, 1)
+    least_stride: float = share(1 / 30, "leg", 0.001, 1)
+    least_change: float = share(1 / 120, "leg", 0, 1)
+    largest: float = number(2.0, "1", 1, 5)
+
+
+class LearnedStride:
+    """Proposes the footsteps to come with the strides that were learned.
+
+    Args:
+        rules: How fast.
+    """
+
+    priority = Priority.COMMAND
+
+    def __init__(self, rules: LearnedStrideRules) -> None:
+        self._rules = rules
+        self._strides: dict[int, NDArray[np.float64]] | None = None
+        self._factor = np.ones(2)
+        self._planned_with = np.ones(2)
+        self._step, self._aimed, self._learned = -1, np.zeros(2), False
+        self._asked: tuple[PlanChange, NDArray[np.float64]] | None = None
+
+    @property
+    def factor(self) -> NDArray[np.float64]:
+        """By what strides along and across the walk are multiplied (2,)."""
+        return self._factor.copy()
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """The footsteps from the next one on, where what is learned has changed (see `propose.proposer`)."""
+        plan, swings = tick.plan, tick.phase.swing is not None
+        if self._strides is None:
+            self._strides = _strides(plan)
+        if self._asked is not None and was_applied(self._asked[0], tick):
+            self._planned_with, self._asked = self._asked[1], None
+        step = tick.phase.step if swings else self._step  # the one that was taken last
+        if step not in self._strides:
+            return None
+        if step != self._step:
+            self._step, self._aimed, self._learned = step, plan.foothold(step).position[:2], False
+        if swings and not tick.feet.landed:
+            return None
+        if not self._learned:
+            self._learned = True
+            self._learn(plan.foothold(step).position[:2] - self._aimed, self._strides[step])
+        following = self._following(plan)
+        if not following:
+            return None
+        self._asked = (PlanChange("strides learned", step, following=following), self._factor.copy())
+        return self._asked[0]
+
+    def _learn(self, moved: NDArray[np.float64], stride: NDArray[np.float64]) -> None:
+        """Take over a share of what a step went beyond its stride."""
+        for axis in range(2):
+            if abs(stride[axis]) >= self._rules.least_stride:
+                more = self._rules.rate * moved[axis] / stride[axis]
+                self._factor[axis] = min(self._rules.largest, max(1.0, self._factor[axis] + more))
+
+    def _following(self, plan: PlanView) -> tuple[Footstep, ...]:
+        """The footsteps after this one with the learned strides; none where they are as they were planned last."""
+        assert self._strides is not None
+        later = [k for k in range(self._step + 1, plan.count) if k in self._strides]
+        change = self._factor - self._planned_with
+        longest = max((float(np.abs(change * self._strides[k]).max()) for k in later), default=0.0)
+        if longest < self._rules.least_change:
+            return ()
+        # The foot that this step stands on has a foothold of its own since it took a step: only those have strides.
+        stands = {plan.foothold(k).side: plan.foothold(k).position[:2] for k in range(plan.first, self._step + 1)}
+        found = []
+        for k in later:
+            step = plan.foothold(k)
+            place = stands[step.side] + self._factor * self._strides[k]
+            stands[step.side] = place
+            found.append(replace(step, x=float(place[0]), y=float(place[1])))
+        return tuple(found)
+
+
+def _strides(plan: PlanView) -> dict[int, NDArray[np.float64]]:
+    """The way (2,) in m from a foot's foothold to its next one, of each step that has one before it."""
+    last: dict[Side, NDArray[np.float64]] = {}
+    found: dict[int, NDArray[np.float64]] = {}
+    for k in range(plan.first, plan.count):
+        step = plan.foothold(k)
+        if step.side in last:
+            found[k] = step.position[:2] - last[step.side]
+        last[step.side] = step.position[:2]
+    return found

@@ -1,0 +1,68 @@
+"""On a slope that rises outwards more than the ankle can follow, stand further inside."""
+
+from __future__ import annotations
+
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.propose.proposer import Priority, Tick, was_applied
+from plantar.settings.schema import Settings, number
+from plantar.sides import Side
+
+__all__ = ["SlopeInside", "SlopeRules", "inward_distance"]
+
+
+def inward_distance(side: Side, outward_rise: float, ankle_reach: float, com_height: float) -> float:
+    """How far a foot that stands on a slope shall carry nearer to the robot's middle.
+
+    Args:
+        side: Which foot.
+        outward_rise: Slope in rad across its stand, positive where its outer edge is the higher one.
+        ankle_reach: Slope in rad that the ankle can follow.
+        com_height: Height of the CoM above the foot in m.
+
+    Returns:
+        Distance in m along the sole's y axis; 0 on a slope that the ankle can follow.
+
+    Example:
+        >>> round(inward_distance("left", 0.145, 0.095, 0.8), 3)
+        -0.04
+    """
+    excess = outward_rise - ankle_reach
+    return com_height * excess * (-1.0 if side == "left" else 1.0) if excess > 0.0 else 0.0
+
+
+class SlopeRules(Settings):
+    """What slope across a foot an ankle can follow.
+
+    Attributes:
+        ankle_reach: Slope across the foot, rising outwards, in rad that an ankle can follow on one leg, which leans
+            outwards itself; on a steeper one the body stays further inside.
+    """
+
+    ankle_reach: float = number(0.095, "rad", 0, 0.7)
+
+
+class SlopeInside:
+    """Proposes the VRP over a foot that has just touched down on such a slope."""
+
+    priority = Priority.FOOTHOLD
+
+    def __init__(self) -> None:
+        self._proposed: PlanChange | None = None
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """The VRP moved inwards, at touchdown (see `plantar.gait.propose.proposer.Proposer`)."""
+        if self._proposed is not None and was_applied(self._proposed, tick):
+            self._proposed = None
+        if tick.feet.touchdown:
+            self._proposed = self._inside(tick)
+        return self._proposed
+
+    @staticmethod
+    def _inside(tick: Tick) -> PlanChange | None:
+        side, phase = tick.feet.side, tick.phase
+        if side is None or tick.inward == 0.0:
+            return None
+        step = phase.step if phase.swing is not None else phase.step - 1
+        across = tick.place(side).rotation_sole_to_world[:2, 1]
+        x, y = (tick.plan.vrp(step) + across * tick.inward).tolist()
+        return PlanChange("stands inside on a slope", step, vrp=(x, y))

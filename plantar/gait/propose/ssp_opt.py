@@ -1,0 +1,416 @@
+"""SSP-Opt: where and when the swing foot lands, so that the DCM is where the next phase begins (K 28-33).
+
+With tau = e^(w t) the DCM at touchdown and the one that is wanted there are both linear (K 28, K 23-24), so footstep
+and time together are a convex quadratic program of three numbers: the footstep in a convex polygon, tau between bounds.
+
+    w_d |xi_s(u_e) - xi(tau)|^2 + c w_n (w_u |u_e - u_n|^2 + w_tau (tau - tau_n)^2) + (1 - c) w_s (same, u_s, tau_s)
+
+It has a solution in closed form. Without bounds on tau the best tau follows from the footstep, and what is left is the
+closest point of the polygon in the metric of the reduced cost. If that tau is out of its bounds, then, the cost being
+strictly convex, the bound that it passes holds at the optimum, and the closest point for that tau is the answer. So two
+projections on a polygon are the most it takes, no iteration is left to converge, and the KKT conditions hold to
+rounding.
+
+tau is kept as a share of its upper bound, so that times of 100 s do not overflow; w t is cut at
+`plantar.gait.balance.ankle_strategy.MOST_GROWTH`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arrays import array
+from plantar.errors import InputError
+from plantar.gait.balance.ankle_strategy import MOST_GROWTH, sway_share
+from plantar.geometry.polygon import part_inside
+from plantar.settings.schema import Settings, number, share
+from plantar.sides import Side
+
+__all__ = [
+    "SspProblem",
+    "SspSolution",
+    "StepRegionRules",
+    "StepWeights",
+    "footstep_region",
+    "solve_ssp",
+    "touching_distance",
+]
+
+
+class StepWeights(Settings):
+    """What a change of a footstep is weighed by (K Table 1).
+
+    Attributes:
+        dynamics: w_d: of the DCM that is missed at touchdown.
+        nominal: w_n: of leaving the nominal footstep, with the confidence.
+        smooth: w_s: of leaving the footstep of the tick before, with what the confidence leaves.
+        location: Factor on w_u = 1 / (s_max - s_min), which the region gives.
+        time: Factor on w_tau = 1 / (tau_max - tau_min), which the bounds of the time give.
+    """
+
+    dynamics: float = number(15.0, "1", 1e-3, 1e6)
+    nominal: float = number(1.0, "1", 1e-3, 1e6)
+    smooth: float = number(1.0, "1", 1e-3, 1e6)
+    location: float = number(1.0, "1", 1e-3, 1e6)
+    time: float = number(1.0, "1", 1e-3, 1e6)
+
+
+class StepRegionRules(Settings):
+    """Where the swing foot may land beside the stance foot (K 32).
+
+    The paper's numbers are for a leg of 0.6 m with 0.15 m between the legs: 0.2 m forward and backward, 0 to 0.12 m out
+    beyond those 0.15 m. Such a leg with its knee bent by 15 degrees reaches 0.33 m aside, and a walk with
+    steps of 0.2 m could not lengthen them at all: 0.25 m forward and 0.33 m outside are allowed here.
+
+    Attributes:
+        forward: Farthest forward in m.
+        backward: Farthest backward in m.
+        clearance: Least gap in m between the soles' inner edges, side by side. (With 10 mm on a leg of 0.6 m, soles of
+            a body that a push has rolled by 2 degrees touched.)
+        outside: Largest distance between the soles' middle lines in m.
+    """
+
+    forward: float = share(0.417, "leg", 0, 1)
+    backward: float = share(0.333, "leg", 0, 1)
+    clearance: float = share(0.0233, "leg", 0, 0.5)
+    outside: float = share(0.55, "leg", 0, 1)
+
+
+def footstep_region(
+    rules: StepRegionRules,
+    swing: Side,
+    stance: tuple[float, float, float],
+    touching: float,
+    half_planes: tuple[tuple[float, float, float], ...] = (),
+) -> NDArray[np.float64]:
+    """Where the swing foot may land (K 32): the box beside the stance foot, less what lies beyond lines.
+
+    Args:
+        rules: The box.
+        swing: Which foot swings.
+        stance: Place and heading (x, y, yaw) of the stance foot in the world in m, m, rad.
+        touching: Distance in m between the sole frames at which the soles' inner edges touch.
+        half_planes: Lines (nx, ny, h) in the world: what has n . u > h is cut off.
+
+    Returns:
+        Convex polygon (k, 2) in the world in m, counter-clockwise; empty where nothing is left.
+
+    Example:
+        >>> rules = StepRegionRules(forward=0.2, backward=0.2, clearance=0.01, outside=0.27)
+        >>> footstep_region(rules, "left", (1.0, 0.0, 0.0), 0.14).round(9).tolist()
+        [[0.8, 0.15], [1.2, 0.15], [1.2, 0.27], [0.8, 0.27]]
+        >>> len(footstep_region(rules, "right", (1.0, 0.0, 0.0), 0.14, ((0.0, -1.0, 0.1),)))
+        0
+    """
+    x, y, yaw = stance
+    inside = touching + rules.clearance
+    near, far = (inside, rules.outside) if swing == "left" else (-rules.outside, -inside)
+    c, s = math.cos(yaw), math.sin(yaw)
+    corners = ((-rules.backward, near), (rules.forward, near), (rules.forward, far), (-rules.backward, far))
+    region = np.array([(x + c * ahead - s * aside, y + s * ahead + c * aside) for ahead, aside in corners])
+    for nx, ny, h in half_planes:
+        region = part_inside(region, nx, ny, h)
+    return region
+
+
+def touching_distance(outlines: Mapping[Side, NDArray[np.float64]]) -> float:
+    """Distance in m between the sole frames of feet side by side, whose inner edges touch.
+
+    Args:
+        outlines: Outline (k, 2) in m of each sole in its frame.
+
+    Example:
+        >>> square = np.array([(-0.1, -0.05), (0.1, -0.05), (0.1, 0.06), (-0.1, 0.06)])
+        >>> round(touching_distance({"left": square, "right": square}), 3)
+        0.11
+    """
+    return float(outlines["right"][:, 1].max() - outlines["left"][:, 1].min())
+
+
+class SspProblem(NamedTuple):
+    """A single support, now. All places are in the world.
+
+    Attributes:
+        omega: Pendulum frequency in rad/s.
+        dcm: xi_c (2,) in m.
+        vrp: u* (2,) in m: where the ankle strategy keeps the VRP until touchdown, cut to the support.
+        offset: u_w (2,) in m by which a push is expected to move the VRP.
+        stance: u_i (2,), the middle of the stance foot, in m.
+        elapsed: T_c: time since the single support began in s.
+        target: Footstep (2,) and its T_s in s of the tick before: (x, y, time).
+        nominal: The nominal ones: (x, y, time).
+        region: Convex polygon (k, 2) in m, counter-clockwise, in which the footstep has to lie (`footstep_region`).
+        shortest: T_s in s from which the foot can have landed.
+        longest: T_s in s at which it has to.
+        next_stride: s_n (2,) from the footstep to the one after it in m.
+        next_duration: T_n of the single support after it in s.
+        double_support: T_d in s, 0 or more.
+        confidence: c: 1 keeps the nominal footstep, 0 goes on from the tick before.
+    """
+
+    omega: float
+    dcm: ArrayLike
+    vrp: ArrayLike
+    offset: ArrayLike
+    stance: ArrayLike
+    elapsed: float
+    target: tuple[float, float, float]
+    nominal: tuple[float, float, float]
+    region: ArrayLike
+    shortest: float
+    longest: float
+    next_stride: ArrayLike
+    next_duration: float
+    double_support: float = 0.0
+    confidence: float = 0.0
+
+
+class SspSolution(NamedTuple):
+    """The best footstep.
+
+    Attributes:
+        place: u_e (2,) in m.
+        time: T_s in s, from the single support's begin.
+        missed: By how much (2,) in m the DCM is off where the next phase begins: xi(T_s) - xi_s.
+        at_edge: Whether the footstep lies on the edge of its region.
+        at_bound: -1 where the shortest time holds, 1 where the longest does, else 0.
+        residual: Largest violation of the KKT conditions, beside the largest term of the gradient.
+    """
+
+    place: NDArray[np.float64]
+    time: float
+    missed: NDArray[np.float64]
+    at_edge: bool
+    at_bound: int
+    residual: float
+
+
+class _Program(NamedTuple):
+    """The cost in (u_x, u_y, s), s = tau / tau_max: a sum of weights on squares.
+
+    Attributes:
+        dynamics: Weight of the DCM that is missed, `slope` u + `fixed` - `grown` s.
+        slope: d xi_s / d u_e.
+        fixed: Its part that depends on nothing.
+        grown: Its part that grows with s.
+        place_weights: Weights of the footstep along x and y.
+        places: Where those are drawn to.
+        time_weight: Weight of s.
+        time: Where it is drawn to.
+        low: Least s; the largest is 1.
+    """
+
+    dynamics: float
+    slope: float
+    fixed: tuple[float, float]
+    grown: tuple[float, float]
+    place_weights: tuple[float, float]
+    places: tuple[float, float]
+    time_weight: float
+    time: float
+    low: float
+
+    def reduced(self, ux: float, uy: float) -> float:
+        """The best s of a footstep, without bounds."""
+        (fx, fy), (gx, gy) = self.fixed, self.grown
+        lead = gx * (self.slope * ux + fx) + gy * (self.slope * uy + fy)
+        return (self.dynamics * lead + self.time_weight * self.time) / (
+            self.dynamics * (gx * gx + gy * gy) + self.time_weight
+        )
+
+    def gradient(self, ux: float, uy: float, s: float) -> tuple[float, float, float, float, float]:
+        """The cost's gradient, and the size of its largest term for a place and for s."""
+        (fx, fy), (gx, gy), (wx, wy), (px, py) = self.fixed, self.grown, self.place_weights, self.places
+        rx, ry = self.slope * ux + fx - gx * s, self.slope * uy + fy - gy * s
+        pull = self.dynamics * self.slope
+        drawn = self.time_weight * (s - self.time)
+        size = abs(fx) + abs(fy) + abs(self.slope) * (abs(ux) + abs(uy)) + (abs(gx) + abs(gy)) * s
+        return (
+            pull * rx + wx * (ux - px),
+            pull * ry + wy * (uy - py),
+            drawn - self.dynamics * (gx * rx + gy * ry),
+            abs(pull) * size + (wx + wy) * (abs(ux) + abs(uy) + abs(px) + abs(py)),
+            self.dynamics * (abs(gx) + abs(gy)) * size + self.time_weight * (s + abs(self.time)),
+        )
+
+
+def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
+    """The best footstep and time (K 31-33).
+
+    Args:
+        problem: The single support.
+        weights: What a change is weighed by.
+
+    Returns:
+        The solution; None where the region is empty.
+
+    Raises:
+        InputError: If a place is not two finite numbers, the region not (k, 2), the frequency not above 0, or the
+            shortest time longer than the longest.
+
+    Example:
+        A robot that steps in place is pushed to the left; the left foot lands farther out, and sooner.
+
+        >>> region = footstep_region(StepRegionRules(), "left", (0.0, -0.1, 0.0), 0.14)
+        >>> pushed = SspProblem(
+        ...     omega=3.44, dcm=[0.0, 0.02], vrp=[0.0, -0.07], offset=[0.0, 0.0], stance=[0.0, -0.1], elapsed=0.3,
+        ...     target=(0.0, 0.1, 0.8), nominal=(0.0, 0.1, 0.8), region=region, shortest=0.5, longest=1.7,
+        ...     next_stride=[0.0, -0.2], next_duration=0.8, confidence=1.0,
+        ... )
+        >>> found = solve_ssp(pushed, StepWeights())
+        >>> found.place.round(3).tolist(), round(found.time, 3), found.residual < 1e-8
+        ([0.0, 0.202], 0.649, True)
+    """
+    region: list[list[float]] = array(problem.region, "region", ("k", 2), finite=True).tolist()
+    if not region:
+        return None
+    if not 0.0 < problem.omega < math.inf:
+        raise InputError(f"pendulum frequency is {problem.omega} rad/s; allowed: a finite value above 0")
+    if not problem.shortest <= problem.longest:
+        raise InputError(f"shortest single support is {problem.shortest} s, the longest {problem.longest} s")
+    high = min(max(problem.longest, problem.elapsed), MOST_GROWTH / problem.omega)
+    program = _program(problem, weights, region, high)
+    (ux, uy), edges = _place_of_best_time(program, region)
+    s, bound = program.reduced(ux, uy), 0
+    if not program.low <= s <= 1.0:
+        bound, s = (-1, program.low) if s < program.low else (1, 1.0)
+        (ux, uy), edges = _place_of_time(program, region, s)
+    missed = (
+        program.grown[0] * s - program.slope * ux - program.fixed[0],
+        program.grown[1] * s - program.slope * uy - program.fixed[1],
+    )
+    return SspSolution(
+        np.array((ux, uy)),
+        high + math.log(s) / problem.omega,
+        np.array(missed),
+        bool(edges),
+        bound,
+        _residual(program, (ux, uy, s), bound, edges, region),
+    )
+
+
+def _program(problem: SspProblem, weights: StepWeights, region: list[list[float]], high: float) -> _Program:
+    """The cost of a problem, with tau as a share of what it is at the time `high`."""
+    w, c = problem.omega, min(max(problem.confidence, 0.0), 1.0)
+    x, y = array(problem.dcm, "DCM", (2,), finite=True).tolist()
+    px, py = array(problem.vrp, "VRP", (2,), finite=True).tolist()
+    ox, oy = array(problem.offset, "VRP offset", (2,), finite=True).tolist()
+    ix, iy = array(problem.stance, "place of the stance foot", (2,), finite=True).tolist()
+    sx, sy = array(problem.next_stride, "stride of the next step", (2,), finite=True).tolist()
+    swayed = sway_share(w, problem.double_support)
+    later = math.exp(-w * max(problem.next_duration + problem.double_support, 0.0))
+    grown = math.exp(min(w * (high - problem.elapsed), MOST_GROWTH))
+    low = math.exp(-w * max(high - max(problem.shortest, problem.elapsed), 0.0))
+    by_nominal, by_target = c * weights.nominal, (1.0 - c) * weights.smooth
+    both = by_nominal + by_target
+    (nx, ny, nt), (tx, ty, tt) = problem.nominal, problem.target
+    # K Table 1: w_u = 1 / (s_max - s_min) along each axis, w_tau = 1 / (tau_max - tau_min). A region or a range of no
+    # width leaves nothing to weigh.
+    wide = max(p[0] for p in region) - min(p[0] for p in region)
+    deep = max(p[1] for p in region) - min(p[1] for p in region)
+    by_place = both * weights.location
+    first = math.exp(-w * max(high - problem.shortest, 0.0))
+    by_time = both * weights.time * math.exp(min(w * high, MOST_GROWTH)) / max(1.0 - first, 1e-9)
+    drawn = [math.exp(min(w * (t - high), MOST_GROWTH)) for t in (nt, tt)]
+    return _Program(
+        weights.dynamics,
+        1.0 + swayed,
+        # xi_s of K 23-24 less u* - u_w, where the u_w of both cancel.
+        (sx * later - ix * swayed - px, sy * later - iy * swayed - py),
+        (grown * (x - px + ox), grown * (y - py + oy)),
+        (by_place / max(wide, 1e-3), by_place / max(deep, 1e-3)),
+        ((by_nominal * nx + by_target * tx) / both, (by_nominal * ny + by_target * ty) / both),
+        by_time,
+        (by_nominal * drawn[0] + by_target * drawn[1]) / both,
+        low,
+    )
+
+
+def _place_of_best_time(program: _Program, region: list[list[float]]) -> tuple[tuple[float, float], list[int]]:
+    """The best footstep with the best time of each, and the edges that it lies on."""
+    d, k, (gx, gy), (fx, fy) = program.dynamics, program.slope, program.grown, program.fixed
+    (wx, wy), (px, py) = program.place_weights, program.places
+    # What is missed along `grown` can be made up for by time, and costs only what the time's weight leaves of it.
+    square = gx * gx + gy * gy
+    size = math.sqrt(square)
+    left = program.time_weight / (d * square + program.time_weight)
+    ex, ey = (gx / size, gy / size) if size > 0.0 else (1.0, 0.0)
+    across, along = d * k * k, d * k * k * left
+    # Hessian across + (along - across) e e', with the weights of the place on its diagonal.
+    sxx = across * ey * ey + along * ex * ex + wx
+    syy = across * ex * ex + along * ey * ey + wy
+    sxy = (along - across) * ex * ey
+    # Drawn to what misses nothing at the time's own target across `grown`, and along it as far as the time resists.
+    mx, my = fx - gx * program.time, fy - gy * program.time
+    off_across, off_along = (ex * my - ey * mx), (ex * mx + ey * my)
+    qx = d * k * (-ey * off_across + left * ex * off_along) - wx * px
+    qy = d * k * (ex * off_across + left * ey * off_along) - wy * py
+    det = sxx * syy - sxy * sxy
+    return _nearest(region, ((sxy * qy - syy * qx) / det, (sxy * qx - sxx * qy) / det), (sxx, sxy, syy))
+
+
+def _place_of_time(program: _Program, region: list[list[float]], s: float) -> tuple[tuple[float, float], list[int]]:
+    """The best footstep of one time, and the edges that it lies on."""
+    d, k, (wx, wy), (px, py) = program.dynamics, program.slope, program.place_weights, program.places
+    (fx, fy), (gx, gy) = program.fixed, program.grown
+    sxx, syy = d * k * k + wx, d * k * k + wy
+    free = ((wx * px - d * k * (fx - gx * s)) / sxx, (wy * py - d * k * (fy - gy * s)) / syy)
+    return _nearest(region, free, (sxx, 0.0, syy))
+
+
+def _nearest(
+    region: list[list[float]], free: tuple[float, float], metric: tuple[float, float, float]
+) -> tuple[tuple[float, float], list[int]]:
+    """The point of a convex polygon that is closest in a metric, and the edges that it lies on; no edge inside."""
+    x, y = free
+    sxx, sxy, syy = metric
+    count, inside = len(region), len(region) > 2
+    best, least, edges = (region[0][0], region[0][1]), math.inf, [0]
+    ax, ay = region[-1]
+    for i in range(count):
+        bx, by = region[i]
+        dx, dy, ox, oy = bx - ax, by - ay, x - ax, y - ay
+        if dx * oy - dy * ox < 0.0 or not inside:
+            inside = False
+            # In a metric, too, what is closest lies on an edge that the free point is outside of.
+            mx, my = sxx * dx + sxy * dy, sxy * dx + syy * dy
+            length = mx * dx + my * dy
+            t = min(max((mx * ox + my * oy) / length, 0.0), 1.0) if length > 0.0 else 0.0
+            rx, ry = ox - t * dx, oy - t * dy
+            off = sxx * rx * rx + 2.0 * sxy * rx * ry + syy * ry * ry
+            if off < least:
+                at = (ax + t * dx, ay + t * dy) if t < 1.0 else (bx, by)
+                best, least = at, off
+                # At a corner, the edge that ends there comes first.
+                edges = [i] if 0.0 < t < 1.0 else [i, (i + 1) % count] if t > 0.0 else [(i - 1) % count, i]
+        ax, ay = bx, by
+    return (free, []) if inside else (best, edges)
+
+
+def _residual(
+    program: _Program, solution: tuple[float, float, float], bound: int, edges: list[int], region: list[list[float]]
+) -> float:
+    """How fast the cost still falls in an allowed direction, beside the largest term of its gradient."""
+    gx, gy, gs, size, time_size = program.gradient(*solution)
+    by_time = abs(gs) if bound == 0 else max(0.0, -gs if bound < 0 else gs)
+    if not edges:
+        by_place = math.hypot(gx, gy)
+    else:
+        rays = []
+        for i in edges:
+            (ax, ay), (bx, by) = region[i - 1], region[i]
+            length = math.hypot(bx - ax, by - ay) or 1.0
+            rays.append(((bx - ax) / length, (by - ay) / length))
+        if len(edges) == 1:
+            (dx, dy), inward = rays[0], len(region) > 2
+            by_place = max(abs(gx * dx + gy * dy), (gx * dy - gy * dx) if inward else 0.0)
+        else:
+            # The edge that ends at the corner is left backwards, the one that begins there forwards.
+            (ax, ay), (bx, by) = rays
+            by_place = max(0.0, gx * ax + gy * ay, -gx * bx - gy * by)
+    return max(by_place / max(size, 1e-300), by_time / max(time_size, 1e-300))

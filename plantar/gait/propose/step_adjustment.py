@@ -1,0 +1,395 @@
+"""Step elsewhere, or sooner, when the ZMP alone cannot bring the DCM to where the next step begins (K 4.1-4.2).
+
+With the ZMP at p for the rest T of a single support the DCM xi comes to p + e^(w T) (xi - p). What the plan wants of
+it, xi_s, moves with the footstep: by (1 - a) d where the footstep and all after it move by d, and the VRP still takes
+the share a of the double support's way from the old foot (K 23-24). A push that is expected to go on moves p by -u_w
+(K 9).
+
+Two ways to the best footstep and time:
+
+- "search" takes time after time, for each the ZMP of the support polygon that brings the DCM nearest, and the footstep
+  that makes up for the rest, as far as the foot can get by then. How far that is grows with the time, which no convex
+  program says; one number is searched for, the others are in closed form.
+- "ssp_opt" solves K 31 (`plantar.gait.propose.ssp_opt`), with the place that the foot can reach in the planned time.
+
+Somebody who pushes may want the robot to go along. A robot that yields moves a step by (1 - c) of what the push has
+moved the DCM by, even where the ankles could resist it: the plan gives way, and so does the DCM.
+
+A foot that lands while its step is adjusted ends the single support, whatever the plan's time is: the DCM does not
+wait. One that stands beside its place stands there from then on; legs that pull it back would make it slip.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.balance.ankle_strategy import AnkleRules, shrunk_support
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.propose.proposer import Pendulum, Priority, Tick, nearest_place
+from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
+from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.settings.schema import Settings, choice, number, share, switch
+from plantar.sides import Side, other_side
+
+__all__ = ["StepAdjustment", "StepAdjustmentRules"]
+
+_PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
+_COARSE, _FINE = 10, 4  # times that are tried first, and how often the best one's neighbourhood is halved
+
+
+class StepAdjustmentRules(Settings):
+    """When a footstep moves for balance, and how far.
+
+    Attributes:
+        method: How the footstep is found: "search" or "ssp_opt".
+        confidence: c of K 2.5: 1 keeps the nominal footsteps as long as balance lets it, 0 follows whoever pushes.
+        yielding: Share of what a push moves the DCM by that the steps of a robot without confidence go along with, even
+            where its ankles could resist; 0 steps for balance alone, above 1 it goes farther than it is pushed.
+        double_support: Whether double supports end sooner or later, too
+            (`plantar.gait.propose.double_support_timing`). Off: in pushes of 0.47 m/s on h1 and hrp2kai it changed no
+            outcome for the better.
+        least_error: Distance in m by which the DCM would be off at the end, below which the plan stays.
+        acceleration: Largest acceleration in m/s^2 of the swing foot.
+        sideways: Share of it that is left to the side. (With all of it the swing leg's hip, 71 N m on h1, rolls the
+            pelvis, whose other hip bears the body at its limit already: the foot sinks, and lands 95 mm beside its
+            place.)
+        shortest: Share of what is left of a single support by which it becomes shorter at most.
+        longest: Share of a single support by which it becomes longer at most.
+        least_left: Time in s until touchdown from which a foot is not aimed any more.
+        pause: Time in s between two changes.
+        price_time: What a second costs in m/s of DCM error.
+        price_place: What a metre of footstep costs in metres of DCM error, with confidence 1; with none a tenth of it.
+        misplaced: Distance in m from its place at which a foot that has landed stands elsewhere.
+        lean: Roll of the trunk over the stance foot in rad per metre of the CoM's way there, at least, while steps may
+            move: a push needs of the hip roll joint what carrying the body leaves of its torque. (Upright, hrp2kai's
+            bears its body with 0.78 of it, and 16 N s hold it at its limit for 0.3 s, in which its foot stands on its
+            edge whatever the ZMP is wanted to be; leaning, for 0.07 s.)
+    """
+
+    method: str = choice("search", "ssp_opt")
+    confidence: float = number(0.0, "1", 0, 1)
+    yielding: float = number(0.0, "1", 0, 2)
+    double_support: bool = switch(False)
+    least_error: float = share(0.0433, "sole", 0, 0.2)
+    acceleration: float = share(0.816, "leg/beat^2", 0.1, 100)
+    sideways: float = number(0.5, "1", 0.01, 1)
+    shortest: float = number(0.45, "1", 0, 0.9)
+    longest: float = number(0.3, "1", 0, 5)
+    least_left: float = share(0.404, "beat", 0, 5)
+    pause: float = share(0.081, "beat", 0, 5)
+    price_time: float = share(0.0206, "leg/beat", 0, 10)
+    price_place: float = number(0.5, "1", 0, 10)
+    misplaced: float = share(0.0333, "leg", 0.001, 1)
+    lean: float = share(0.48, "rad/leg", 0, 5)
+
+
+class _Foot(NamedTuple):
+    """The foot that swings: which step it takes, where (x, y) in m it is, its heading in rad and its velocity (x, y)
+    in m/s."""
+
+    step: int
+    place: tuple[float, float]
+    yaw: float
+    velocity: tuple[float, float]
+
+
+class _Along(NamedTuple):
+    """By how much (x, y) in m which step has gone along with a push."""
+
+    step: int
+    moved: tuple[float, float]
+
+
+class _Choice(NamedTuple):
+    """A footstep: the time in s until it, by how much (x, y) in m it moves, and what it costs in m."""
+
+    left: float
+    move: tuple[float, float]
+    cost: float
+
+
+class StepAdjustment:
+    """Proposes another footstep, and another time of it.
+
+    Args:
+        rules: When, and how far.
+        region: Where a foot may land beside the other one.
+        touching: Distance in m between the sole frames at which the soles' inner edges touch.
+        weights: Weights of "ssp_opt".
+        ankle: Which part of the support polygon a changed footstep is planned with.
+        period: Control period in s, the unit of a change of time.
+    """
+
+    priority = Priority.TIMING
+
+    def __init__(
+        self,
+        rules: StepAdjustmentRules,
+        region: StepRegionRules,
+        touching: float,
+        weights: StepWeights,
+        ankle: AnkleRules,
+        period: float,
+    ) -> None:
+        self._rules = rules
+        self._box = region
+        self._touching = touching
+        self._weights = weights
+        c, (forward, sideways) = rules.confidence, (ankle.forward, ankle.sideways)
+        self._ankle = replace(ankle, forward=forward + c * (1.0 - forward), sideways=sideways + c * (1.0 - sideways))
+        self._period = period
+        self._changed = -math.inf
+        self._adjusted = -1
+        self._stands = -1
+        self._foot: _Foot | None = None
+        self._along: _Along | None = None
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """Another footstep where that helps, or where it is now (see `plantar.gait.propose.proposer.Proposer`)."""
+        pendulum = tick.pendulum
+        if pendulum is None or tick.feet.side is None:
+            return None
+        if tick.feet.landed:
+            return self._landed(tick, tick.feet.side)
+        swing = tick.phase.swing
+        if swing is None or tick.phase.wait:
+            return None
+        foot = self._follow(tick, swing)
+        if tick.time < self._changed + self._rules.pause or not len(pendulum.zmp_region):
+            return None
+        left = tick.phase.end - tick.time
+        # An error grows at most as without any feedback.
+        off = math.dist(pendulum.dcm, pendulum.reference.dcm) + math.hypot(
+            *(pendulum.offset + pendulum.pushed).tolist()
+        )
+        if left < 2.0 * self._period or off * math.exp(pendulum.omega * left) < self._rules.least_error:
+            return None
+        if math.hypot(*_missed(pendulum, left)) < self._rules.least_error:
+            return self._go_along(tick, pendulum, foot, left)
+        region = self._region(tick, swing)
+        pendulum = pendulum.changed(zmp_region=self._relied_on(tick, pendulum.zmp_region))
+        find = self._solved if self._rules.method == "ssp_opt" else self._searched
+        return self._change(tick, find(tick, pendulum, foot, left, region), left)
+
+    def _go_along(self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float) -> PlanChange | None:
+        """The step farther along a push, as far as it has not moved already; it never comes back by itself."""
+        step, planned = tick.phase.step, tick.plan.foothold(tick.phase.step)
+        if self._along is None or self._along.step != step:
+            self._along = _Along(step, (0.0, 0.0))
+        yields, (px, py) = self._rules.yielding * (1.0 - self._rules.confidence), pendulum.pushed.tolist()
+        size, (mx, my) = math.hypot(px, py), self._along.moved
+        more = yields * px - mx, yields * py - my
+        if (
+            left < self._rules.least_left
+            or size == 0.0
+            or more[0] * px + more[1] * py <= self._rules.least_error * size
+        ):
+            return None
+        assert tick.phase.swing is not None
+        region = self._region(tick, tick.phase.swing)
+        (x, y), _ = self._landing(foot, (planned.x + more[0], planned.y + more[1]), left, region)
+        dx, dy = x - planned.x, y - planned.y
+        if dx * px + dy * py <= 0.5 * self._rules.least_error * size:
+            return None
+        self._along = _Along(step, (mx + dx, my + dy))
+        self._changed = tick.time
+        return _moved(planned, step, (dx, dy), "goes along with a push", 0.0)
+
+    def _relied_on(self, tick: Tick, support: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The part (k, 2) in m of the support polygon that a changed footstep is planned with: f(c) S (K 27).
+
+        A step that needs all of it leaves nothing for what no pendulum foresees, and ends on the new foot's outer edge.
+        """
+        swing = tick.phase.swing
+        assert swing is not None
+        return shrunk_support(support, self._ankle, support.mean(axis=0), tick.place(other_side(swing)).yaw)
+
+    def _follow(self, tick: Tick, swing: Side) -> _Foot:
+        """Where the swing foot is commanded and how fast."""
+        now, before, velocity = tick.place(swing), self._foot, (0.0, 0.0)
+        if before is not None and before.step == tick.phase.step:
+            x, y = before.place
+            velocity = (now.x - x) / self._period, (now.y - y) / self._period
+        self._foot = _Foot(tick.phase.step, (now.x, now.y), now.yaw, velocity)
+        return self._foot
+
+    def _change(self, tick: Tick, found: _Choice | None, left: float) -> PlanChange | None:
+        """The change of the plan, where it is worth one."""
+        if found is None:
+            return None
+        # A whole number of ticks, so that phases begin at ticks.
+        longer = round((found.left - left) / self._period) * self._period
+        step, move = tick.phase.step, found.move
+        if abs(longer) < 1.5 * self._period and math.hypot(*move) < 0.5 * self._rules.least_error:
+            return None
+        self._changed, self._adjusted = tick.time, step
+        return _moved(tick.plan.foothold(step), step, move, "step adjusted", longer)
+
+    def _landed(self, tick: Tick, side: Side) -> PlanChange | None:
+        """The end of the single support with the landing of a step that was adjusted, and where the foot stands."""
+        phase = tick.phase
+        step = phase.step if phase.swing == side else phase.step - 1
+        if step < tick.plan.first or step == self._stands or tick.plan.foothold(step).side != side:
+            return None
+        self._stands = step
+        place, planned = tick.place(side), tick.plan.foothold(step)
+        move = place.x - planned.x, place.y - planned.y
+        if math.hypot(*move) < self._rules.misplaced:
+            move, place = (0.0, 0.0), planned
+        # Down to its last tick: a phase has to have a length.
+        longer = min(0.0, tick.time + self._period - phase.end) if phase.swing and self._adjusted == step else 0.0
+        if longer > -1.5 * self._period and not any(move):
+            return None
+        reason = "landed beside its place" if any(move) else "landed early"
+        return _moved(replace(planned, yaw=place.yaw), step, move, reason, longer)
+
+    def _region(self, tick: Tick, swing: Side) -> NDArray[np.float64]:
+        """Where the swing foot may land (k, 2) in the world in m; the place where it is planned to among it."""
+        stance, planned = tick.place(other_side(swing)), tick.plan.foothold(tick.phase.step).position[:2]
+        region = footstep_region(self._box, swing, (stance.x, stance.y, stance.yaw), self._touching)
+        # A walk may have longer steps than are allowed for balance; those it keeps.
+        inside = len(region) and signed_margin(region, planned) >= 0.0
+        return region if inside else convex_hull(np.vstack([region.reshape(-1, 2), planned]))
+
+    def _bounds(self, tick: Tick, left: float) -> tuple[float, float]:
+        """The soonest and the latest time in s from now at which the single support may end."""
+        rules = self._rules
+        usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
+        soonest = min(left, max(rules.least_left, (1.0 - rules.shortest) * (usual - begun)))
+        return soonest, max(left, (1.0 + rules.longest) * usual - begun)
+
+    def _searched(
+        self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
+    ) -> _Choice | None:
+        """The best footstep by search over its time."""
+        rules = self._rules
+        soonest, latest = self._bounds(tick, left)
+        planned, slope = tick.plan.foothold(tick.phase.step), _slope(tick, pendulum)
+        price = rules.price_place * (0.1 + 0.9 * rules.confidence)
+
+        def tried(time: float) -> _Choice:
+            missed = _missed(pendulum, time)
+            wanted = planned.x + missed[0] / slope, planned.y + missed[1] / slope
+            (x, y), beyond = self._landing(foot, wanted, time, region)
+            dx, dy = x - planned.x, y - planned.y
+            cost = math.dist(missed, (slope * dx, slope * dy)) + beyond + rules.price_time * abs(time - left)
+            return _Choice(time, (dx, dy), cost + price * math.hypot(dx, dy))
+
+        step = (latest - soonest) / _COARSE
+        best = tried(left)
+        for k in range(_COARSE + 1):
+            best = min(best, tried(soonest + k * step), key=_cost)
+        for _ in range(_FINE):
+            step *= 0.5
+            times = (max(soonest, best.left - step), min(latest, best.left + step))
+            best = min(best, *map(tried, times), key=_cost)
+        return best
+
+    def _solved(
+        self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
+    ) -> _Choice | None:
+        """The best footstep by K 31, whose places are those of the VRP."""
+        plan, step, rules = tick.plan, tick.phase.step, self._rules
+        vrp, target = plan.vrp(step), plan.foothold(step).position[:2]
+        following = plan.schedule.following(tick.phase)
+        last = step + 1 >= plan.count
+        begun, (soonest, latest) = tick.time - tick.phase.start, self._bounds(tick, left)
+        usual = plan.schedule.timing.single_support
+        found = solve_ssp(
+            SspProblem(
+                omega=pendulum.omega,
+                dcm=pendulum.dcm,
+                vrp=pendulum.beyond_zmp(left)[2],
+                offset=pendulum.offset,
+                stance=plan.stance_vrp(step),
+                elapsed=begun,
+                target=(*vrp.tolist(), begun + left),
+                nominal=(*vrp.tolist(), usual),
+                region=region + (vrp - target),
+                shortest=begun + soonest,
+                longest=begun + latest,
+                next_stride=np.zeros(2) if last else plan.vrp(step + 1) - vrp,
+                next_duration=usual,
+                double_support=following.end - following.start,
+                confidence=rules.confidence,
+            ),
+            self._weights,
+        )
+        if found is None:
+            return None
+        time = found.time - begun
+        px, py = (found.place - vrp + target).tolist()
+        (x, y), _ = self._landing(foot, (px, py), time, region)
+        tx, ty = target.tolist()
+        return _Choice(time, (x - tx, y - ty), 0.0)
+
+    def _landing(
+        self, foot: _Foot, wanted: tuple[float, float], time: float, region: NDArray[np.float64]
+    ) -> tuple[tuple[float, float], float]:
+        """Where in a region the swing foot lands that is wanted somewhere, and how far it would leave the region.
+
+        One that moves too fast to brake in time has to brake harder than it should: that costs what it would go beyond.
+
+        Args:
+            foot: The foot.
+            wanted: The wanted place in m.
+            time: Time in s until it lands.
+            region: Convex polygon (k, 2) in m.
+
+        Returns:
+            Place (x, y) in m, and distance in m.
+        """
+        x, y = self._reached(foot, nearest_place(region, *wanted), time)
+        inside = nearest_place(region, x, y)
+        return inside, math.dist(inside, (x, y))
+
+    def _reached(self, foot: _Foot, wanted: tuple[float, float], time: float) -> tuple[float, float]:
+        """The place (x, y) in m nearest to a wanted one that the swing foot gets to, at rest, in some time in s.
+
+        From rest a minimum-jerk motion gets a t^2 / 5.77 far with a peak of a. A foot that moves at v gets v t / 2
+        farther and, for braking, v^2 / 5.77 a less far: as with a constant acceleration, whose numbers are 1/4.
+        """
+        most, (vx, vy), (x, y) = self._rules.acceleration, foot.velocity, foot.place
+        c, s, narrow = math.cos(foot.yaw), math.sin(foot.yaw), self._rules.sideways
+        # In the foot's axes, those to the side stretched: what it reaches is a circle then.
+        ahead, aside = c * vx + s * vy, (c * vy - s * vx) / narrow
+        reach = max(0.0, most * time * time - (ahead * ahead + aside * aside) / most) / _PEAK
+        wx, wy = wanted[0] - x, wanted[1] - y
+        dx, dy = c * wx + s * wy - 0.5 * time * ahead, (c * wy - s * wx) / narrow - 0.5 * time * aside
+        far = math.hypot(dx, dy)
+        if far <= reach:
+            return wanted
+        dx, dy = 0.5 * time * ahead + dx * (reach / far), narrow * (0.5 * time * aside + dy * (reach / far))
+        return x + c * dx - s * dy, y + s * dx + c * dy
+
+
+def _cost(choice: _Choice) -> float:
+    return choice.cost
+
+
+def _moved(planned: Footstep, step: int, move: tuple[float, float], reason: str, longer: float) -> PlanChange:
+    """A change that moves a footstep and all after it."""
+    place = replace(planned, x=planned.x + move[0], y=planned.y + move[1])
+    return PlanChange(reason, step, foothold=place, shift=move, longer=longer, resets=True)
+
+
+def _missed(pendulum: Pendulum, left: float) -> tuple[float, float]:
+    """By how much (x, y) in m the DCM misses its goal after some time in s with the best ZMP of the support polygon."""
+    (px, py), (wx, wy) = pendulum.beyond_zmp(left)[2], pendulum.offset.tolist()
+    (x, y), (gx, gy), grown = pendulum.dcm.tolist(), pendulum.goal.tolist(), math.exp(pendulum.omega * left)
+    ux, uy = px - wx, py - wy
+    return ux + grown * (x - ux) - gx, uy + grown * (y - uy) - gy
+
+
+def _slope(tick: Tick, pendulum: Pendulum) -> float:
+    """By how much the DCM that is wanted at the end of the single support moves with the footstep: 1 less the share of
+    the double support's VRP that stays with the foot before, which moves linearly from the one to the other."""
+    following = tick.plan.schedule.following(tick.phase)
+    growth = pendulum.omega * (following.end - following.start)
+    return -math.expm1(-growth) / growth

@@ -1,0 +1,107 @@
+"""End a single support when the DCM is where the next one begins, if the ZMP alone cannot bring it there in time.
+
+With the ZMP at p for the rest T of a single support the DCM xi comes to
+
+    xi(T) = p + e^(w T) (xi - p),
+
+so what the plan wants of it at the end, xi_e, takes the ZMP
+
+    p(T) = xi + (xi - xi_e) / (e^(w T) - 1).
+
+As long as that lies in the support polygon the balance law has its way, and nothing is done. Where it lies at a
+distance d from the polygon, the DCM ends off by (e^(w T) - 1) d, which on a partial foothold soon is more than the next
+one can make up for. Most of it lies along the DCM's way, as when a foothold that is not where it was planned is seen in
+the last moment: another T takes that away (time instead of the ZMP; the same pendulum as T 4.9-4.14).
+"""
+
+from __future__ import annotations
+
+import math
+
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.propose.proposer import Pendulum, Priority, Tick
+from plantar.settings.schema import Settings, number, share
+
+__all__ = ["StepTiming", "StepTimingRules"]
+
+
+class StepTimingRules(Settings):
+    """When a single support ends sooner or later than planned.
+
+    Attributes:
+        least_error: Distance in m by which the DCM would be off at the end, below which the timing stays.
+        price: What a second costs in m/s of DCM error: a change of timing has to be worth it.
+        longest: Share of a single support by which it becomes longer at most. (A push to the side is not made up for by
+            time: with half of it, h1 fell after one of six pushes of 40 N s that it takes without.)
+        shortest: Share of it by which it becomes shorter at most: the foot has to be there.
+        least_left: Time in s until touchdown from which a foot is not hurried any more.
+        pause: Time in s between two changes.
+    """
+
+    least_error: float = share(0.0433, "sole", 0, 0.2)
+    price: float = share(0.0206, "leg/beat", 0, 10)
+    longest: float = number(0.15, "1", 0, 5)
+    shortest: float = number(0.1, "1", 0, 0.9)
+    least_left: float = share(0.809, "beat", 0, 5)
+    pause: float = share(0.162, "beat", 0, 5)
+
+
+class StepTiming:
+    """Proposes another end of the single support.
+
+    Args:
+        rules: When.
+        period: Control period in s, the unit of a change.
+    """
+
+    priority = Priority.TIMING
+
+    def __init__(self, rules: StepTimingRules, period: float) -> None:
+        self._rules = rules
+        self._period = period
+        self._changed = -math.inf
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """Another end of the single support, where that helps (see `plantar.gait.propose.proposer.Proposer`)."""
+        phase, rules, pendulum = tick.phase, self._rules, tick.pendulum
+        if pendulum is None or phase.swing is None or phase.wait or tick.time < self._changed + rules.pause:
+            return None
+        left = phase.end - tick.time
+        if left < 2.0 * self._period or not len(pendulum.zmp_region):
+            return None
+        # An error grows at most as without any feedback.
+        off = math.dist(pendulum.dcm.tolist(), pendulum.reference.dcm.tolist())
+        if off * math.exp(pendulum.omega * left) < rules.least_error:
+            return None
+        error = _missed(pendulum, left)
+        if error < rules.least_error:
+            return None
+        change = self._best_change(tick, pendulum, left, error)
+        if abs(change) < 1.5 * self._period:
+            return None
+        self._changed = tick.time
+        reason = "DCM behind" if change > 0.0 else "DCM ahead"
+        return PlanChange(reason, phase.step, longer=change, resets=True)
+
+    def _best_change(self, tick: Tick, pendulum: Pendulum, left: float, error: float) -> float:
+        """By how much in s to end the phase later: where what is missed, and the change's price, are least."""
+        rules = self._rules
+        usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
+        later = (1.0 + rules.longest) * usual - begun - left
+        sooner = left - max(rules.least_left, (1.0 - rules.shortest) * usual - begun)
+        best, least = 0.0, error
+        for sign, most in ((1.0, later), (-1.0, sooner)):
+            for k in range(1, int(most / self._period + 1e-6) + 1):
+                price = rules.price * k * self._period
+                if price >= least:
+                    break
+                cost = price + _missed(pendulum, left + sign * k * self._period)
+                if cost < least:
+                    best, least = sign * k * self._period, cost
+        return best
+
+
+def _missed(pendulum: Pendulum, left: float) -> float:
+    """By how much in m the DCM misses its goal after some time in s, wherever its ZMP is kept."""
+    growth, wanted, nearest = pendulum.beyond_zmp(left)
+    return growth * math.dist(wanted, nearest)

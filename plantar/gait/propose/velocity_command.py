@@ -1,0 +1,284 @@
+"""Walk at a commanded velocity: one step after another, without an end, until a stop is commanded.
+
+At each touchdown the next steps are planned anew from the command that holds then: two that follow it and one that
+closes the feet, so that the plan always ends at rest. Of steps of duration T, with a velocity (v_x, v_y, w_z),
+
+    forward      each step leads the other foot by v_x T;
+    sideways     the foot on that side opens by 2 v_y T, and the other one closes up to it;
+    turning      each step turns its foot by w_z T against the other one, about the middle between the feet, and stands
+                 so much wider that heels, or toes where the feet turn in, keep their distance; what the foot that turns
+                 in may not do (`Stride.turn_in`) the other one does, too,
+
+so that legs do not cross. The heading is the mean of the feet's: it follows a command by half a step whichever foot is
+next, where a foot that only turns out would leave it by a whole step every other time.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from plantar.errors import InputError
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.phases import PhaseKind
+from plantar.gait.plan.plan_change import PlanChange
+from plantar.gait.propose.proposer import Priority, Tick, was_applied
+from plantar.settings.schema import Settings, number
+from plantar.sides import SIDES, Side, other_side
+
+__all__ = ["STOP", "Legs", "Stride", "Velocity", "VelocityCommand", "VelocityTable", "next_step", "table_of"]
+
+_AHEAD = 2  # steps that follow the command, before the one that closes
+
+
+@dataclass(frozen=True)
+class Velocity:
+    """A commanded velocity in the frame of the feet.
+
+    Attributes:
+        forward: m/s.
+        left: m/s.
+        turn: rad/s, to the left.
+    """
+
+    forward: float = 0.0
+    left: float = 0.0
+    turn: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("forward", "left", "turn"):
+            if not math.isfinite(getattr(self, name)):
+                raise InputError(f"velocity '{name}' is {getattr(self, name)}; allowed: a finite number")
+
+
+STOP: Velocity | None = None
+"""The command to stand still; a velocity of zero takes steps in place."""
+
+
+@dataclass(frozen=True)
+class VelocityTable:
+    """Commands over time: each holds until the next one.
+
+    Attributes:
+        times: When each begins in s, increasing.
+        commands: What is commanded from then on; None stops.
+
+    Example:
+        >>> table = VelocityTable((1.0, 5.0), (Velocity(forward=0.1), STOP))
+        >>> [table.at(t) is STOP for t in (0.5, 1.0, 4.9, 5.0)]
+        [True, False, False, True]
+    """
+
+    times: tuple[float, ...]
+    commands: tuple[Velocity | None, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.times) != len(self.commands):
+            raise InputError(f"{len(self.times)} times for {len(self.commands)} commands; allowed: one for each")
+        if not all(math.isfinite(t) for t in self.times) or sorted(set(self.times)) != list(self.times):
+            raise InputError("the times of velocity commands have to be finite and to increase")
+
+    def at(self, time: float) -> Velocity | None:
+        """The command that holds at a time in s; before the first one the robot stands."""
+        k = bisect_right(self.times, time) - 1
+        return self.commands[k] if k >= 0 else STOP
+
+
+class Stride(Settings):
+    """How far a step goes at most; a command that asks for more is walked slower.
+
+    Attributes:
+        lead: By how much a foot leads the other one, as a share of the CoM's height.
+        opening: By how much a foot opens to its side, as a share of the CoM's height.
+        turn: Angle by which a foot turns out against the other one, which the two hips share.
+        turn_in: Angle by which a foot turns in against the other one.
+    """
+
+    lead: float = number(0.25, "1", 0.01, 0.6)
+    opening: float = number(0.22, "1", 0.01, 0.6)
+    turn: float = number(0.5, "rad", 0.01, 1.2)
+    turn_in: float = number(0.2, "rad", 0, 0.5)
+
+
+@dataclass(frozen=True)
+class Legs:
+    """What decides how far a step may go, in m.
+
+    Attributes:
+        width: Distance of the sole frames' origins when the feet stand side by side.
+        com_height: Height of the CoM.
+        heel: How far the sole reaches behind its frame's origin.
+        toe: How far it reaches ahead of it.
+        inner: How far it reaches from there to its inner edge.
+    """
+
+    width: float
+    com_height: float
+    heel: float = 0.1
+    toe: float = 0.14
+    inner: float = 0.07
+
+    def room(self, out: float) -> float:
+        """How much wider a foot has to stand that is turned out, or in, by an angle in rad, for its heel or toe to keep
+        the distance from the middle between the feet that its inner edge has at rest.
+
+        Example:
+            >>> legs = Legs(0.17, 0.8, heel=0.09, toe=0.13, inner=0.06)
+            >>> legs.room(0.0), round(legs.room(0.3), 4), round(legs.room(-0.3), 4)
+            (0.0, 0.029, 0.0414)
+        """
+        reach = self.heel if out > 0.0 else self.toe
+        gap = 0.5 * self.width - self.inner
+        return (gap + reach * math.sin(abs(out))) / math.cos(out) - gap
+
+
+def next_step(
+    stance: Footstep, other: Footstep, velocity: Velocity, legs: Legs, stride: Stride, duration: float
+) -> Footstep:
+    """Where a foot goes next.
+
+    Args:
+        stance: The foot that stands.
+        other: Where the foot that goes stands until then.
+        velocity: The command.
+        legs: What decides how far.
+        stride: How far at most.
+        duration: Time in s from step to step.
+
+    Returns:
+        The footstep.
+
+    Example:
+        >>> left, right = Footstep("left", 0.0, 0.085), Footstep("right", 0.0, -0.085)
+        >>> step = next_step(right, left, Velocity(forward=0.1), Legs(0.17, 0.8), Stride(), 1.0)
+        >>> step.side, round(step.x, 3), round(step.y, 3)
+        ('left', 0.1, 0.085)
+        >>> next_step(right, left, Velocity(left=-0.1), Legs(0.17, 0.8), Stride(), 1.0).y  # the other one opens
+        0.085
+    """
+    outward, half = (1.0 if other.side == "left" else -1.0), 0.5 * legs.width
+
+    def within(value: float, most: float) -> float:
+        return min(most, max(-most, value))
+
+    def opening(value: float, most: float) -> float:
+        return within(value, most) if value * outward > 0.0 else 0.0
+
+    ahead = within(velocity.forward * duration, stride.lead * legs.com_height)
+    across = opening(2.0 * velocity.left * duration, stride.opening * legs.com_height)
+    turned_in = within(velocity.turn * duration, stride.turn_in)
+    turn = turned_in
+    if velocity.turn * outward > 0.0:
+        turn = within(2.0 * velocity.turn * duration - turned_in, stride.turn)
+    # The middle between the feet, as the stance foot has it, moves along the mean heading; the foot stands off it.
+    before = math.remainder(other.yaw - stance.yaw, 2.0 * math.pi)
+    x, y = _moved(stance.x, stance.y, stance.yaw, 0.0, outward * (half + legs.room(outward * before)))
+    x, y = _moved(x, y, stance.yaw + 0.5 * turn, ahead, across)
+    x, y = _moved(x, y, stance.yaw + turn, 0.0, outward * (half + legs.room(outward * turn)))
+    return Footstep(other.side, x, y, stance.yaw + turn, stance.z)
+
+
+def _moved(x: float, y: float, yaw: float, ahead: float, across: float) -> tuple[float, float]:
+    c, s = math.cos(yaw), math.sin(yaw)
+    return x + c * ahead - s * across, y + s * ahead + c * across
+
+
+class VelocityCommand:
+    """Proposes the steps of a walk at a commanded velocity.
+
+    Args:
+        table: The commands over time.
+        legs: What decides how far a step may go.
+        stride: How far a step goes at most.
+    """
+
+    priority = Priority.COMMAND
+
+    def __init__(self, table: VelocityTable, legs: Legs, stride: Stride | None = None) -> None:
+        self.table = table
+        self.legs = legs
+        self.stride = Stride() if stride is None else stride
+        self._planned = -1
+        self._proposed: PlanChange | None = None
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """The next steps, at touchdown or from standing (see `plantar.gait.propose.proposer.Proposer`)."""
+        if self._proposed is not None and was_applied(self._proposed, tick):
+            self._planned, self._proposed = self._proposed.step + 1, None
+        phase, plan = tick.phase, tick.plan
+        if phase.kind == PhaseKind.SINGLE_SUPPORT:
+            return None
+        velocity, timing = self.table.at(tick.time), plan.schedule.timing
+        if velocity is STOP and phase.step >= plan.count:
+            return None  # at rest, or on the way to it
+        # A stop counts until the foot lifts off: heard a moment after the touchdown, it would take a step more.
+        if phase.step == self._planned and not (velocity is STOP and plan.count > phase.step + 1):
+            return None
+        duration = timing.single_support + timing.double_support
+        feet = {side: self._standing(side, tick) for side in SIDES}
+        first = self._first(tick, velocity)
+        steps = self._steps(feet[other_side(first)], feet[first], velocity, duration)
+        self._proposed = PlanChange("velocity command", phase.step - 1, following=steps)
+        return self._proposed
+
+    def _first(self, tick: Tick, velocity: Velocity | None) -> Side:
+        """The foot that moves next: as planned, or from standing the one on the side that the command goes to."""
+        if tick.phase.step < tick.plan.count:
+            return tick.plan.foothold(tick.phase.step).side
+        if tick.phase.kind != PhaseKind.STANDING:
+            return other_side(tick.plan.foothold(tick.phase.step - 1).side)
+        sideways = 0.0 if velocity is None else velocity.left or velocity.turn
+        return "right" if sideways < 0.0 else "left"
+
+    @staticmethod
+    def _standing(side: Side, tick: Tick) -> Footstep:
+        """Where a foot stands by plan; where it is commanded before its first step."""
+        plan = tick.plan
+        for k in range(tick.phase.step - 1, max(plan.first, tick.phase.step - 3) - 1, -1):
+            if plan.foothold(k).side == side:
+                return plan.foothold(k)
+        return tick.place(side)
+
+    def _steps(
+        self, stance: Footstep, other: Footstep, velocity: Velocity | None, duration: float
+    ) -> tuple[Footstep, ...]:
+        """Steps at a velocity, the other foot first, and the one that closes the feet."""
+        steps: list[Footstep] = []
+        for command in [*([velocity] * _AHEAD if velocity is not None else []), Velocity()]:
+            stance, other = next_step(stance, other, command, self.legs, self.stride, duration), stance
+            steps.append(stance)
+        return tuple(steps)
+
+
+def table_of(rows: Sequence[Sequence[float | str]], begin: float) -> VelocityTable:
+    """A table of commands from rows of a scene.
+
+    Args:
+        rows: Each [time, forward, left, turn] in s, m/s, m/s and rad/s, or [time, "stop"].
+        begin: Time in s from which the rows count.
+
+    Returns:
+        The table.
+
+    Raises:
+        InputError: If a row is neither; the message names it.
+
+    Example:
+        >>> table_of([[0.0, 0.1, 0.0, 0.0], [10.0, "stop"]], 1.0).times
+        (1.0, 11.0)
+    """
+    times: list[float] = []
+    commands: list[Velocity | None] = []
+    for row in rows:
+        values = list(row) if isinstance(row, Sequence) and not isinstance(row, str) else [row]
+        numbers = [v for v in values if isinstance(v, (int, float)) and not isinstance(v, bool)]
+        if len(numbers) == 4 == len(values):
+            commands.append(Velocity(*map(float, numbers[1:])))
+        elif len(numbers) == 1 and values[1:] == ["stop"]:
+            commands.append(STOP)
+        else:
+            raise InputError(f'a velocity command is {row!r}; allowed: [time, forward, left, turn] or [time, "stop"]')
+        times.append(begin + float(numbers[0]))
+    return VelocityTable(tuple(times), tuple(commands))

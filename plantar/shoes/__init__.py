@@ -1,0 +1,72 @@
+"""Mountable tactile shoes: from a foot's geometry to a printable part and its layout file.
+
+A `Foot` is read from a mesh or given by its dimensions; `build_shoe` fits the taxels and builds the solid;
+`export_shoe` writes the files and checks what it wrote. Lengths inside this package are in mm; the layout is in m.
+
+The names below are loaded at first use (PEP 562), so that the command line's help, which needs only
+`plantar.shoes.order`, does not load numpy and shapely.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from plantar.shoes.build import Shoe, ShoeBuild, build_shoe
+    from plantar.shoes.checks.check import ShoeCheck
+    from plantar.shoes.fit.taxels import TaxelFit, fit_taxels
+    from plantar.shoes.foot.foot import Foot, foot_from_dimensions, foot_from_outline
+    from plantar.shoes.foot.foot_mesh import foot_from_mesh
+    from plantar.shoes.papers.export import ShoeReport, export_shoe
+    from plantar.shoes.parameters import ShoeParameters, read_parameters
+    from plantar.shoes.plan.shoe_plan import ShoePlan
+
+__all__ = [
+    "Foot",
+    "Shoe",
+    "ShoeBuild",
+    "ShoeCheck",
+    "ShoeParameters",
+    "ShoePlan",
+    "ShoeReport",
+    "TaxelFit",
+    "build_shoe",
+    "export_shoe",
+    "fit_taxels",
+    "foot_from_dimensions",
+    "foot_from_mesh",
+    "foot_from_outline",
+    "read_parameters",
+]
+
+_MODULE_OF_NAME = {
+    "Foot": "foot.foot",
+    "Shoe": "build",
+    "ShoeBuild": "build",
+    "ShoeCheck": "checks.check",
+    "ShoeParameters": "parameters",
+    "ShoePlan": "plan.shoe_plan",
+    "ShoeReport": "papers.export",
+    "TaxelFit": "fit.taxels",
+    "build_shoe": "build",
+    "export_shoe": "papers.export",
+    "fit_taxels": "fit.taxels",
+    "foot_from_dimensions": "foot.foot",
+    "foot_from_mesh": "foot.foot_mesh",
+    "foot_from_outline": "foot.foot",
+    "read_parameters": "parameters",
+}
+
+if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a name that does not exist
+
+    def __getattr__(name: str) -> object:
+        """Load a public name at first use."""
+        if name not in _MODULE_OF_NAME:
+            raise AttributeError(f"module 'plantar.shoes' has no attribute {name!r}")
+        value = globals()[name] = getattr(import_module(f"plantar.shoes.{_MODULE_OF_NAME[name]}"), name)
+        return value
+
+    def __dir__() -> list[str]:
+        """The public names, loaded or not, and what else the module holds."""
+        return sorted({*globals(), *__all__})

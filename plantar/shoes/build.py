@@ -1,0 +1,282 @@
+"""From a foot to its pair of shoes: fit, plan and solid in one call."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.shoes.cad_kernel import load_cadquery
+from plantar.shoes.cells.cell import Cell
+from plantar.shoes.fit.cell_fit import fit_cells
+from plantar.shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim
+from plantar.shoes.fit.taxels import TaxelFit, fit_taxels
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.block import Block, Step
+from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
+from plantar.shoes.plan.load_share import LoadShare, check_load_share, relieved
+from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
+from plantar.shoes.plan.strength import load_case, strengthened
+from plantar.shoes.solid.body import bare_floor, mark_outline, mirrored_steps, shoe_steps
+from plantar.shoes.solid.retention import Retention, choose_retention
+from plantar.shoes.solid.tray import build_solid, surface_of
+from plantar.sides import SIDES
+
+__all__ = [
+    "RIMS",
+    "Progress",
+    "Rim",
+    "Shoe",
+    "ShoeBuild",
+    "Sides",
+    "build_shoe",
+    "built_sides",
+    "planned_sides",
+    "sides_of",
+]
+
+Sides = Literal["left", "right", "both"]
+"""Which shoes to build."""
+
+Rim = Literal["whole", "fine"]
+"""Cells along the edge of the face: whole ones of the lattice, or a row of smaller ones."""
+
+RIMS: tuple[Rim, ...] = ("whole", "fine")
+"""All kinds of rim."""
+
+Progress = Callable[[float, str], None]
+"""Receives the fraction done, 0..1, and what is being done."""
+
+
+@dataclass(frozen=True)
+class Shoe:
+    """One shoe.
+
+    Attributes:
+        plan: Outlines seen from above in mm, and the layout.
+        solid: The cadquery solid in mm in the sole frame; None where only the layout was asked for.
+        surface: Its triangles (n, 3, 3) in mm; None where only the layout was asked for.
+    """
+
+    plan: ShoePlan
+    solid: Any | None = None
+    surface: NDArray[np.float64] | None = None
+
+    @property
+    def side(self) -> Side:
+        """ "left" or "right"."""
+        return self.plan.side
+
+    @property
+    def layout(self) -> SoleLayout:
+        """The sole layout, in m."""
+        return self.plan.layout
+
+
+@dataclass(frozen=True)
+class ShoeBuild:
+    """The shoes of one foot.
+
+    Attributes:
+        foot: The left foot.
+        fit: The cells of the left sole.
+        parameters: Dimensions as used: floor and wall may be raised by the load case.
+        shoes: The shoes asked for, left first.
+        load_share: Share of the load that the taxels carry.
+        retention: What holds them; None where only the layout was asked for.
+        notes: What was detected, assumed and decided.
+        kind: "shoe", or "insole": a flat sheet without walls, see `plantar.shoes.insole`.
+    """
+
+    foot: Foot
+    fit: TaxelFit
+    parameters: ShoeParameters
+    shoes: tuple[Shoe, ...]
+    load_share: LoadShare
+    retention: Retention | None = None
+    notes: tuple[str, ...] = ()
+    kind: Literal["shoe", "insole"] = "shoe"
+
+
+def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
+    """What to do about a wide blind rim, where something can be done."""
+    if fit.cell is not None or fit.blind_most is not None or plan.blind_rim <= BLIND_MOST:
+        return ()
+    return (
+        f"blind rim of {plan.blind_rim:.0f} mm beyond the outermost taxels' centres; a fine rim (--rim fine) has "
+        f"smaller cells along the edge and leaves {BLIND_MOST:g} mm at most",
+    )
+
+
+def build_shoe(
+    foot: Foot,
+    *,
+    side: Sides = "both",
+    cell_area: float = 691.0,
+    taxels: int | None = None,
+    overhang: float = 0.0,
+    rim: Rim = "whole",
+    cell: Cell | None = None,
+    parameters: ShoeParameters | None = None,
+    name: str | None = None,
+    layout_only: bool = False,
+    progress: Progress | None = None,
+) -> ShoeBuild:
+    """Fit taxels to the face on which a foot's shoe stands and build the shoe around both.
+
+    Args:
+        foot: The left foot, see `foot_from_mesh` and `foot_from_dimensions`.
+        side: "left", "right" or "both"; the right shoe mirrors the left.
+        cell_area: Area of a taxel in mm^2.
+        taxels: Number of taxels; None takes as many whole cells as fit the sole.
+        overhang: How far taxels may reach beyond the sole in mm; with `taxels` it grows as far as the shoe's greatest
+            overhang (parameter overhang_max) leaves room.
+        rim: "whole" cells up to the edge, or "fine": a row of smaller ones along it, so that the blind rim is 12 mm
+            wide at most; then there is no `taxels`.
+        cell: Other cells than hexagons of skin, see `plantar.shoes.cells.cell_file.read_cell`; then there is no fine
+            rim, and `cell_area` is not read.
+        parameters: Dimensions of the shoe; None takes the defaults.
+        name: Name of the layout; None takes the foot's.
+        layout_only: Leave the solid out, and with it cadquery.
+        progress: Receives fraction and text.
+
+    Returns:
+        The shoes with their layouts and solids.
+
+    Raises:
+        InputError: If an argument is out of its range.
+        FootError: If the foot cannot carry the taxels.
+
+    Example:
+        >>> from plantar.shoes.foot.foot import foot_from_dimensions
+        >>> foot = foot_from_dimensions("a", length=0.2, width=0.1, sole_center=(0.02, 0.0), corner_radius=0.01)
+        >>> build = build_shoe(foot, layout_only=True)
+        >>> [(shoe.side, len(shoe.layout)) for shoe in build.shoes]
+        [('left', 21), ('right', 21)]
+    """
+    sides = sides_of(side, rim)
+    if parameters is not None and parameters.material == "TPU":
+        raise InputError("a shoe of TPU would bend under the robot; allowed: PA12, PETG, PLA (TPU is for insoles)")
+    if rim == "fine" and taxels is not None:
+        raise InputError("a fine rim takes as many taxels as it needs; leave their number out, or take rim whole")
+    tell = progress or (lambda fraction, text: None)
+    p, of_cell = cell_parameters(cell, parameters or ShoeParameters())
+    if not 0.0 <= overhang <= p.overhang_max:
+        raise InputError(
+            f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {p.overhang_max:g} mm (overhang_max)"
+        )
+    tell(0.0, "fitting the taxels to the sole")
+    # The plate under the wall meets the ground, too; the load case may ask for a thicker wall.
+    wall = strengthened(foot, foot.sole, p)[0].rim_thickness
+    face, reach = foot.passing(p.rim_height), max(overhang, p.clearance + wall - p.border)
+    if cell is not None:
+        fit = fit_cells(
+            face,
+            cell,
+            rib=p.rib,
+            taxels=taxels,
+            overhang=reach if taxels is None else overhang,
+            overhang_max=p.overhang_max,
+            border=p.border,
+        )
+    elif rim == "fine":
+        fit = fit_fine_rim(face, cell_area=cell_area, overhang=reach, border=p.border)
+    else:
+        fit = fit_taxels(
+            face,
+            cell_area=cell_area,
+            taxels=taxels,
+            overhang=reach if taxels is None else overhang,
+            overhang_max=p.overhang_max,
+            border=p.border,
+        )
+    p = replace(p, border=fit.border)
+    left = plan_shoe(foot, fit, p, name=name)
+    p, raised = strengthened(foot, left.contact, p)
+    if raised:
+        left = plan_shoe(foot, fit, p, name=name)
+    p, led = led_parameters(left, p)
+    p, lowered = relieved(left, load_case(foot, p), p)
+    notes = foot.notes + of_cell + fit.notes + raised + led + lowered + left.notes + _blind_note(left, fit)
+    share = check_load_share(left, load_case(foot, p), p)
+    if layout_only:
+        tell(1.0, "layouts fitted")
+        return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=notes)
+    retention = choose_retention(foot, left, p)
+    steps = shoe_steps(foot, left, retention, p)
+    shoes = built_sides(left, steps, p, sides, tell)
+    return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note))
+
+
+def sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:
+    """Which sides are built, where side and rim are what shoes and insoles know.
+
+    Args:
+        side: "left", "right" or "both".
+        rim: Cells along the edge.
+
+    Returns:
+        The sides, left first.
+
+    Raises:
+        InputError: If one of them is unknown.
+    """
+    if side not in ("left", "right", "both"):
+        raise InputError(f"side is {side!r}; allowed: left, right, both")
+    if rim not in RIMS:
+        raise InputError(f"rim is {rim!r}; allowed: {', '.join(RIMS)}")
+    return SIDES if side == "both" else (side,)
+
+
+def planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
+    """The sides asked for, without their solids.
+
+    Args:
+        left: The left plan.
+        sides: Which of the two.
+
+    Returns:
+        A shoe each.
+    """
+    return tuple(Shoe(left if which == "left" else mirrored_plan(left)) for which in sides)
+
+
+def built_sides(
+    left: ShoePlan,
+    steps: tuple[Step, ...],
+    parameters: ShoeParameters,
+    sides: tuple[Side, ...],
+    tell: Progress,
+) -> tuple[Shoe, ...]:
+    """The solids of the sides asked for, each with its mark.
+
+    Args:
+        left: The left plan.
+        steps: The left body.
+        parameters: Dimensions as used.
+        sides: Which of the two.
+        tell: Receives fraction and text.
+
+    Returns:
+        The shoes.
+    """
+    p = parameters
+    tell(0.1, "loading the CAD kernel")
+    load_cadquery()
+    shoes = []
+    for i, shoe in enumerate(planned_sides(left, sides)):
+        plan, which = shoe.plan, shoe.side
+        tell(0.4 + 0.6 * i / len(sides), f"building the {which} side")
+        own = steps if which == "left" else mirrored_steps(steps)
+        letters = mark_outline(plan, p, which, bare_floor(own)).geoms
+        mark = tuple(Block(g, p.thickness - p.mark_depth, p.thickness + 0.5) for g in letters)
+        solid = build_solid((*own, Step("cut", "mark", mark)))
+        shoes.append(Shoe(plan, solid, surface_of(solid)))
+    tell(1.0, "all sides built")
+    return tuple(shoes)

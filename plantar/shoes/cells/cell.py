@@ -1,0 +1,225 @@
+"""The body of a sensor cell as its maker states it: shape, size, active area, load, tail, pitch. Lengths in mm.
+
+Three kinds of cell follow from what is stated. *Tiles* (hex, square, rectangle without an active area) are bodies with
+a rubber head that spreads over the ribs to the next one, so that the cells tile the sole. *Films* (any shape with an
+active area, and round ones) lie at the ceiling of a pocket, and a land of the pad presses on the active area alone. A
+*sheet* is one body with rows and columns of electrodes; a cell is what lies around a crossing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any, Literal
+
+from plantar.errors import InputError
+from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.shoes.dimensions import check_dimensions, checked, choice, number, text
+from plantar.shoes.dimensions import length as mm
+
+__all__ = ["KEYS", "SHAPES", "Cell", "Kind"]
+
+Kind = Literal["tile", "film", "sheet"]
+"""How a cell is pressed: by its own head, by a land of the pad, or as a part of one sheet."""
+
+SHAPES = ("hex", "square", "rectangle", "round", "sheet")
+"""What a cell's body is."""
+
+_ALL = (
+    "name",
+    "about",
+    "source",
+    "shape",
+    "pitch_x",
+    "pitch_y",
+    "thickness",
+    "stiffness",
+    "rated_load",
+    "threshold",
+    "play",
+)
+_LEADS = ("leads", "lead_diameter")
+_TAIL = ("tail_length", "tail_width")
+KEYS: Mapping[str, tuple[str, ...]] = {
+    "hex": tuple(k for k in (*_ALL, "size", "active", *_LEADS) if k != "pitch_y"),
+    "square": (*_ALL, "size", "active", "lattice", *_LEADS, *_TAIL),
+    "rectangle": (*_ALL, "length", "width", "active_length", "active_width", "lattice", *_LEADS, *_TAIL),
+    "round": (*_ALL, "size", "active", "lattice", *_LEADS, *_TAIL),
+    "sheet": (*_ALL, "line_width", "edge", "tail_pitch"),
+}
+"""The keys that a cell's TOML may have, by its shape."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One kind of sensor cell. Lengths in mm, forces in N; 0 leaves a value to what its meaning says.
+
+    Raises:
+        InputError: If a value is out of its range, missing, or not one of its shape.
+
+    Example:
+        >>> fsr = Cell(shape="round", size=18.28, active=12.7, thickness=0.46, tail_length=6.7, tail_width=8.0)
+        >>> fsr.kind, round(fsr.active_area, 1)
+        ('film', 126.7)
+    """
+
+    shape: str = choice("square", SHAPES, "of the body; of a sheet it is the sole's outline")
+    name: str = text("", "name in the files; left out: the TOML file's")
+    about: str = text("", "what it is, in a line")
+    source: str = text("", "where the figures are from")
+    size: float = mm(0.0, 4.0, 120.0, "body across: flat to flat, side or diameter")
+    length: float = mm(0.0, 4.0, 120.0, "body of a rectangle, along the rows")
+    width: float = mm(0.0, 4.0, 120.0, "body of a rectangle, across the rows")
+    active: float = mm(
+        0.0, 2.0, 120.0, "part that feels, measured as size; left out: up to the next cell, or all of a round body"
+    )
+    active_length: float = mm(0.0, 2.0, 120.0, "of a rectangle, as active")
+    active_width: float = mm(0.0, 2.0, 120.0, "of a rectangle, as active")
+    pitch_x: float = mm(0.0, 2.0, 200.0, "from centre to centre within a row; left out: as near as the ribs allow")
+    pitch_y: float = mm(0.0, 2.0, 200.0, "from row to row; left out: as near as the ribs allow")
+    lattice: str = choice(
+        "auto", ("auto", "square", "hex"), "hex: every other row is shifted by half; auto: of round ones"
+    )
+    thickness: float = mm(0.0, 0.1, 15.0, "of the body; left out: rubber as high as protrusion and pocket")
+    stiffness: float = number(0.0, 1.0, 1e7, "N/mm", "of the body below its active area; left out: it does not yield")
+    rated_load: float = number(785.0, 0.5, 1e5, "N", "most that a cell measures")
+    threshold: float = number(1.471, 0.0, 1e3, "N", "from which on it counts as pressed")
+    play: float = mm(0.2, 0.0, 2.0, "gap between the body and its pocket")
+    leads: float = number(0.0, 0.0, 40.0, "leads", "each cell's own to the heel; 0: a cable from cell to cell")
+    lead_diameter: float = mm(0.6, 0.1, 3.0, "of a lead with its insulation")
+    tail_length: float = mm(0.0, 1.0, 120.0, "straight tail beyond the body, along the rows")
+    tail_width: float = mm(0.0, 1.0, 60.0, "of the tail")
+    line_width: float = mm(0.0, 0.2, 50.0, "electrodes of a sheet")
+    edge: float = mm(1.0, 0.0, 20.0, "sheet beyond its outermost electrodes")
+    tail_pitch: float = mm(0.5, 0.1, 5.0, "of the lines in a sheet's tail, a line for each row and column and one more")
+
+    def __post_init__(self) -> None:
+        given = {f.name for f in fields(self) if getattr(self, f.name) != f.default} - {"shape"}
+        if self.shape not in SHAPES:
+            raise InputError(f"cell key shape is {self.shape!r}; allowed: {', '.join(SHAPES)}")
+        foreign = sorted(given - set(KEYS[self.shape]))
+        if foreign:
+            raise InputError(
+                f"cell key {foreign[0]} is not of a {self.shape} cell; allowed: {', '.join(KEYS[self.shape])}"
+            )
+        check_dimensions(self, "cell key", sorted(given))  # what is left out is 0, below the range of what is given
+        self._check_needs()
+        self._check_sizes()
+
+    def _check_needs(self) -> None:
+        """What a shape cannot be without."""
+        needs = {"rectangle": ("length", "width"), "sheet": ("pitch_x", "pitch_y", "line_width", "thickness")}
+        for name in needs.get(self.shape, ("size",)):
+            if not getattr(self, name):
+                raise InputError(
+                    f"cell of shape {self.shape} has no {name}; it needs: {', '.join(needs.get(self.shape, ('size',)))}"
+                )
+        for one, other in (("tail_length", "tail_width"), ("active_length", "active_width")):
+            if bool(getattr(self, one)) != bool(getattr(self, other)):
+                raise InputError(f"cell has one of {one} and {other}; give both or none")
+        if self.tail_length and self.kind == "tile":
+            raise InputError("cell has a tail and no active area: a head that spreads over the tail would press on it")
+        if self.kind == "film" and not self.thickness:
+            raise InputError("cell with an active area has no thickness; a land of the pad presses on its face")
+        if self.stiffness and not self.thickness:
+            raise InputError("cell key stiffness is that of a body with a thickness; give both, or none for rubber")
+        if self.leads != round(self.leads):
+            raise InputError(f"cell key leads is {self.leads:g}; allowed: a whole number, 0 to 40")
+
+    def _check_sizes(self) -> None:
+        """What has to be smaller than something else."""
+        pairs = [
+            ("active", "size"),
+            ("active_length", "length"),
+            ("active_width", "width"),
+            ("threshold", "rated_load"),
+        ]
+        pairs += [("line_width", "pitch_x"), ("line_width", "pitch_y")] if self.shape == "sheet" else []
+        pairs += [("tail_width", "size")] if self.size else [("tail_width", "width")] if self.width else []
+        for small, large in pairs:
+            if getattr(self, small) > getattr(self, large):
+                unit = type(self).__dataclass_fields__[small].metadata["unit"]
+                raise InputError(
+                    f"cell key {small} is {getattr(self, small):g} {unit}; allowed: {large} = "
+                    f"{getattr(self, large):g} {unit} or less"
+                )
+
+    @property
+    def label(self) -> str:
+        """What messages and lists call it: its name, or its shape where it has none."""
+        return self.name or self.shape
+
+    @property
+    def kind(self) -> Kind:
+        """How it is pressed."""
+        if self.shape == "sheet":
+            return "sheet"
+        return "film" if self.active or self.active_length or self.shape == "round" else "tile"
+
+    @property
+    def body(self) -> tuple[float, float]:
+        """Extent of the body along and across the rows, without its tail; of a sheet that of a crossing."""
+        if self.shape == "rectangle":
+            return self.length, self.width
+        if self.shape == "sheet":
+            return self.line_width, self.line_width
+        return self.size, self.size * 2.0 / math.sqrt(3.0) if self.shape == "hex" else self.size
+
+    @property
+    def felt(self) -> tuple[float, float]:
+        """Extent of a film's active area along and across the rows."""
+        if self.shape == "rectangle":
+            return self.active_length, self.active_width
+        across = self.active or self.size
+        return across, across * 2.0 / math.sqrt(3.0) if self.shape == "hex" else across
+
+    @property
+    def active_area(self) -> float:
+        """Area in mm^2 that a film feels."""
+        along, across = self.felt
+        share = {"round": 0.25 * math.pi, "hex": 0.75}.get(self.shape, 1.0)
+        return share * along * across
+
+    @property
+    def staggered(self) -> bool:
+        """Whether every other row is shifted by half a pitch."""
+        return self.lattice == "hex" or (self.lattice == "auto" and self.shape in ("hex", "round"))
+
+    def as_dict(self) -> dict[str, float | str]:
+        """The keys of its shape and their values, as a TOML states them; what is left out is left out."""
+        every = {f.name: f.default for f in fields(self) if f.name in KEYS[self.shape]}
+        return {k: getattr(self, k) for k, d in every.items() if d not in (0.0, "") or getattr(self, k) != d}
+
+    @classmethod
+    def from_mapping(cls, values: Mapping[str, Any], where: str) -> Cell:
+        """A cell from a table of a TOML file.
+
+        Args:
+            values: Keys and values; `shape` is needed.
+            where: Name of the table, for messages.
+
+        Returns:
+            The cell.
+
+        Raises:
+            InputError: If a key is unknown, or a value missing or not allowed.
+        """
+        if values.get("shape") not in SHAPES:
+            given = f"is {values['shape']!r}" if "shape" in values else "is missing"
+            raise InputError(f"{where}: cell key shape {given}; allowed: {', '.join(SHAPES)}")
+        refuse_unknown_keys(values, KEYS[values["shape"]], where, note=f" of a {values['shape']} cell")
+        try:
+            for name in values:
+                checked(cls, name, values[name], "cell key")
+            return cls(**values)
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from None
+
+    @classmethod
+    def table(cls) -> list[dict[str, Any]]:
+        """Each key as a row: name, default, low, high, unit (or choices) and text, and the shapes that have it."""
+        return [
+            {"name": f.name, "default": f.default, "shapes": [s for s in SHAPES if f.name in KEYS[s]], **f.metadata}
+            for f in fields(cls)
+        ]

@@ -1,0 +1,162 @@
+"""Whether the shoe goes onto the foot: the foot in the shoe as exported, and on its way into it. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layouts.layout import Side
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.geometry.outline import cut_below, ring
+from plantar.shoes.geometry.section import cut_segments, section
+from plantar.shoes.geometry.surface import covered_area
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.solid.body import LEVELS
+from plantar.shoes.solid.retention import Retention
+
+__all__ = ["Mounting", "check_mounting"]
+
+_ABOVE = 9  # sections above the wall
+_BESIDE = 8.0  # mm beside a clip or screw, where its window or boss is
+_MANY = 20_000  # triangles, above which the area that they cover is taken for them
+_SLIVER = 0.05  # mm that a wall may lean over
+_WALL_SHARE = 0.1  # of a section's area: what is smaller is a clip, no wall
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Mounting:
+    """How the foot sits in the shoe.
+
+    Attributes:
+        gap: Smallest gap between foot and wall, mm; negative never, 0 where they meet.
+        play: Largest gap at the wall's upper edge.
+        gap_above: Smallest gap between the foot and what stands above the wall (lugs, clips).
+        gap_on_the_way: Smallest gap between the foot and rigid parts while the shoe is pushed on from below.
+        floor_gap: Distance between the foot's lowest point and the floor.
+        support_share: Share of the foot's touching area that lies over the floor, 0..1.
+        undercut: Area in mm^2 of wall that hangs over the foot's place, clips and screws left out: a slot below it
+            could not be printed.
+    """
+
+    gap: float
+    play: float
+    gap_above: float
+    gap_on_the_way: float
+    floor_gap: float
+    support_share: float
+    undercut: float
+
+
+def check_mounting(
+    foot: Foot, side: Side, surface: Array, retention: Retention, parameters: ShoeParameters
+) -> Mounting:
+    """Put the foot into the shoe and measure.
+
+    Args:
+        foot: The left foot.
+        side: Which shoe it is.
+        surface: Triangles (n, 3, 3) of the exported shoe in mm.
+        retention: What holds it.
+        parameters: Dimensions as used.
+
+    Returns:
+        The gaps.
+    """
+    import shapely
+
+    p = parameters
+    flip = np.array([1.0, 1.0, 1.0]) if side == "left" else np.array([1.0, -1.0, 1.0])
+    shoe = surface * flip  # the left foot is put into either
+    shoe = shoe if side == "left" else shoe[:, ::-1]
+    floor = p.thickness
+    lowest = float(foot.triangles[..., 2].min()) if foot.triangles is not None else 0.0
+    walls = [share * p.rim_height - 0.011 for share in LEVELS] + [p.rim_height - p.lead_in - 0.011]
+    gap = way = math.inf
+    for height in walls:
+        solid = section(shoe, floor + height)
+        gap = min(gap, _gap(foot, height, solid))
+        way = min(way, _gap_on_the_way(foot, height + 0.011, solid))
+    play = _play(foot.passing(p.rim_height), section(shoe, floor + p.rim_height - p.lead_in - 0.011))
+    above = math.inf
+    top = retention.top(p)
+    for i in range(_ABOVE if retention.places else 0):
+        height = p.rim_height + (top - p.rim_height) * (i + 0.47) / _ABOVE
+        solid = section(shoe, floor + height)
+        if solid.is_empty:
+            continue
+        above = min(above, _gap(foot, height, solid))
+        if retention.kind != "clips" or height < min(q.edge for q in retention.places) - p.clearance:
+            way = min(way, float(foot.passing(top).distance(solid)))
+    touching = foot.support if foot.support is not None and not foot.support.is_empty else foot.sole
+    below = section(shoe, floor - p.mark_depth - 0.05)
+    share = float(shapely.intersection(touching, below).area / touching.area)
+    return Mounting(gap, play, above, way, abs(lowest), share, _undercut(shoe, retention, p))
+
+
+def _undercut(shoe: Array, retention: Retention, p: ShoeParameters) -> float:
+    """Area of what a left shoe has over the place of the foot within the wall's height, section over section."""
+    import shapely
+
+    half = 0.5 * retention.width + _BESIDE
+    kept = [shapely.box(q.x - half, 0.0, q.x + half, q.side * 1e3) for q in retention.places]
+    levels = np.unique(shoe[..., 2].round(3))
+    levels = levels[(levels > p.thickness - 1e-3) & (levels < p.rim_top + 1e-3)]
+    below, area = None, 0.0
+    for low, high in pairwise(levels.tolist()):
+        if high - low < 0.02:
+            continue
+        solid = section(shoe, 0.5 * (low + high) + 1.3e-4)
+        if below is not None:
+            over = solid.difference(below.buffer(_SLIVER)).difference(shapely.union_all(kept))
+            area += float(over.area)
+        below = solid
+    return round(area, 2)
+
+
+def _gap(foot: Foot, height: float, solid: Any) -> float:
+    """Smallest distance between the foot at a height above the floor and a section of the shoe there."""
+    import shapely
+
+    if foot.triangles is None:
+        return float(foot.sole.distance(solid))
+    segments, _ = cut_segments(foot.triangles, height + 1e-5)
+    if not len(segments):
+        return math.inf
+    shapely.prepare(solid)
+    return float(shapely.distance(shapely.multilinestrings(segments), solid))
+
+
+def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
+    """Smallest distance, seen from above, between the foot up to a height and a section of the shoe there."""
+    import shapely
+
+    if foot.triangles is None:
+        return float(foot.passing(height).distance(solid))
+    flat = cut_below(foot.triangles, height)[..., :2]
+    if not len(flat):
+        return math.inf
+    if len(flat) > _MANY:  # upright triangles, which cover nothing, are met in the sections of `_gap`
+        return float(covered_area(flat).distance(solid))
+    tree = shapely.STRtree(shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1)))
+    _, distances = tree.query_nearest(solid, return_distance=True)
+    return float(distances.min(initial=math.inf))
+
+
+def _play(outline: Any, solid: Any) -> float:
+    """Largest distance of the hole's border in a section from the foot's outline."""
+    import shapely
+
+    holes = [shapely.Polygon(h) for part in getattr(solid, "geoms", [solid]) for h in part.interiors]
+    around = [h for h in holes if h.covers(outline)]
+    if around:
+        return float(max(outline.distance(shapely.points(ring(around[0])))))
+    # The wall is open where clips stand: measured where it is, clips left out.
+    parts = [p for p in getattr(solid, "geoms", [solid]) if p.area > _WALL_SHARE * solid.area]
+    return float(max((p.distance(outline) for p in parts), default=math.inf))

@@ -1,0 +1,180 @@
+"""Coupons: small prints to try the fit of one cell and of one clip, lug or screw before the shoe is printed.
+
+They are cut out of the same blocks as the shoe that they stand for, so that they have its sizes. Lengths in mm.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.shoes.build import Progress, ShoeBuild
+from plantar.shoes.papers.stl import write_stl
+from plantar.shoes.plan.block import Block, Step
+from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.solid.body import insole_steps, shoe_steps
+from plantar.shoes.solid.retention import Retention, choose_retention
+from plantar.shoes.solid.tray import build_solid, surface_of
+
+__all__ = ["Coupon", "build_coupons", "write_coupons"]
+
+_FLANGE = 2.0  # mm of plate around the cell's ribs
+_SHEET = 15.0  # mm of a sheet's recess to each side of a point of its edge, and forward of it
+_BESIDE, _INWARDS, _OUTWARDS = 10.0, 16.0, 30.0  # mm of shoe beside, within and outside of what holds it
+_MORE = 2.0  # mm that blocks reach beyond what is kept
+_NAMES = {"clips": "clip", "straps": "lug", "screws": "screw"}
+
+
+@dataclass(frozen=True)
+class Coupon:
+    """A piece of the left shoe, in its place there.
+
+    Attributes:
+        name: "cell", "clip", "lug" or "screw".
+        text: What is tried with it.
+        window: What of the shoe it is, seen from above, a shapely polygon in mm.
+        surface: Its triangles (n, 3, 3) in mm, outward counter-clockwise.
+    """
+
+    name: str
+    text: str
+    window: Any
+    surface: NDArray[np.float64]
+
+
+def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tuple[Coupon, ...]:
+    """Pieces of the left shoe or insole of a build: a cell with a port, and what holds the shoe.
+
+    Args:
+        build: A left shoe or a pair; its layouts are enough.
+        progress: Receives fraction and text.
+
+    Returns:
+        The cell, and one clip, lug or screw where the shoe has them.
+
+    Raises:
+        InputError: If the build has no left shoe.
+        FootError: If a piece cannot be built.
+    """
+    plan, p = build.shoes[0].plan, build.parameters
+    if plan.side != "left":
+        raise InputError("a coupon is a piece of the left shoe, which the right one mirrors; use side left or both")
+    tell = progress or (lambda fraction, text: None)
+    if build.kind == "insole":
+        retention, steps = Retention("none", (), 0.0, 0.0, ""), insole_steps(plan, p)
+    else:
+        retention = choose_retention(build.foot, plan, p)
+        steps = shoe_steps(build.foot, plan, retention, p)
+    windows = [("cell", _cell_text(plan), _cell_window(plan, build))]
+    if retention.places:
+        name = _NAMES[retention.kind]
+        windows.append((name, f"the foot's edge, with its {name}: {_place_text(retention)}", _holder(plan, retention)))
+    out = []
+    for i, (name, text, window) in enumerate(windows):
+        tell(i / len(windows), f"building the coupon of a {name}")
+        out.append(Coupon(name, text, window, surface_of(build_solid(_limited(steps, window)))))
+    return tuple(out)
+
+
+def _cell(plan: Any) -> int:
+    """The largest cell that the cable runs through, the nearest to the middle."""
+    joined: set[int] = {i for pair in plan.route for i in pair} or set(range(len(plan.cells)))
+    middle = plan.contact.centroid
+    return min(joined, key=lambda i: (-round(plan.cells[i].area, 1), plan.cells[i].centroid.distance(middle)))
+
+
+def _cell_text(plan: ShoePlan) -> str:
+    cell = int(plan.layout.ids[_cell(plan)])
+    kind = "tile" if plan.cell is None else plan.cell.kind
+    if kind == "sheet":
+        return "a piece of the sheet's recess with its edge: the sheet lies flat in it, level with the print around it"
+    if kind == "film":
+        return f"one sensor, id {cell}, with its pocket and ports: the film lies flat in it, its tail in the slot"
+    return f"one cell, id {cell}, with its ribs and ports: its base goes in by hand and its head meets the groove"
+
+
+def _cell_window(plan: ShoePlan, build: ShoeBuild) -> Any:
+    """A cell and its pocket with the ribs around them; of a sheet what lies around the recess's rearmost point."""
+    import shapely
+
+    rib = build.parameters.rib
+    if plan.cell is not None and plan.cell.kind == "sheet":
+        recess = plan.pockets[0]
+        x, y = min(shapely.get_coordinates(recess.exterior).tolist())
+        return shapely.box(x - rib - _FLANGE, y - _SHEET, x + _SHEET, y + _SHEET).intersection(
+            recess.buffer(rib + _FLANGE, join_style="mitre")
+        )
+    at = _cell(plan)
+    wider = [plan.cells[at].buffer(0.5 * rib, join_style="mitre"), plan.pockets[at].buffer(rib, join_style="mitre")]
+    return shapely.union_all(wider).buffer(_FLANGE, join_style="mitre")
+
+
+def _place_text(retention: Retention) -> str:
+    place = retention.places[-1]
+    return f"the {'left' if place.side > 0 else 'right'} one at x = {place.x:.0f} mm"
+
+
+def _holder(plan: Any, retention: Retention) -> Any:
+    """A piece of plate and wall around the last of what holds the shoe."""
+    import shapely
+
+    place, half = retention.places[-1], 0.5 * retention.width + _BESIDE
+    strip = plan.contact.intersection(shapely.box(place.x - half, -1e3, place.x + half, 1e3)).bounds
+    edge = strip[3] if place.side > 0 else strip[1]
+    inner, outer = sorted((edge - place.side * _INWARDS, edge + place.side * _OUTWARDS))
+    return shapely.box(place.x - half, inner, place.x + half, outer)
+
+
+def _limited(steps: tuple[Step, ...], window: Any) -> tuple[Step, ...]:
+    """The steps, of each what lies in a window, and one more that cuts off what is left around it."""
+    import shapely
+
+    around = window.buffer(_MORE, join_style="mitre")
+    kept = []
+    for step in steps:
+        blocks: list[Any] = []
+        for block in step.blocks:
+            low = block.low if isinstance(block, Block) else block.line
+            if not low.intersects(around):
+                continue
+            if isinstance(block, Block) and block.high is None:
+                part = low.intersection(around)
+                pieces = getattr(part, "geoms", [part])
+                blocks += [replace(block, low=q) for q in pieces if q.geom_type == "Polygon" and q.area > 1e-6]
+            else:
+                blocks.append(block)
+        kept.append(replace(step, blocks=tuple(blocks)))
+    levels = [z for s in kept for b in s.blocks for z in (b.z_low, b.z_high)]
+    low_x, low_y, high_x, high_y = around.bounds
+    frame = shapely.box(low_x - 1e3, low_y - 1e3, high_x + 1e3, high_y + 1e3).difference(window)
+    return (*kept, Step("cut", "around the coupon", (Block(frame, min(levels) - 1.0, max(levels) + 1.0),)))
+
+
+def write_coupons(coupons: tuple[Coupon, ...], folder: str | os.PathLike[str]) -> tuple[str, ...]:
+    """Write each coupon as `coupon_<name>.stl`.
+
+    Args:
+        coupons: The coupons.
+        folder: An existing folder.
+
+    Returns:
+        The files' names.
+
+    Raises:
+        InputError: If a file cannot be written.
+    """
+    names = []
+    for coupon in coupons:
+        path = Path(folder) / f"coupon_{coupon.name}.stl"
+        try:
+            write_stl(coupon.surface, path)
+        except OSError as error:
+            raise InputError(f"cannot write {path}: {error.strerror}") from None
+        names.append(path.name)
+    return tuple(names)

@@ -1,0 +1,216 @@
+"""Cells of a stated body on the face of the shoe: tiles and films on a lattice, a sheet's crossings. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError, InputError
+from plantar.shoes.cells.cell import Cell
+from plantar.shoes.fit.cell_pattern import (
+    CellPattern,
+    Lattice,
+    RowLattice,
+    active_shape,
+    joined,
+    pattern_of,
+    pocket_parts,
+)
+from plantar.shoes.fit.lattice_fit import fit_lattice
+from plantar.shoes.fit.taxels import TaxelFit, covered_area, rows_and_columns
+from plantar.shoes.geometry.outline import CORNER, grown, ring, tidy
+
+__all__ = ["LINES_MOST", "fit_cells"]
+
+LINES_MOST = 128
+"""Most rows and columns of a sheet together."""
+
+_SAMPLES = 8  # offsets of a sheet's lines along each axis
+_LEAST_CELL = 0.05  # of a whole cell around a crossing: less of the sheet is a sliver
+
+Array = NDArray[np.float64]
+
+
+def fit_cells(
+    foot: Any,
+    cell: Cell,
+    *,
+    rib: float,
+    taxels: int | None = None,
+    overhang: float = 0.0,
+    overhang_max: float = 0.0,
+    border: float = 0.0,
+) -> TaxelFit:
+    """Fit cells of a stated body to the face of a shoe that meets the ground.
+
+    Args:
+        foot: Outline of the foot below the rim's upper edge, a shapely polygon.
+        cell: The cell.
+        rib: Wall between two pockets.
+        taxels: Number of cells, which may reach beyond the foot; None takes as many as fit; of a sheet always None.
+        overhang: How far cells may reach beyond the outline where `taxels` is None; the least where it is given.
+        overhang_max: How far the shoe may reach beyond the outline.
+        border: Plate beyond the cells.
+
+    Returns:
+        The cells, all whole but for those at the edge of a sheet.
+
+    Raises:
+        InputError: If an argument is out of its range.
+        FootError: If they do not fit.
+
+    Example:
+        >>> import shapely
+        >>> square = Cell(shape="square", size=20.0)
+        >>> len(fit_cells(shapely.box(0.0, 0.0, 92.0, 70.0), square, rib=2.4).cells)
+        12
+    """
+    if cell.kind == "sheet":
+        if taxels is not None:
+            raise InputError("a sheet has as many crossings as the outline holds; leave --taxels out")
+        return _sheet(foot, tidy(grown(foot, overhang)), cell, rib, overhang, border)
+    pattern = pattern_of(cell, rib)
+    if taxels is None:
+        fit = fit_lattice(tidy(grown(foot, overhang)), pattern=pattern)
+        reach = overhang
+    else:
+        room = max(overhang, overhang_max - CORNER * border)
+        fit = fit_lattice(foot, taxels=taxels, overhang=overhang, overhang_max=room, pattern=pattern)
+        reach = fit.overhang
+    lattice, axial = fit.lattice, fit.cells
+    rooms = tuple(lattice.corners(axial))
+    pockets = _placed(lattice, axial, ring(joined(pocket_parts(cell))))
+    cells = rooms if cell.kind == "tile" else _placed(lattice, axial, active_shape(cell))
+    covered = covered_area(foot, cells)
+    return TaxelFit(
+        cells=cells,
+        shares=np.ones(len(cells)),
+        lattice=lattice,
+        cell_area=pattern.area if cell.kind == "tile" else cell.active_area,
+        overhang=reach,
+        covered=covered,
+        covered_area_ratio=covered / foot.area,
+        bound=fit.bound,
+        border=border,
+        lattice_cells=axial if cell.kind == "tile" and cell.shape == "hex" else None,
+        notes=(_note(cell, pattern),),
+        cell=cell,
+        pockets=pockets,
+        rooms=rooms,
+        links=_links(pattern, lattice, axial, pockets),
+    )
+
+
+def _note(cell: Cell, pattern: CellPattern) -> str:
+    name, what = cell.label, {"tile": "tiles", "film": "films below lands of the pad"}[cell.kind]
+    return f"cell {name}: {what}, {pattern.width:.2f} mm apart in a row, rows {pattern.rise:.2f} mm apart"
+
+
+def _placed(lattice: Lattice, axial: NDArray[np.int64], shape: Array) -> tuple[Array, ...]:
+    """A shape (k, 2) about the centre of each cell."""
+    if isinstance(lattice, RowLattice):
+        return tuple(lattice.shapes(axial, shape))
+    c, s = math.cos(lattice.angle), math.sin(lattice.angle)
+    return tuple(lattice.centres(axial)[:, None] + shape @ np.array([[c, s], [-s, c]]))
+
+
+def _links(
+    pattern: CellPattern, lattice: Lattice, axial: NDArray[np.int64], pockets: tuple[Array, ...]
+) -> tuple[tuple[int, int], ...]:
+    """Pairs of cells between whose middles lie no other cell's pocket and less than two pitches: where a cable goes."""
+    import shapely
+
+    centres = lattice.centres(axial)
+    far = 1.01 * max(pattern.width, math.hypot(0.5 * pattern.width, pattern.rise), pattern.rise)
+    gaps = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
+    pairs = np.argwhere(np.triu(gaps <= far, 1))
+    tree = shapely.STRtree([shapely.Polygon(p) for p in pockets])
+    lines = shapely.linestrings(centres[pairs])
+    met = np.zeros(len(pairs), dtype=int)
+    np.add.at(met, tree.query(lines, predicate="intersects")[0], 1)
+    return tuple((int(i), int(j)) for i, j in pairs[met == 2])
+
+
+def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, border: float) -> TaxelFit:
+    """Crossings of a sheet whose electrodes lie inside the face, with what lies around each."""
+    import shapely
+
+    edge = region.buffer(-cell.play - 0.5 * rib, join_style="mitre")
+    sheet = tidy(edge) if not edge.is_empty else edge
+    inside = sheet.buffer(-cell.edge, join_style="mitre")
+    half = 0.5 * cell.line_width
+    low_x, low_y, high_x, high_y = region.bounds
+    most = (high_x - low_x) / cell.pitch_x + (high_y - low_y) / cell.pitch_y
+    if most > LINES_MOST + 2:
+        raise FootError(
+            f"cell {cell.label}: a sheet of {most:.0f} rows and columns; allowed: {LINES_MOST} together, "
+            "with a larger pitch_x and pitch_y"
+        )
+    best: tuple[tuple[float, ...], Array] | None = None
+    shapely.prepare(inside)
+    centre = np.array([region.centroid.x, region.centroid.y])
+    for u in np.arange(_SAMPLES) / _SAMPLES:
+        for v in np.arange(_SAMPLES) / _SAMPLES:
+            x = np.arange(low_x - u * cell.pitch_x, high_x, cell.pitch_x)
+            y = np.arange(low_y - v * cell.pitch_y, high_y, cell.pitch_y)
+            at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2).round(4)
+            boxes = shapely.box(at[:, 0] - half, at[:, 1] - half, at[:, 0] + half, at[:, 1] + half)
+            kept = at[shapely.covers(inside, boxes)] if not inside.is_empty else at[:0]
+            if len(kept):
+                score = (float(len(kept)), -round(float(np.hypot(*(kept.mean(axis=0) - centre))), 3))
+                best = (score, kept) if best is None or score > best[0] else best
+    if best is None:
+        raise FootError(
+            f"no crossing of electrodes of {cell.line_width:g} mm lies inside the sole; use thinner lines or edge"
+        )
+    at = best[1]
+    px, py = 0.5 * cell.pitch_x, 0.5 * cell.pitch_y
+    lines = np.column_stack([_ranks(at[:, 1]), _ranks(at[:, 0])])
+    cells, kept_lines, crossings = [], [], []
+    for (cx, cy), line in zip(at.tolist(), lines, strict=True):
+        whole = shapely.box(cx - px, cy - py, cx + px, cy + py)
+        part = whole if sheet.covers(whole) else shapely.intersection(whole, sheet, grid_size=1e-4)
+        part = max(getattr(part, "geoms", [part]), key=lambda g: g.area)
+        if part.area >= _LEAST_CELL * whole.area:
+            cells.append(ring(shapely.geometry.polygon.orient(part.simplify(1e-4))))
+            kept_lines.append(line)
+            crossings.append((cx, cy))
+    found = tuple(cells)
+    areas = np.array([shapely.Polygon(c).area for c in found])
+    covered = covered_area(foot, found)
+    rows, columns = rows_and_columns(np.array(kept_lines))
+    pattern = CellPattern(cell.pitch_x, cell.pitch_y, 0.0, (), math.pi)
+    whole_area = cell.pitch_x * cell.pitch_y
+    share = cell.line_width**2 / whole_area
+    note = (
+        f"cell {cell.label}: one sheet of {rows} rows and {columns} columns, {len(found)} crossings; "
+        f"the electrodes cover {100 * share:.0f} % of a cell and stand for all of it"
+    )
+    recess = sheet.buffer(cell.play, join_style="mitre")
+    return TaxelFit(
+        cells=found,
+        shares=areas / whole_area,
+        lattice=RowLattice(pattern, (float(at[0, 0]), float(at[0, 1])), 0.0),
+        cell_area=whole_area,
+        overhang=overhang,
+        covered=covered,
+        covered_area_ratio=covered / foot.area,
+        bound=None,
+        border=border,
+        lattice_cells=None,
+        notes=(note,),
+        cell=cell,
+        pockets=(ring(tidy(recess)),),
+        rooms=(ring(region),),
+        links=(),
+        lines=np.array(kept_lines, dtype=np.int64),
+        crossings=np.array(crossings),
+    )
+
+
+def _ranks(values: Array) -> NDArray[np.int64]:
+    """Place of each value among the different ones."""
+    return np.unique(values.round(3), return_inverse=True)[1].astype(np.int64)

@@ -1,0 +1,338 @@
+"""How cells repeat over a sole: the room that one takes, and the lattice of its copies. Lengths in mm.
+
+The room of a cell is a union of convex parts about its centre: the hexagon or rectangle of a tile, or a film's pocket
+with its tail and half a rib around it. Rows are `rise` apart; each is shifted by `shift` against the one before.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from plantar.layouts.hex_lattice import HexLattice, hexagon_side
+from plantar.shoes.cells.cell import Cell
+from plantar.shoes.geometry.outline import ring
+
+__all__ = [
+    "CellPattern",
+    "Lattice",
+    "RowLattice",
+    "active_shape",
+    "hex_pattern",
+    "joined",
+    "pattern_of",
+    "pocket_parts",
+]
+
+Array = NDArray[np.float64]
+
+_SIDES = 24
+"""Corners of a circle's polygon: flats along the directions to the neighbours on both lattices."""
+_TOUCH = 1e-6  # mm^2 that rooms may share: rounding
+
+
+class Lattice(Protocol):
+    """A placed lattice of cells, as `HexLattice` is one."""
+
+    @property
+    def origin(self) -> tuple[float, float]:
+        """Centre of cell (0, 0) in mm."""
+
+    @property
+    def angle(self) -> float:
+        """Angle of the rows against x in rad."""
+
+    def centres(self, axial: Any) -> Array:
+        """Centres (n, 2) of cells (n, 2) in mm."""
+
+    def corners(self, axial: Any) -> Array:
+        """Corners (n, k, 2) of the room that cells take, in mm."""
+
+    def cells_near(self, lower: Any, upper: Any) -> NDArray[np.int64]:
+        """Cells (n, 2) whose centres lie within about one cell of a box.
+
+        Args:
+            lower: Lower corner (2,) of the box in mm.
+            upper: Its upper corner.
+
+        Returns:
+            The cells.
+        """
+
+
+@dataclass(frozen=True)
+class CellPattern:
+    """Cells and their lattice before it is placed.
+
+    Attributes:
+        width: From centre to centre within a row.
+        rise: From row to row.
+        shift: Of a row against the one before, 0 or half of `width`.
+        parts: Corners (k, 2) of the convex parts of a cell's room about its centre, rows along x.
+        period: Angle in rad by which the lattice and its cells repeat when they are turned.
+        hexagon: Area of a cell in mm^2 where the room is that of a `HexLattice`; else None.
+    """
+
+    width: float
+    rise: float
+    shift: float
+    parts: tuple[Array, ...]
+    period: float
+    hexagon: float | None = None
+
+    def at(self, origin: tuple[float, float], angle: float) -> Lattice:
+        """The lattice at a place.
+
+        Args:
+            origin: Centre of cell (0, 0).
+            angle: Of the rows in rad.
+
+        Returns:
+            The lattice.
+        """
+        if self.hexagon is not None:
+            return HexLattice(self.hexagon, origin, angle)
+        return RowLattice(self, origin, angle)
+
+    @cached_property
+    def room(self) -> Any:
+        """The room of a cell about its centre, a shapely polygon."""
+        return joined(self.parts)
+
+    @property
+    def reach(self) -> float:
+        """Farthest point of a cell's room from its centre."""
+        return max(float(np.hypot(*p.T).max()) for p in self.parts)
+
+    @property
+    def area(self) -> float:
+        """Area of a cell's room in mm^2."""
+        return float(self.hexagon if self.hexagon is not None else self.room.area)
+
+
+@dataclass(frozen=True)
+class RowLattice:
+    """A placed lattice of any cells.
+
+    Attributes:
+        pattern: The cells.
+        origin: Centre of cell (0, 0).
+        angle: Of the rows in rad.
+    """
+
+    pattern: CellPattern
+    origin: tuple[float, float]
+    angle: float
+
+    def _placed(self, points: Array) -> Array:
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        x, y = points[..., 0], points[..., 1]
+        return np.stack([self.origin[0] + c * x - s * y, self.origin[1] + s * x + c * y], axis=-1)
+
+    def _flat(self, axial: Any) -> Array:
+        """Centres with the rows along x; of integers, so that cells that meet share corners."""
+        i, j = np.asarray(axial, dtype=np.int64).reshape(-1, 2).T
+        half = 2 * i + (j if self.pattern.shift else 0)
+        return np.stack([half * (0.5 * self.pattern.width), 2 * j * (0.5 * self.pattern.rise)], axis=-1)
+
+    def centres(self, axial: Any) -> Array:
+        """Centres (n, 2) of cells (n, 2) in mm."""
+        return self._placed(self._flat(axial))
+
+    def corners(self, axial: Any) -> Array:
+        """Corners (n, k, 2) of the room that cells take, in mm."""
+        return self.shapes(axial, ring(self.pattern.room))
+
+    def shapes(self, axial: Any, shape: Array) -> Array:
+        """A shape about the centre of each cell.
+
+        Args:
+            axial: The cells (n, 2).
+            shape: Corners (k, 2) about the centre in mm, rows along x.
+
+        Returns:
+            Corners (n, k, 2) in mm.
+        """
+        return self._placed(self._flat(axial)[:, None, :] + shape)
+
+    def cells_near(self, lower: Any, upper: Any) -> NDArray[np.int64]:
+        """Cells (n, 2) whose centres lie within about one cell of a box.
+
+        Args:
+            lower: Lower corner (2,) of the box in mm.
+            upper: Its upper corner.
+
+        Returns:
+            The cells, by row.
+        """
+        p = self.pattern
+        box = np.array([[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]])
+        box = box - np.array(self.origin)
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        along, across = c * box[:, 0] + s * box[:, 1], -s * box[:, 0] + c * box[:, 1]
+        more = p.reach + max(p.width, p.rise)
+        cells = []
+        for j in range(math.floor((across.min() - more) / p.rise), math.ceil((across.max() + more) / p.rise) + 1):
+            first = math.floor((along.min() - more - j * p.shift) / p.width)
+            last = math.ceil((along.max() + more - j * p.shift) / p.width)
+            i = np.arange(first, last + 1)
+            cells.append(np.column_stack([i, np.full_like(i, j)]))
+        axial = np.concatenate(cells).astype(np.int64)
+        centres = self.centres(axial)
+        near = np.all((centres >= np.asarray(lower) - more) & (centres <= np.asarray(upper) + more), axis=1)
+        return np.asarray(axial[near])
+
+
+def hex_pattern(area: float) -> CellPattern:
+    """Hexagons of an area in mm^2 that tile.
+
+    Example:
+        >>> round(hex_pattern(691.0).width, 2)
+        28.25
+    """
+    side = hexagon_side(area)
+    width = math.sqrt(3.0) * side
+    return CellPattern(width, 1.5 * side, 0.5 * width, (_hexagon(width),), math.pi / 3.0, area)
+
+
+def pattern_of(cell: Cell, rib: float) -> CellPattern:
+    """How a cell repeats: as it states, or as near to each other as the ribs allow.
+
+    Args:
+        cell: A tile or a film.
+        rib: Wall between two pockets.
+
+    Returns:
+        The pattern.
+
+    Raises:
+        FootError: If the pitch that the cell states leaves a thinner rib.
+
+    Example:
+        >>> fsr = Cell(shape="round", size=18.0, thickness=0.5, play=0.0)
+        >>> pattern = pattern_of(fsr, 2.0)
+        >>> round(pattern.width, 6), round(pattern.rise, 3)
+        (20.0, 17.321)
+    """
+    parts = pocket_parts(cell, 0.5 * rib)
+    points = np.concatenate(parts)
+    low, high = points.min(axis=0), points.max(axis=0)
+    width = _pitch(cell, "x", high[0] - low[0], rib)
+    if cell.shape == "hex":
+        if cell.kind == "tile":
+            return hex_pattern(0.5 * math.sqrt(3.0) * width**2)
+        return CellPattern(width, 0.5 * math.sqrt(3.0) * width, 0.5 * width, parts, math.pi / 3.0)
+    shift = 0.5 * width if cell.staggered else 0.0
+    rise = _pitch(cell, "y", _least_rise(parts, width, shift, high[1] - low[1]), rib)
+    if cell.kind == "tile":
+        parts = (_rectangle(width, rise),)
+    return CellPattern(width, rise, shift, parts, _period(cell, width, rise, shift))
+
+
+def _pitch(cell: Cell, axis: str, least: float, rib: float) -> float:
+    """The pitch along an axis: the least, or what the cell states where that is no less."""
+    stated: float = getattr(cell, f"pitch_{axis}", 0.0)
+    if stated and stated < least - 1e-6:
+        raise FootError(
+            f"cell {cell.label}: pitch_{axis} is {stated:g} mm; allowed: {math.ceil(100 * least) / 100:g} "
+            f"mm or more, which leaves a rib of {rib:g} mm between the pockets"
+        )
+    return float(stated or least)
+
+
+def _least_rise(parts: Sequence[Array], width: float, shift: float, height: float) -> float:
+    """How near to each other rows may be: rooms are convex across the rows, so that they part once."""
+    import shapely
+
+    if not shift:
+        return float(height)
+    room = shapely.union_all([shapely.Polygon(p) for p in parts])
+
+    def apart(rise: float) -> bool:
+        return all(
+            room.intersection(shapely.affinity.translate(room, dx, rise)).area <= _TOUCH for dx in (-shift, shift)
+        )
+
+    low, high = 0.5 * height, height  # the row after the next lies right above
+    if apart(low):
+        return float(low)
+    while high - low > 1e-7:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if apart(middle) else (middle, high)
+    return float(high)
+
+
+def _period(cell: Cell, width: float, rise: float, shift: float) -> float:
+    """Angle in rad by which the lattice with its cells repeats."""
+    if cell.tail_length:
+        return 2.0 * math.pi
+    if cell.shape == "round" and shift and abs(rise - 0.5 * math.sqrt(3.0) * width) < 1e-3:
+        return math.pi / 3.0
+    square = abs(width - rise) < 1e-6 and not shift and cell.shape != "rectangle"
+    return 0.5 * math.pi if square else math.pi
+
+
+def pocket_parts(cell: Cell, around: float = 0.0) -> tuple[Array, ...]:
+    """Convex parts of a cell's pocket about the middle of its body: the body, its tail, and the play around them.
+
+    Args:
+        cell: A tile or a film.
+        around: How much more.
+
+    Returns:
+        Corners (k, 2) of each, counter-clockwise, rows along x; a circle's polygon holds the circle.
+    """
+    gap = cell.play + around
+    along, across = cell.body
+    body = _body(cell.shape, along + 2.0 * gap, across + 2.0 * gap)
+    if not cell.tail_length:
+        return (body,)
+    half = 0.5 * cell.tail_width + gap
+    tail = np.array([[-0.5 * along - cell.tail_length - gap, -half], [0.0, -half], [0.0, half]])
+    return body, np.concatenate([tail, [[tail[0, 0], half]]])
+
+
+def joined(parts: Sequence[Array]) -> Any:
+    """Convex parts (k, 2) that overlap as one shapely polygon, counter-clockwise and without needless corners."""
+    import shapely
+
+    shape = shapely.union_all([shapely.Polygon(p) for p in parts], grid_size=1e-6)
+    return shapely.geometry.polygon.orient(shape.simplify(1e-6))
+
+
+def active_shape(cell: Cell) -> Array:
+    """Corners (k, 2) of a film's active area about the middle of its body; of a circle's area."""
+    along, across = cell.felt
+    if cell.shape == "round":
+        equal = math.sqrt(2.0 * math.pi / (_SIDES * math.sin(2.0 * math.pi / _SIDES))) * math.cos(math.pi / _SIDES)
+        return equal * _circle(0.5 * along)
+    return _body(cell.shape, along, across)
+
+
+def _body(shape: str, along: float, across: float) -> Array:
+    if shape == "round":
+        return _circle(0.5 * along)
+    return _hexagon(along) if shape == "hex" else _rectangle(along, across)
+
+
+def _rectangle(along: float, across: float) -> Array:
+    return 0.5 * np.array([[-along, -across], [along, -across], [along, across], [-along, across]])
+
+
+def _hexagon(width: float) -> Array:
+    """A hexagon, its flats along x as wide apart."""
+    turns = math.pi / 6.0 + np.arange(6) * math.pi / 3.0
+    return width / math.sqrt(3.0) * np.column_stack([np.cos(turns), np.sin(turns)])
+
+
+def _circle(radius: float) -> Array:
+    """A polygon around a circle."""
+    turns = (np.arange(_SIDES) + 0.5) * 2.0 * math.pi / _SIDES
+    return radius / math.cos(math.pi / _SIDES) * np.column_stack([np.cos(turns), np.sin(turns)])

@@ -1,0 +1,398 @@
+"""Fit of a lattice of taxels to a sole: where to put it and how to turn it. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError, InputError
+from plantar.shoes.fit.cell_pattern import CellPattern, Lattice, hex_pattern
+from plantar.shoes.fit.fit_bound import bound_whole_cells
+
+__all__ = ["CELL_AREAS", "LatticeFit", "fit_lattice", "whole_cell_region"]
+
+CELL_AREAS = (100.0, 5000.0)
+"""Cell areas in mm^2 that are taken."""
+
+_ANGLE_STEP, _TAILED_STEP = 5, 15  # degrees between the lattice angles that are looked at; of cells with a tail
+_LONG_EDGE = 0.1  # of the outline's length
+_MOST_EDGE_ANGLES = 6
+_DECIMALS = 4  # of a placement in mm
+_COARSE = 12  # sampled offsets along each axis of the lattice's unit cell
+_OVERHANG_STEP = 0.5  # mm
+_KEPT = 40  # placements compared at each angle and number of cells
+_ROUNDING = 1e-4  # mm: an offset is rounded by less
+_SLACK = 1e-3  # mm by which a cell may leave the region; above the rounding of a placement
+
+
+@dataclass(frozen=True)
+class LatticeFit:
+    """A placement of the lattice and the cells that are kept.
+
+    Attributes:
+        lattice: The lattice, with lengths in mm; of hexagons a `HexLattice`.
+        cells: Axial coordinates (n, 2) of the kept cells, row by row.
+        overhang: How far a cell may reach beyond the sole's outline in mm, as used.
+        covered: Area of the sole's outline that lies under a kept cell in mm^2.
+        covered_area_ratio: `covered` over the sole's area, 0..1.
+        bound: Proven: no placement, at any offset and angle, holds more whole cells with this overhang.
+    """
+
+    lattice: Lattice
+    cells: NDArray[np.int64]
+    overhang: float
+    covered: float
+    covered_area_ratio: float
+    bound: int = 0
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    """One placement during the search: the lattice, its cells, and what it is judged by."""
+
+    lattice: Lattice
+    cells: NDArray[np.int64]
+    covered: float
+    spread: float
+    rank: int
+    straight: bool
+    off_centre: float
+
+    @property
+    def score(self) -> tuple[float, ...]:
+        return (float(self.straight), round(self.covered + self.spread, 1), -self.rank, -round(self.off_centre, 3))
+
+
+def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: float) -> Any:
+    """Where the centre of a cell may lie so that the whole cell is inside a region (erosion by its parts).
+
+    Args:
+        region: A shapely polygon in mm.
+        parts: Corners (k, 2) in mm of the cell's convex parts about its centre, rows along x.
+        angle: Rotation of the cell in rad.
+
+    Returns:
+        A shapely polygon, multipolygon, or an empty geometry; a cell may leave the region by a micrometre.
+
+    Example:
+        >>> import shapely
+        >>> parts = hex_pattern(1.5 * 3**0.5).parts
+        >>> bool(abs(whole_cell_region(shapely.box(0, 0, 10, 10), parts, 0.0).area - (10 - 3**0.5) * 8) < 0.1)
+        True
+    """
+    import shapely
+
+    c, s = math.cos(angle), math.sin(angle)
+    turn = np.array([[c, s], [-s, c]])
+    region = region.buffer(_SLACK, join_style="mitre")
+    points = np.array(region.exterior.coords)
+    swept = [_swept(points, part @ turn) for part in parts]
+    return region.difference(shapely.union_all([hull for hulls in swept for hull in hulls]))
+
+
+def _swept(points: NDArray[np.float64], part: NDArray[np.float64]) -> Any:
+    """Where a part's centre may not lie along each edge of a ring: what the part, turned about, sweeps there."""
+    import shapely
+
+    swept = np.concatenate([points[:-1, None] - part, points[1:, None] - part], axis=1)
+    return shapely.convex_hull(shapely.multipoints(swept))
+
+
+def fit_lattice(
+    sole: Any,
+    *,
+    cell_area: float = 691.0,
+    taxels: int | None = None,
+    overhang: float = 0.0,
+    overhang_max: float = 0.0,
+    pattern: CellPattern | None = None,
+) -> LatticeFit:
+    """Place the lattice so that the most whole cells lie inside a sole.
+
+    At every fifth degree (each fifteenth where cells have a tail) the best offset is found exactly; then
+    `bound_whole_cells` looks at all others, and what is better there is taken. Ties are decided by straight rows (along
+    or across the foot before others), by the area of the sole
+    under the cells plus that inside their convex hull (the support polygon they can tell), and by how near the patch's
+    centre is to the sole's.
+    With `taxels` the overhang is the smallest, in steps of 0.5 mm, at which so many fit, and cells that cover the least
+    of the sole are left out. The same input gives the same placement.
+
+    Args:
+        sole: Outline of the sole, a shapely polygon in mm.
+        cell_area: Area of a cell in mm^2.
+        taxels: Number of cells; None takes as many as fit.
+        overhang: How far cells may reach beyond the outline in mm where `taxels` is None; the least where it is given.
+        overhang_max: The most overhang in mm that `taxels` may take.
+        pattern: Other cells than hexagons; `cell_area` is not read then.
+
+    Returns:
+        The placement.
+
+    Raises:
+        InputError: If an argument is out of its range.
+        FootError: If no cell, or fewer than `taxels` cells, fit.
+    """
+    low, high = CELL_AREAS
+    if pattern is None and not (math.isfinite(cell_area) and low <= cell_area <= high):
+        raise InputError(f"cell area is {cell_area} mm^2; allowed: {low:g} to {high:g} mm^2")
+    if taxels is not None and taxels < 1:
+        raise InputError(f"number of taxels is {taxels}; allowed: 1 or more")
+    if not (math.isfinite(overhang) and 0.0 <= overhang <= max(overhang, overhang_max)):
+        raise InputError(f"overhang is {overhang} mm; allowed: 0 or more")
+    pattern = pattern or hex_pattern(cell_area)
+    if taxels is not None:
+        overhang = _least_overhang(sole, pattern, taxels, overhang, overhang_max)
+    region = sole.buffer(overhang) if overhang > 0.0 else sole
+    scans = _scan(sole, pattern, overhang)
+    most = _most(scans)
+    proven = bound_whole_cells(region, pattern, known=most)
+    if proven.bound > most:
+        scans += _scan(sole, pattern, overhang, proven.angles)
+    placements = _placements(sole, pattern, taxels, scans)
+    if not placements:
+        raise FootError(
+            f"no whole cell of {pattern.area:g} mm^2 fits the sole ({sole.area:.0f} mm^2); use a smaller cell area"
+        )
+    best = max(placements, key=lambda p: p.score)
+    best = _centred(best, sole, region, pattern)
+    return LatticeFit(best.lattice, best.cells, overhang, best.covered, best.covered / sole.area, proven.bound)
+
+
+def _least_overhang(sole: Any, pattern: CellPattern, taxels: int, overhang: float, overhang_max: float) -> float:
+    """The smallest overhang in mm at which enough cells fit, by bisection over its steps."""
+    steps = max(0, math.floor((overhang_max - overhang) / _OVERHANG_STEP + 1e-9))
+
+    def most(step: int) -> int:
+        return _most(_scan(sole, pattern, overhang + step * _OVERHANG_STEP))
+
+    if most(0) >= taxels:
+        return overhang
+    at_most = most(steps) if steps else most(0)
+    if at_most < taxels:
+        raise FootError(
+            f"{taxels} taxels of {pattern.area:g} mm^2 do not fit: at most {at_most} with cells up to "
+            f"{overhang + steps * _OVERHANG_STEP:g} mm beyond the sole; ask for fewer or use a smaller cell area"
+        )
+    low, high = 0, steps  # low does not hold enough, high does
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if most(middle) >= taxels else (middle, high)
+    return overhang + high * _OVERHANG_STEP
+
+
+@dataclass(frozen=True)
+class _Scan:
+    """Number of whole cells at many lattice origins, at one angle."""
+
+    rank: int
+    straight: bool
+    angle: float
+    allowed: Any
+    offsets: NDArray[np.float64]
+    counts: NDArray[np.int64]
+
+
+def _scan(sole: Any, pattern: CellPattern, overhang: float, angles: Sequence[float] | None = None) -> list[_Scan]:
+    """Count whole cells at angles (in rad), at lattice origins among which is the best of that angle.
+
+    Where none are given: those of `_angles`, and rows along and across the outline's long edges.
+    """
+    import shapely
+
+    region = sole.buffer(overhang) if overhang > 0.0 else sole
+    out = []
+    known = _angles(pattern)
+    first = 0 if angles is None else len(known)
+    tried = [*np.radians(known), *_edge_angles(sole, pattern)] if angles is None else angles
+    straight = len(_straight(pattern))
+    for rank, angle in enumerate(tried, start=first):
+        allowed = whole_cell_region(region, pattern.parts, float(angle))
+        if allowed.is_empty:
+            continue
+        lattice = pattern.at((0.0, 0.0), float(angle))
+        offsets = np.concatenate([_sampled_offsets(pattern, angle), _critical_offsets(allowed, pattern, lattice)])
+        allowed = allowed.buffer(_ROUNDING, join_style="mitre")  # the offsets lie on its border
+        shapely.prepare(allowed)
+        out.append(_Scan(rank, rank < straight, lattice.angle, allowed, offsets, _count(allowed, lattice, offsets)))
+    return out
+
+
+def _straight(pattern: CellPattern) -> list[float]:
+    """Angles in degrees of rows along and across the foot."""
+    period = float(round(math.degrees(pattern.period)))
+    return list(dict.fromkeys(k * 90.0 % period for k in range(4)))
+
+
+def _angles(pattern: CellPattern) -> list[float]:
+    """Lattice angles in degrees that are looked at, in the order in which ties are decided: straight ones, halves
+    between them, then every step until the lattice repeats."""
+    period = round(math.degrees(pattern.period))
+    steps = [float(a) for a in range(0, period, _TAILED_STEP if period == 360 else _ANGLE_STEP)]
+    straight = _straight(pattern)
+    halves = [a for a in steps if a % 30.0 == 15.0]
+    return list(dict.fromkeys([*straight, *halves, *steps]))
+
+
+def _edge_angles(sole: Any, pattern: CellPattern) -> list[float]:
+    """Angles in rad of rows along and across the outline's long edges, but for those of `_angles`; the longest
+    first."""
+    period = float(round(math.degrees(pattern.period)))
+    points = np.array(sole.exterior.coords)
+    edge = np.diff(points, axis=0)
+    length = np.hypot(*edge.T)
+    out: list[float] = []
+    for i in np.argsort(-length, kind="stable"):
+        if length[i] < _LONG_EDGE * length.sum() or len(out) >= _MOST_EDGE_ANGLES:
+            break
+        along = math.degrees(math.atan2(edge[i, 1], edge[i, 0]))
+        for degrees in ((along + a) % period for a in _straight(pattern)):
+            known = [*_angles(pattern), *np.degrees(out)]
+            if min(min(abs(degrees - k), period - abs(degrees - k)) for k in known) > 1e-3:
+                out.append(math.radians(degrees))
+    return out
+
+
+def _most(scans: list[_Scan]) -> int:
+    """Most whole cells at any of the origins and angles."""
+    return max((int(s.counts.max()) for s in scans), default=0)
+
+
+def _placements(sole: Any, pattern: CellPattern, taxels: int | None, scans: list[_Scan]) -> list[_Candidate]:
+    """Placements worth comparing: with the most whole cells, or with `taxels` (the next more, cut down to them)."""
+    most = _most(scans)
+    if not most:
+        return []
+    if taxels is not None:  # a placement that holds just so many needs no gap in its rim
+        most = min(int(s.counts[s.counts >= taxels].min(initial=most)) for s in scans)
+    out = []
+    for scan in scans:
+        best = np.flatnonzero(scan.counts == most)
+        for i in best[np.unique(np.linspace(0, len(best) - 1, _KEPT).astype(int))] if len(best) else ():
+            x, y = scan.offsets[i]
+            lattice = pattern.at((float(x), float(y)), scan.angle)
+            cells = _cells_inside(scan.allowed, lattice, pattern)
+            if taxels is not None:
+                cells = _reduced(sole, lattice, cells, taxels)
+            out.append(_candidate(sole, lattice, cells, scan.rank, scan.straight))
+    return out
+
+
+def _sampled_offsets(pattern: CellPattern, angle: float) -> NDArray[np.float64]:
+    """Lattice origins (k, 2) that sample one unit cell of the lattice."""
+    share = np.arange(_COARSE) / _COARSE
+    u, v = np.meshgrid(share * pattern.width, share * pattern.rise)
+    c, s = math.cos(angle), math.sin(angle)
+    return np.asarray(np.stack([c * u - s * v, s * u + c * v], axis=-1).reshape(-1, 2).round(_DECIMALS))
+
+
+def _critical_offsets(allowed: Any, pattern: CellPattern, lattice: Lattice) -> NDArray[np.float64]:
+    """Lattice origins (k, 2) at which one cell is tight at a corner of the allowed area, or two at its edges.
+
+    The number of cells at an origin is the number of copies of the allowed area, moved by lattice vectors, that hold
+    the origin. The most copies overlap at a corner of one or where the edges of two cross: the best is among these.
+    """
+    import shapely
+
+    edge = allowed.boundary
+    shifts = _difference_vectors(allowed, lattice)
+    corners = shapely.get_coordinates(edge)
+    moved = shapely.transform(
+        np.repeat(edge, len(shifts)), lambda points: points + np.repeat(shifts, len(corners), axis=0)
+    )
+    crossings = shapely.get_coordinates(shapely.intersection(moved, edge))
+    points = np.concatenate([corners, crossings])
+    # The same placement, moved by a lattice vector to the unit cell at the origin.
+    c, s = math.cos(lattice.angle), math.sin(lattice.angle)
+    u, v = c * points[:, 0] + s * points[:, 1], -s * points[:, 0] + c * points[:, 1]
+    row = np.floor(v / pattern.rise)
+    u, v = u - pattern.shift * row, v - pattern.rise * row
+    u = u - pattern.width * np.floor(u / pattern.width)
+    return np.unique(np.column_stack([c * u - s * v, s * u + c * v]).round(_DECIMALS), axis=0)
+
+
+def _difference_vectors(allowed: Any, lattice: Lattice) -> NDArray[np.float64]:
+    """Lattice vectors (k, 2) between two cells of one placement, one of each opposite pair."""
+    low, high = np.array(allowed.bounds).reshape(2, 2)
+    cells = lattice.cells_near(low - high, high - low)
+    cells = cells[(cells[:, 1] > 0) | ((cells[:, 1] == 0) & (cells[:, 0] > 0))]
+    vectors = lattice.centres(cells)
+    return np.asarray(vectors[(np.abs(vectors) <= high - low + _SLACK).all(axis=1)])
+
+
+def _count(allowed: Any, lattice: Lattice, offsets: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Number of whole cells (k,) at each lattice origin (k, 2)."""
+    import shapely
+
+    centres = _near_centres(allowed, lattice)[1]
+    x = centres[None, :, 0] + offsets[:, None, 0]
+    y = centres[None, :, 1] + offsets[:, None, 1]
+    return np.asarray(shapely.contains_xy(allowed, x, y).sum(axis=1))
+
+
+def _near_centres(allowed: Any, lattice: Lattice) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Cells (n, 2) and centres (n, 2) of the lattice with its origin at 0 that may reach an area."""
+    box = np.array(allowed.bounds).reshape(2, 2)
+    cells = lattice.cells_near(box[0], box[1])
+    return cells, lattice.centres(cells)
+
+
+def _cells_inside(allowed: Any, lattice: Lattice, pattern: CellPattern) -> NDArray[np.int64]:
+    import shapely
+
+    cells, centres = _near_centres(allowed, pattern.at((0.0, 0.0), lattice.angle))
+    inside = shapely.contains_xy(allowed, centres[:, 0] + lattice.origin[0], centres[:, 1] + lattice.origin[1])
+    return np.asarray(cells[inside])
+
+
+def _covered_of_cells(sole: Any, lattice: Lattice, cells: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Area (n,) of the sole under each cell in mm^2."""
+    import shapely
+
+    return np.asarray(shapely.area(shapely.intersection(shapely.polygons(lattice.corners(cells)), sole)))
+
+
+def _candidate(sole: Any, lattice: Lattice, cells: NDArray[np.int64], rank: int, straight: bool) -> _Candidate:
+    import shapely
+
+    covered = float(_covered_of_cells(sole, lattice, cells).sum())
+    spread = float(shapely.MultiPoint(lattice.corners(cells).reshape(-1, 2)).convex_hull.intersection(sole).area)
+    middle = lattice.centres(cells).mean(axis=0)
+    off = float(np.hypot(middle[0] - sole.centroid.x, middle[1] - sole.centroid.y))
+    return _Candidate(lattice, cells, covered, spread, rank, straight, off)
+
+
+def _reduced(sole: Any, lattice: Lattice, cells: NDArray[np.int64], taxels: int) -> NDArray[np.int64]:
+    """The cells that cover the most of the sole; ties: the nearest to its centre."""
+    covered = np.round(_covered_of_cells(sole, lattice, cells), 3)
+    centres = lattice.centres(cells)
+    far = np.round(np.hypot(centres[:, 0] - sole.centroid.x, centres[:, 1] - sole.centroid.y), 3)
+    return np.asarray(cells[np.sort(np.lexsort((np.arange(len(far)), far, -covered))[:taxels])])
+
+
+def _centred(start: _Candidate, sole: Any, region: Any, pattern: CellPattern) -> _Candidate:
+    """The same cells moved towards the sole's centre as far as they stay inside the region."""
+    import shapely
+
+    allowed = whole_cell_region(region, pattern.parts, start.lattice.angle)
+    shapely.prepare(allowed)
+    best, step = start, 1.6
+    while step >= 0.05:
+        moves = [(dx * step, dy * step) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
+        trials = []
+        for dx, dy in moves:
+            x, y = round(best.lattice.origin[0] + dx, _DECIMALS), round(best.lattice.origin[1] + dy, _DECIMALS)
+            lattice = pattern.at((x, y), best.lattice.angle)
+            centres = lattice.centres(best.cells)
+            if shapely.contains_xy(allowed, centres[:, 0], centres[:, 1]).all():
+                trials.append(_candidate(sole, lattice, best.cells, best.rank, best.straight))
+        better = max(trials, key=lambda p: p.score, default=best)
+        if better.score > best.score:
+            best = better
+        else:
+            step /= 2
+    return best

@@ -1,0 +1,271 @@
+"""The taxels of a sole: one lattice, its cells whole or cut at the rim. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from plantar.layouts.hex_lattice import HexLattice
+from plantar.shoes.cells.cell import Cell
+from plantar.shoes.fit.cell_pattern import Lattice, hex_pattern
+from plantar.shoes.fit.lattice_fit import LatticeFit, fit_lattice
+from plantar.shoes.fit.trimmed_cell import trimmed_cell
+from plantar.shoes.geometry.outline import CORNER, grown, tidy
+
+__all__ = ["CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "covered_area", "fit_taxels", "rows_and_columns"]
+
+LEAST_SHARE = 0.6
+"""Share of a cell that is left at least where the rim cuts it: below, the taxel's board does not fit."""
+
+LEAST_BORDER = 0.5
+"""Border in mm that is left around the cells where a number of them needs the room."""
+
+CUT_CORNER = 1.02
+"""How much farther than its edges a corner of the outline that cuts cells may lie."""
+
+_SAMPLES = 14  # lattice offsets along each axis of the unit cell, where cells are cut
+_ANGLES = (0.0, 30.0)  # degrees, where cells are cut: rows along or across the foot
+
+_OFF_CENTRE = 0.005  # share of a cell that a mm off the middle is worth
+
+Cells = tuple[NDArray[np.float64], ...]
+
+
+@dataclass(frozen=True)
+class TaxelFit:
+    """The cells of the left sole.
+
+    Attributes:
+        cells: Corners (k, 2) of each cell, counter-clockwise; row by row.
+        shares: Area (n,) of each over a whole cell's, 1 where it is whole.
+        lattice: Placement of the lattice.
+        cell_area: Area of a whole cell in mm^2.
+        overhang: How far a cell may reach beyond the foot's outline, as used.
+        covered: Area of the sole under the cells in mm^2.
+        covered_area_ratio: `covered` over the sole's area, 0..1.
+        bound: Proven: no placement holds more whole cells with this overhang; None of a sheet.
+        border: Border around the cells that this leaves room for.
+        lattice_cells: Axial coordinates (n, 2), where all cells are whole; else None.
+        notes: What was done to make them fit.
+        blind_most: Widest blind rim in mm that was asked for; None where none was.
+        cell: What a cell's body is; None of the hexagons of skin that `--cell-area` sizes.
+        pockets: Corners (k, 2) of the pockets, of a sheet of its one recess; None where they follow from the cells.
+        rooms: Corners (k, 2) of what the plate has to hold around them; None where that is the cells.
+        links: Pairs of cells between which a cable can run straight; None where those are the neighbours.
+        lines: Row and column (n, 2) of a sheet's cells; else None.
+        crossings: Where (n, 2) these cross; else None.
+    """
+
+    cells: Cells
+    shares: NDArray[np.float64]
+    lattice: Lattice
+    cell_area: float
+    overhang: float
+    covered: float
+    covered_area_ratio: float
+    bound: int | None
+    border: float
+    lattice_cells: NDArray[np.int64] | None
+    notes: tuple[str, ...] = ()
+    blind_most: float | None = None
+    cell: Cell | None = None
+    pockets: Cells | None = None
+    rooms: Cells | None = None
+    links: tuple[tuple[int, int], ...] | None = None
+    lines: NDArray[np.int64] | None = None
+    crossings: NDArray[np.float64] | None = None
+
+    @property
+    def whole(self) -> int:
+        """Number of whole cells."""
+        return int((np.abs(self.shares - 1.0) < 1e-6).sum())
+
+
+def fit_taxels(
+    foot: Any,
+    *,
+    cell_area: float = 691.0,
+    taxels: int | None = None,
+    overhang: float = 0.0,
+    overhang_max: float = 0.0,
+    border: float = 0.0,
+) -> TaxelFit:
+    """Fit taxels to the face of a shoe that meets the ground.
+
+    As many whole cells as fit, or a number of them: that may reach beyond the foot, as little as it can; where it does
+    not fit with the border, the border is left out, and where it still does not, cells at the rim are cut.
+
+    Args:
+        foot: Outline of the foot below the rim's upper edge, a shapely polygon: the plate below it is rigid, so that
+            taxels belong wherever it meets the ground, not only below what of the foot touches.
+        cell_area: Area of a cell in mm^2.
+        taxels: Number of cells; None takes as many whole ones as fit.
+        overhang: How far cells may reach beyond the outline where `taxels` is None; the least where it is given.
+        overhang_max: How far the shoe may reach beyond the outline.
+        border: Plate that is wanted beyond the cells.
+
+    Returns:
+        The cells.
+
+    Raises:
+        InputError: If an argument is out of its range.
+        FootError: If they do not fit.
+    """
+    if taxels is None:
+        face = tidy(grown(foot, overhang))
+        fit = replace(fit_lattice(face, cell_area=cell_area), overhang=overhang)
+        return _whole(foot, fit, cell_area, border, ())
+    problem: FootError | None = None
+    for wanted in sorted({border, min(border, LEAST_BORDER)}, reverse=True):
+        room = max(overhang, overhang_max - CORNER * wanted)
+        try:
+            fit = fit_lattice(foot, cell_area=cell_area, taxels=taxels, overhang=overhang, overhang_max=room)
+        except FootError as error:
+            problem = problem or error
+            continue
+        return _whole(foot, fit, cell_area, wanted, () if wanted == border else (_narrow(border),))
+    border_left = min(border, LEAST_BORDER)
+    reach = max(overhang, (overhang_max - 0.05) / CUT_CORNER - CORNER * border_left)
+    cut = _cut_fit(foot, cell_area, taxels, reach)
+    if cut is None:
+        assert problem is not None
+        raise problem
+    notes = ((_narrow(border),) if border > border_left else ()) + cut.notes
+    return replace(cut, border=border_left, notes=notes)
+
+
+def _narrow(border: float) -> str:
+    return f"the border around the cells is {LEAST_BORDER:g} instead of {border:g} mm: so many taxels need the room"
+
+
+def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: tuple[str, ...]) -> TaxelFit:
+    """Whole cells of a lattice."""
+    cells = tuple(fit.lattice.corners(fit.cells))
+    covered = covered_area(sole, cells)
+    return TaxelFit(
+        cells=cells,
+        shares=np.ones(len(cells)),
+        lattice=fit.lattice,
+        cell_area=cell_area,
+        overhang=fit.overhang,
+        covered=covered,
+        covered_area_ratio=covered / sole.area,
+        bound=fit.bound,
+        border=border,
+        lattice_cells=fit.cells,
+        notes=notes,
+    )
+
+
+def rows_and_columns(lines: NDArray[np.int64]) -> tuple[int, int]:
+    """How many rows and columns of a sheet have a cell.
+
+    Args:
+        lines: Row and column (n, 2) of each cell.
+
+    Returns:
+        Both numbers.
+    """
+    return len(np.unique(lines[:, 0])), len(np.unique(lines[:, 1]))
+
+
+def covered_area(sole: Any, cells: Sequence[NDArray[np.float64]]) -> float:
+    """Area in mm^2 of a sole under cells that do not overlap.
+
+    Args:
+        sole: Its outline, a shapely polygon.
+        cells: Corners (k, 2) of each cell.
+
+    Returns:
+        The area.
+    """
+    import shapely
+
+    return float(shapely.area(shapely.intersection([shapely.Polygon(c) for c in cells], sole)).sum())
+
+
+def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit | None:
+    """So many cells within a distance of the sole, of which the rim cuts the least; None where they do not fit."""
+    import shapely
+
+    from plantar.shoes.fit.fit_bound import bound_whole_cells
+
+    # Gentle corners stay one point: a cut cell gets no short edges.
+    region = shapely.set_precision(sole.simplify(0.1).buffer(reach, join_style="mitre", mitre_limit=CUT_CORNER), 1e-4)
+    shapely.prepare(region)
+    found: list[tuple[float, tuple[float, float, float]]] = []
+    step = 1.0 / _SAMPLES
+    trials = [(d, i * step, j * step) for d in _ANGLES for i in range(_SAMPLES) for j in range(_SAMPLES)]
+    for _ in range(4):
+        placed = [(_cut_placement(region, cell_area, taxels, *trial), trial) for trial in trials]
+        found += [(p[0], trial) for p, trial in placed if p is not None]
+        if not found:
+            return None
+        step /= 2.0
+        degrees, i, j = max(found, key=lambda f: round(f[0], 9))[1]
+        trials = [(degrees, i + a * step, j + b * step) for a in (-1, 0, 1) for b in (-1, 0, 1) if a or b]
+    best = _cut_placement(region, cell_area, taxels, degrees, i, j)
+    assert best is not None
+    _, lattice, axial, shares = best
+    cells = []
+    for corners, share in zip(lattice.corners(axial), shares, strict=True):
+        whole = shapely.Polygon(corners)
+        cells.append(corners if share > 1.0 - 1e-6 else trimmed_cell(whole, region))
+    covered = covered_area(sole, cells)
+    cut = int((shares <= 1.0 - 1e-6).sum())
+    bound = bound_whole_cells(region, hex_pattern(cell_area)).bound
+    note = (
+        f"{taxels} whole cells do not fit within {reach:.2f} mm of the sole (at most {bound} do): {cut} cells at the "
+        f"rim are cut, to {100 * shares.min():.0f} % of a cell or more"
+    )
+    return TaxelFit(
+        cells=tuple(cells),
+        shares=shares,
+        lattice=lattice,
+        cell_area=cell_area,
+        overhang=reach,
+        covered=covered,
+        covered_area_ratio=covered / sole.area,
+        bound=bound,
+        border=0.0,
+        lattice_cells=None,
+        notes=(note,),
+    )
+
+
+def _cut_placement(
+    region: Any, cell_area: float, taxels: int, degrees: float, i: float, j: float
+) -> tuple[float, HexLattice, NDArray[np.int64], NDArray[np.float64]] | None:
+    """The cells of one placement that the region cuts least: their score, lattice, axial coordinates and shares."""
+    import shapely
+
+    angle = math.radians(degrees)
+    start = HexLattice(cell_area, angle=angle)
+    c, s = math.cos(angle), math.sin(angle)
+    u, v = i * start.width, j * 1.5 * start.side
+    x, y = region.centroid.x + c * u - s * v, region.centroid.y + s * u + c * v
+    lattice = HexLattice(cell_area, (round(x, 4), round(y, 4)), angle)
+    box = np.array(region.bounds).reshape(2, 2)
+    axial = lattice.cells_near(box[0], box[1])
+    polygons = shapely.polygons(lattice.corners(axial))
+    shares = np.where(shapely.contains(region, polygons), 1.0, 0.0)
+    partly = np.flatnonzero((shares == 0.0) & shapely.intersects(region, polygons))
+    shares[partly] = shapely.area(shapely.intersection(polygons[partly], region)) / cell_area
+    order = np.sort(np.argsort(-shares, kind="stable")[:taxels])
+    if len(order) < taxels or shares[order].min() < LEAST_SHARE:
+        return None
+    # The smallest counts as much as all together, so that no cell is given up for the others; then the middle counts.
+    centre = lattice.centres(axial[order]).mean(axis=0)
+    off = math.hypot(centre[0] - region.centroid.x, centre[1] - region.centroid.y)
+    return (
+        float(shares[order].sum() + taxels * (shares[order].min() - _OFF_CENTRE * off)),
+        lattice,
+        axial[order],
+        shares[order],
+    )

@@ -1,0 +1,130 @@
+"""A robot's foot as the shoe sees it: its outline at the sole and up to the rim; and a foot from its dimensions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from plantar.shoes.geometry.outline import rounded_rectangle, tidy
+from plantar.shoes.units import MM_PER_M, to_mm
+
+__all__ = ["FOOT_LENGTHS", "Foot", "foot_from_dimensions", "foot_from_outline"]
+
+FOOT_LENGTHS = (60.0, 450.0)
+"""Lengths in mm that a robot's foot may have."""
+
+
+@dataclass(frozen=True)
+class Foot:
+    """The left foot of a robot in mm: x forward, y left, z up, the sole plane at z = 0, origin below the ankle.
+
+    Attributes:
+        name: Name of the foot or robot.
+        sole: Outline of the sole, a shapely polygon.
+        outline_up_to: Gives the outline (shapely polygon) of the foot's part below a height above the sole plane.
+        height: Height of the foot's geometry in mm; infinite where only dimensions are known.
+        notes: What was detected or assumed.
+        triangles: The foot's surface (n, 3, 3); None where only its outline is known.
+        support: What of the sole touches a flat floor, a shapely polygon or multipolygon; None for all of it.
+        mass: Mass of the robot in kg, where it is known.
+    """
+
+    name: str
+    sole: Any
+    outline_up_to: Callable[[float], Any]
+    height: float
+    notes: tuple[str, ...] = ()
+    triangles: NDArray[np.float64] | None = None
+    support: Any | None = None
+    mass: float | None = None
+
+    def passing(self, height: float) -> Any:
+        """Outline of all of the foot up to a height in mm: what passes there while the shoe is pushed on from below."""
+        return self._passing(round(height, 4))
+
+    @cached_property
+    def _passing(self) -> Callable[[float], Any]:
+        return cache(lambda height: tidy(self.outline_up_to(height).union(self.sole)))
+
+
+def foot_from_dimensions(
+    name: str,
+    *,
+    length: float,
+    width: float,
+    sole_center: tuple[float, float] = (0.0, 0.0),
+    corner_radius: float = 0.0,
+    mass: float | None = None,
+) -> Foot:
+    """A foot with a rectangular sole and straight sides, as robot files describe it.
+
+    Args:
+        name: Name of the robot.
+        length: Extent along x in m.
+        width: Extent along y in m.
+        sole_center: Middle (2,) of the left foot's box against the ankle in m, x forward, y left.
+        corner_radius: Corner radius in m.
+        mass: Mass of the robot in kg, where it is known.
+
+    Returns:
+        The left foot.
+
+    Raises:
+        FootError: If a dimension is out of what a foot can be.
+
+    Example:
+        >>> foot = foot_from_dimensions("a", length=0.2, width=0.1, sole_center=(0.02, 0.0), corner_radius=0.01)
+        >>> foot.sole.bounds
+        (-80.0, -50.0, 120.0, 50.0)
+    """
+    values = (length, width, *sole_center, corner_radius)
+    if len(sole_center) != 2 or not all(math.isfinite(v) for v in values):
+        raise FootError(f"foot of {name}: length, width, sole_center (x, y) and corner_radius must be finite numbers")
+    low, high = FOOT_LENGTHS
+    if not (low <= to_mm(length) <= high and 0.25 * low <= to_mm(width) <= high):
+        raise FootError(
+            f"foot of {name} is {length:g} x {width:g} m; allowed: {low / MM_PER_M:g} to {high / MM_PER_M:g} m long, "
+            f"{0.25 * low / MM_PER_M:g} to {high / MM_PER_M:g} m wide"
+        )
+    if not 0.0 <= corner_radius <= 0.5 * min(length, width):
+        raise FootError(f"foot of {name}: corner_radius is {corner_radius:g} m; allowed: 0 to half the width")
+    x, y = sole_center
+    sole = rounded_rectangle(to_mm(length), to_mm(width), (to_mm(x), to_mm(y)), to_mm(corner_radius))
+    note = (
+        f"sole from dimensions: {to_mm(length):.1f} x {to_mm(width):.1f} mm, corner radius {to_mm(corner_radius):g} mm"
+    )
+    return Foot(name, sole, lambda height: sole, math.inf, (note,), mass=mass)
+
+
+def foot_from_outline(name: str, outline: Any, notes: tuple[str, ...] = ()) -> Foot:
+    """A foot with straight sides from the outline of its sole.
+
+    Args:
+        name: Name of the foot or robot.
+        outline: A shapely polygon in mm: x forward, y left, the ankle at the origin.
+        notes: What was detected or assumed.
+
+    Returns:
+        The left foot.
+
+    Raises:
+        FootError: If the outline is not of a foot's size.
+    """
+    sole = tidy(outline)
+    low_x, low_y, high_x, high_y = sole.bounds
+    length, width = high_x - low_x, high_y - low_y
+    low, high = FOOT_LENGTHS
+    if not (low <= length <= high and 0.25 * low <= width <= length * 1.05):
+        raise FootError(
+            f"{name}: the outline is {length:.4g} x {width:.4g} mm; allowed: {low:g} to {high:g} mm long, "
+            f"{0.25 * low:g} mm wide or more, longer than wide"
+        )
+    note = f"sole {length:.1f} x {width:.1f} mm from an outline; the foot's sides are taken to be upright"
+    return Foot(name, sole, lambda height: sole, math.inf, (*notes, note))

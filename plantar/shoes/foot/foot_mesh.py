@@ -1,0 +1,301 @@
+"""A foot from its surface: its unit, which way it stands, its sole and what of it touches the floor."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError, InputError
+from plantar.shoes.foot.foot import FOOT_LENGTHS, Foot
+from plantar.shoes.foot.mesh_file import Unit, read_mesh
+from plantar.shoes.foot.orientation import (
+    AXES,
+    Axis,
+    check_one_body,
+    check_told,
+    check_upright,
+    flat_share,
+    forward_axis,
+    levelled,
+    rotation_forward,
+    rotation_up,
+    straightened,
+)
+from plantar.shoes.geometry.outline import cut_below, outline_below, outline_of, touching
+from plantar.shoes.geometry.surface import convex_outline, is_closed
+
+__all__ = ["UNIT_SIZE", "foot_from_mesh", "foot_from_triangles", "unit_scale"]
+
+UNIT_SIZE: dict[str, float] = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}
+"""Length of each unit in mm."""
+
+_SOLE_SHARE = 0.4  # of the silhouette: a body whose lowest band is smaller is round below
+_HEIGHT_MIN = 5.0  # mm
+_TOUCHING = 1.0  # mm: what lies lower touches the floor
+
+Triangles = NDArray[np.float64]
+
+
+def foot_from_mesh(
+    path: str | os.PathLike[str],
+    *,
+    mesh_side: Literal["left", "right"] = "left",
+    unit: Unit | None = None,
+    up: Axis | None = None,
+    sole_z: float | None = None,
+    forward: Axis | None = None,
+    sole_band: float = 5.0,
+) -> Foot:
+    """Read a foot's mesh and find its sole. Watertight or not, loose parts allowed.
+
+    Args:
+        path: STL, OBJ, PLY, OFF, 3MF or STEP file.
+        mesh_side: Which foot the mesh shows; a right foot is mirrored.
+        unit: Unit of the file; None detects it from the size.
+        up: Axis of the mesh that points up; None takes z, or where there is no sole the one axis at which there is.
+        sole_z: Height of the sole plane along the axis that points up, in mm; None takes the lowest point.
+        forward: Axis that points to the toes once z is up; None takes x, or y where the foot is longer along y.
+        sole_band: Height in mm of the lowest part that counts as sole.
+
+    Returns:
+        The left foot; `notes` say what was detected.
+
+    Raises:
+        FootError: If the file is no mesh, or its geometry is no foot.
+    """
+    triangles, file_unit = read_mesh(path)
+    return foot_from_triangles(
+        Path(path).stem,
+        triangles,
+        where=str(path),
+        mesh_side=mesh_side,
+        unit=unit,
+        file_unit=file_unit,
+        up=up,
+        sole_z=sole_z,
+        forward=forward,
+        sole_band=sole_band,
+    )
+
+
+def foot_from_triangles(
+    name: str,
+    triangles: Triangles,
+    *,
+    where: str,
+    mesh_side: Literal["left", "right"] = "left",
+    unit: Unit | None = None,
+    file_unit: Unit | None = None,
+    up: Axis | None = None,
+    sole_z: float | None = None,
+    forward: Axis | None = None,
+    sole_band: float = 5.0,
+) -> Foot:
+    """A foot from its triangles; see `foot_from_mesh`.
+
+    Args:
+        name: Name of the foot.
+        triangles: Triangles (n, 3, 3), the ankle at the origin.
+        where: Where they are from, for messages.
+        mesh_side: Which foot they show.
+        unit: Their unit, as the user gives it.
+        file_unit: Their unit, as the file states it.
+        up: Axis that points up.
+        sole_z: Height of the sole plane in mm.
+        forward: Axis that points to the toes.
+        sole_band: Height of the sole in mm.
+
+    Returns:
+        The left foot.
+
+    Raises:
+        FootError: If the geometry is no foot.
+    """
+    if forward is not None and forward not in AXES[:4]:
+        raise InputError(f"forward axis is {forward!r}; allowed: {', '.join(AXES[:4])}")
+    if up is not None and up not in AXES:
+        raise InputError(f"axis that points up is {up!r}; allowed: {', '.join(AXES)}")
+    if sole_z is not None and not math.isfinite(sole_z):
+        raise InputError(f"sole plane is at {sole_z} mm; allowed: a finite height")
+    scale, note = unit_scale(float(np.ptp(triangles.reshape(-1, 3), axis=0).max()), unit, file_unit, where)
+    triangles = triangles * scale
+    notes = [note]
+    if not is_closed(triangles):
+        notes.append("the mesh is not closed; only its outline is used")
+    settings: dict[str, Any] = {
+        "where": where, "mesh_side": mesh_side, "sole_z": sole_z, "forward": forward, "sole_band": sole_band,
+    }  # fmt: skip
+    if up is not None:
+        given = [f"the mesh's {up} axis points up, as given"] if up != "z" else []
+        return _standing(name, triangles @ rotation_up(up).T, notes=notes + given, up_given=True, **settings)
+    try:
+        return _standing(name, triangles, notes=notes, **settings)
+    except FootError as error:
+        if sole_z is not None or "no flat sole" not in str(error):
+            raise
+        others = [a for a in AXES if a != "z" and flat_share(triangles @ rotation_up(a).T) >= _SOLE_SHARE]
+        if len(others) != 1:  # none, or the foot could be any of them
+            raise
+        notes.append(f"no sole below, seen along z: the mesh's {others[0]} axis is taken to point up")
+        return _standing(name, triangles @ rotation_up(others[0]).T, notes=notes, **settings)
+
+
+def _standing(
+    name: str,
+    triangles: Triangles,
+    *,
+    where: str,
+    mesh_side: str,
+    sole_z: float | None,
+    forward: Axis | None,
+    sole_band: float,
+    notes: list[str],
+    up_given: bool = False,
+) -> Foot:
+    """The foot from triangles in mm with z up."""
+    notes = list(notes)
+    if sole_z is None:
+        triangles, tilt = levelled(triangles)
+        if tilt > 0.0:
+            notes.append(f"levelled: the plane that the foot rests on was tilted by {tilt:.1f} degrees")
+    _check_height(triangles, where)
+    upright = triangles
+    axis = forward
+    if axis is None:
+        check_one_body(triangles, where)
+        triangles, turns = straightened(triangles, where)
+        try:
+            axis, how = forward_axis(triangles, where)
+        except FootError:
+            # That there is no sole below comes first: on a foot that lies on its side no axis tells the toes.
+            _checked_sole(triangles - np.array([0.0, 0.0, triangles[..., 2].min()]), sole_band, forward, where)
+            raise
+        notes += [*turns, how]
+    elif axis != "x":
+        notes.append(f"the mesh's {axis} axis points to the toes, as given")
+    triangles = triangles @ rotation_forward(axis).T
+    if mesh_side == "right":
+        triangles = triangles[:, ::-1] * np.array([1.0, -1.0, 1.0])
+        notes.append("the mesh is a right foot; mirrored to the left")
+    lowest = float(triangles[..., 2].min())
+    plane = lowest if sole_z is None else sole_z
+    if sole_z is None:
+        notes.append(f"sole plane at the mesh's lowest point, z = {plane:.1f} mm")
+    else:
+        notes.append(f"sole plane at z = {plane:.1f} mm as given")
+        if plane - lowest > 1e-6:
+            notes.append(f"{plane - lowest:.1f} mm of the mesh lie below the sole plane and are ignored")
+    triangles = triangles - np.array([0.0, 0.0, plane])
+    flip = np.array([1.0, 1.0, -1.0])
+    triangles = cut_below(triangles * flip, 0.0) * flip
+    if not len(triangles):
+        raise FootError(f"{where}: no part of the mesh lies above the sole plane z = {plane:g} mm")
+    sole = _checked_sole(triangles, sole_band, forward, where)
+    box = sole.bounds
+    if not _box_holds(box, 0.5):
+        middle = np.array([0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])]).round(3)
+        triangles = triangles - np.array([*middle, 0.0])
+        sole = _checked_sole(triangles, sole_band, forward, where)
+        notes.append("the mesh's origin lies far from the sole: the layout's origin is the middle of the sole instead")
+    notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
+    lifted = triangles + np.array([0.0, 0.0, 0.0 if sole_z is None else -float(triangles[..., 2].min())])
+    if not up_given and sole_z is None:
+        notes += [*check_upright(upright, where), *check_told(upright, where)]
+    support = touching(lifted, _TOUCHING).intersection(sole)
+    return Foot(
+        name,
+        sole,
+        lambda height: outline_below(triangles, height),
+        float(triangles[..., 2].max()),
+        tuple(notes),
+        lifted,
+        support if support.area > 1.0 else None,
+    )
+
+
+def _check_height(triangles: Triangles, where: str) -> None:
+    """Refuse a surface without height: neither a sole nor an ankle can be found on it."""
+    high = float(np.ptp(triangles[..., 2]))
+    if high < _HEIGHT_MIN:
+        raise FootError(
+            f"{where}: the mesh is {high:.3g} mm high ({len(triangles)} triangles); allowed: a foot's body of "
+            f"{_HEIGHT_MIN:g} mm or more, or an outline (.dxf, .svg, .geojson)"
+        )
+
+
+def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: str) -> tuple[float, str]:
+    """How many mm a unit of a file is.
+
+    Args:
+        extent: Length of the foot in the file's unit.
+        unit: Unit that the user gives.
+        file_unit: Unit that the file states.
+        where: Name of the file, for messages.
+
+    Returns:
+        The scale to mm, and a note on how it was found.
+
+    Raises:
+        FootError: If the foot is of no foot's size.
+    """
+    low, high = FOOT_LENGTHS
+    allowed = f"allowed: a foot of {low:g} to {high:g} mm"
+    for given, source in ((unit, "as given"), (file_unit, "as the file states")):
+        if given is None:
+            continue
+        size = extent * UNIT_SIZE[given]
+        if not low <= size <= high:
+            raise FootError(f"{where}: the foot is {size:.6g} mm long (unit {given} {source}); {allowed}")
+        return UNIT_SIZE[given], f"unit {given} {source}"
+    for guess in ("m", "mm"):
+        if low <= extent * UNIT_SIZE[guess] <= high:
+            return UNIT_SIZE[guess], f"unit {guess}, detected from the size ({extent:.4g} {guess} long)"
+    raise FootError(
+        f"{where}: the foot is {extent:.4g} long, which fits neither m nor mm; {allowed}, "
+        "or give the unit (m, cm, mm, in)"
+    )
+
+
+def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, path: str) -> Any:
+    """Outline of the lowest band, refused where the body cannot be a foot."""
+    points = triangles.reshape(-1, 3)
+    length, width, height = (float(v) for v in np.ptp(points, axis=0))
+    _check_height(triangles, path)
+    try:
+        sole = outline_of(cut_below(triangles, sole_band), sole_band)
+    except FootError as error:
+        raise FootError(f"{path}: {error}") from None
+    share = sole.area / convex_outline(points[:, :2]).area
+    if share < _SOLE_SHARE:
+        raise FootError(
+            f"{path}: no flat sole: the lowest {sole_band:g} mm cover {100 * share:.0f} % of the silhouette; "
+            f"allowed: {100 * _SOLE_SHARE:.0f} % or more (or give the axis that points up, or the sole plane's height)"
+        )
+    if forward is None and width > 1.05 * length:
+        raise FootError(
+            f"{path}: the foot is {length:.0f} mm along x and {width:.0f} mm along y; x must point forward "
+            f"(or give the forward axis: {', '.join(AXES[:4])})"
+        )
+    if max(length, width) < 1.15 * min(length, width) and height > 0.5 * length:
+        raise FootError(
+            f"{path}: {length:.0f} x {width:.0f} x {height:.0f} mm is a block, not a foot; allowed: longer than wide, "
+            "or flatter than half its length"
+        )
+    box = sole.bounds
+    if box[2] - box[0] < FOOT_LENGTHS[0] * 0.5 or box[3] - box[1] < 15.0:
+        raise FootError(
+            f"{path}: the sole is {box[2] - box[0]:.0f} x {box[3] - box[1]:.0f} mm; "
+            f"allowed: {FOOT_LENGTHS[0] / 2:g} x 15 mm or more"
+        )
+    return sole
+
+
+def _box_holds(box: tuple[float, float, float, float], slack: float) -> bool:
+    """Whether the origin lies in a box grown by a share of its size."""
+    dx, dy = slack * (box[2] - box[0]), slack * (box[3] - box[1])
+    return box[0] - dx <= 0.0 <= box[2] + dx and box[1] - dy <= 0.0 <= box[3] + dy

@@ -1,0 +1,129 @@
+"""Triangle meshes from files: STL, OBJ and 3MF read here, PLY, OFF and DAE through trimesh, STEP through OpenCascade.
+
+The libraries are called in a process of its own whose memory and time have limits (`plantar.files.confined`).
+"""
+
+from __future__ import annotations
+
+import os
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Literal, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import DependencyError, FootError
+from plantar.files.confined import confined
+from plantar.files.input_file import check_input, read_input
+from plantar.shoes.foot.obj_file import triangles_of_obj
+from plantar.shoes.foot.package_3mf import triangles_of_3mf
+from plantar.shoes.foot.stl_file import triangles_of_stl
+
+__all__ = ["MESH_FORMATS", "MOST_TRIANGLES", "Unit", "read_mesh"]
+
+Unit = Literal["m", "cm", "mm", "in"]
+"""Unit of length of a mesh file."""
+
+MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".dae", ".3mf", ".step", ".stp")
+"""File endings that are read."""
+
+MOST_TRIANGLES = 1_200_000
+"""Triangles that a mesh may have, as a scan has them; the feet of robots have some ten thousand."""
+
+_LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
+# Library, function, and how much memory in bytes and time in s it may take: at least, and for each byte of the file.
+_BY_TRIMESH = ("trimesh", "plantar.shoes.foot.trimesh_file:triangles_of_trimesh", (330e6, 20.0), (2.5, 2.5e-7))
+_BY_PYCOLLADA = ("collada", "plantar.shoes.foot.trimesh_file:triangles_of_trimesh", (330e6, 20.0), (30.0, 2e-6))
+_BY_OPENCASCADE = ("OCP", "plantar.shoes.foot.step_file:triangles_of_step", (330e6, 30.0), (3.0, 1e-6))
+
+
+def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit | None]:
+    """Read the triangles of a mesh file; parts of a scene are put together.
+
+    Args:
+        path: A file whose name ends in one of MESH_FORMATS.
+
+    Returns:
+        Triangles (n, 3, 3) in the file's unit, and that unit where the file states it.
+
+    Raises:
+        FootError: If the file cannot be read, is too large, cut short or foreign, or holds no finite triangles.
+    """
+    file = Path(path)
+    kind = file.suffix.lower()
+    if kind not in MESH_FORMATS:
+        raise FootError(f"{file}: '{kind}' is no mesh format that is read; allowed: {', '.join(MESH_FORMATS)}")
+    if not check_input(file, FootError, _LARGEST):
+        raise FootError(f"{file}: the file is empty; give a mesh file ({', '.join(MESH_FORMATS)})")
+    try:
+        triangles, unit = _read(file, kind)
+    except (FootError, DependencyError):
+        raise
+    except Exception as error:  # of every kind on a damaged file
+        reason = " ".join(str(error).split())[:80] or type(error).__name__
+        raise FootError(f"{file}: not a readable {kind[1:].upper()} mesh, cut short or foreign ({reason})") from None
+    if not len(triangles):
+        raise FootError(f"{file}: holds no triangles; export the foot as a triangle mesh")
+    if len(triangles) > MOST_TRIANGLES:
+        raise FootError(f"{file}: has {len(triangles)} triangles; allowed: up to {MOST_TRIANGLES}; reduce the mesh")
+    bad = int((~np.isfinite(triangles)).any(axis=(1, 2)).sum())
+    if bad:
+        raise FootError(
+            f"{file}: {bad} of {len(triangles)} triangles hold a coordinate that is not finite; repair the mesh"
+        )
+    if len(triangles) < 4:
+        raise FootError(f"{file}: has {len(triangles)} triangles; a foot's body needs 4 or more")
+    extent = np.ptp(triangles.reshape(-1, 3), axis=0)
+    if extent.min() <= 1e-6 * extent.max():
+        raise FootError(f"{file}: the mesh is flat; allowed: a foot's body, or an outline (.dxf, .svg, .geojson)")
+    return triangles, unit
+
+
+def _read(file: Path, kind: str) -> tuple[NDArray[np.float64], Unit | None]:
+    if kind == ".3mf":
+        triangles, unit = triangles_of_3mf(file, MOST_TRIANGLES)
+        return triangles, cast(Unit, unit)
+    if kind in (".step", ".stp"):
+        return _read_step(file), "mm"
+    if kind == ".dae":
+        return _read_confined(file, kind, *_BY_PYCOLLADA), "m"
+    if kind == ".off":
+        _check_off(file)
+    if kind in (".ply", ".off"):
+        return _read_confined(file, kind, *_BY_TRIMESH), None
+    read = triangles_of_stl if kind == ".stl" else triangles_of_obj
+    return read(read_input(file, FootError, _LARGEST), MOST_TRIANGLES, str(file)), None
+
+
+def _check_off(file: Path) -> None:
+    """Refuse an OFF file whose head states more faces than a foot has, before a library takes memory for them."""
+    with file.open("rb") as opened:
+        head = opened.read(4096)
+    words = [w for line in head.splitlines() for w in line.partition(b"#")[0].split()]
+    if len(words) > 2 and words[0].endswith(b"OFF") and words[2].isdigit() and int(words[2]) > MOST_TRIANGLES:
+        count = words[2].decode()
+        raise FootError(f"{file}: has {count:.20} faces; allowed: up to {MOST_TRIANGLES}; reduce the mesh")
+
+
+def _read_step(file: Path) -> NDArray[np.float64]:
+    data = read_input(file, FootError, _LARGEST)
+    if b"ISO-10303-21" not in data[:200]:
+        raise FootError(f"{file}: not a readable STEP file: it does not start with ISO-10303-21")
+    del data
+    return _read_confined(file, ".step", *_BY_OPENCASCADE)
+
+
+def _read_confined(
+    file: Path,
+    kind: str,
+    library: str,
+    function: str,
+    memory: tuple[float, float],
+    seconds: tuple[float, float],
+) -> NDArray[np.float64]:
+    if find_spec(library) is None:
+        raise DependencyError(library, "shoes")
+    what, size = f"a {kind[1:].upper()} mesh", file.stat().st_size
+    limits = [least + each * size for least, each in (memory, seconds)]
+    return np.asarray(confined(function, file, FootError, what, *limits)["triangles"], dtype=np.float64)

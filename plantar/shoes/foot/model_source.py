@@ -1,0 +1,372 @@
+"""A robot's model through MuJoCo's reader: where the shapes of a body are, where bodies are, and what the robot weighs.
+
+Classes, includes, frames, replicas, attached models, angles and sizes are MuJoCo's to read. Of a model only that is
+compiled which is asked for, so that a robot whose other meshes are missing still has a foot.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import warnings
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+from xml.etree.ElementTree import Element
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from plantar.files.input_file import check_input
+from plantar.files.model_files import check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
+from plantar.files.xml_file import XML_MOST
+from plantar.optional_library import optional_library, unheard
+from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
+from plantar.shoes.foot.urdf_text import BELOW, urdf_for_mujoco
+from plantar.shoes.geometry.primitives import primitive
+
+__all__ = ["FARTHEST", "BodyPlace", "ModelSource", "read_model_source"]
+
+_MOST_PARTS = 2000  # shapes, or bodies: MuJoCo's reader takes a time that grows with their square
+_LARGEST = 100e6  # bytes of a mesh
+FARTHEST = 1e6
+"""Distance in m beyond which no shape reaches."""
+
+_LEAST = 1e-9  # kg and kg m^2: MuJoCo wants bodies that move to have some
+_READ_BY_MUJOCO = (".stl", ".obj", ".msh")
+_NOT_NEEDED: tuple[str, ...] = (
+    *("keys", "sensors", "actuators", "tendons", "equalities", "pairs", "excludes", "tuples", "skins", "flexes"),
+    "textures",
+)
+_COLLIDING, _DRAWN, _ELSEWHERE = 0, 1, 2  # groups of geoms
+
+Array = NDArray[np.float64]
+Spec = Any
+"""A `mujoco.MjSpec`."""
+
+
+class _NotCompiled(FootError):
+    """A model that MuJoCo cannot compile, maybe for a mesh of a kind that it does not read."""
+
+
+class BodyPlace(NamedTuple):
+    """Where a body is at the zero pose.
+
+    Attributes:
+        shaped: Whether it has a shape, or what is fixed to it has.
+        carries: Whether a body that moves against it hangs on it.
+        depth: Bodies above it.
+        height: Height of its origin in m.
+    """
+
+    shaped: bool
+    carries: bool
+    depth: int
+    height: float
+
+
+@dataclass(frozen=True)
+class ModelSource:
+    """An MJCF or URDF file that MuJoCo reads.
+
+    Attributes:
+        file: The file.
+        urdf: A URDF's text for MuJoCo; None of an MJCF.
+        mesh_names: Names of a URDF's meshes by those in its text.
+        folders: Folders of an MJCF and of the models it attaches, for its meshes.
+    """
+
+    file: Path
+    urdf: str | None
+    mesh_names: dict[str, str] = field(default_factory=dict)
+    folders: tuple[Path, ...] = ()
+
+    def spec(self) -> Spec:
+        """The model for editing, without what neither weighs nor has a shape.
+
+        Raises:
+            FootError: If MuJoCo cannot read the file.
+        """
+        with optional_library("mujoco", "sim"):
+            import mujoco
+        mujoco.set_mju_user_warning(unheard)
+        try:
+            spec = (
+                mujoco.MjSpec.from_file(str(self.file)) if self.urdf is None else mujoco.MjSpec.from_string(self.urdf)
+            )
+        except Exception as error:  # MuJoCo raises ValueError, OSError and its own
+            raise FootError(f"{self.file}: cannot be read as a robot's model: {' '.join(str(error).split())}") from None
+        _delete(spec, [geom for geom in spec.geoms if geom.hfieldname])
+        _delete(spec, list(spec.hfields))
+        for material in spec.materials:
+            material.textures = [""] * len(material.textures)
+        for part in _NOT_NEEDED:
+            for element in list(getattr(spec, part, ())):
+                spec.delete(element)
+        for compiler in (spec.compiler, *(_compiler(spec, body) for body in spec.bodies)):
+            compiler.balanceinertia = True
+            compiler.boundmass = max(compiler.boundmass, _LEAST)
+            compiler.boundinertia = max(compiler.boundinertia, _LEAST)
+        return spec
+
+    def bodies(self) -> dict[str, BodyPlace]:
+        """All bodies of the robot by name.
+
+        Raises:
+            FootError: If MuJoCo cannot read the file.
+        """
+        spec = self.spec()
+        parts = {body.name: list(_fixed_to(body)) for body in spec.bodies[1:]}
+        shaped = {name: any(len(b.geoms) for b in part) for name, part in parts.items()}
+        carries = {name: any(child.joints for b in part for child in b.bodies) for name, part in parts.items()}
+        for body in spec.bodies:
+            _delete(spec, [g for g in body.geoms if g.meshname])
+        self._give_meshes(spec, read_all=False)
+        model, data = self._placed(spec)
+        depth = np.zeros(model.nbody, dtype=int)
+        for i in range(1, model.nbody):
+            depth[i] = depth[model.body_parentid[i]] + 1
+        names = {i: model.body(i).name for i in range(1, model.nbody)}
+        return {
+            name: BodyPlace(shaped[name], carries[name], int(depth[i]), float(data.xpos[i, 2]))
+            for i, name in names.items()
+            if name in parts and name != BELOW
+        }
+
+    def shapes(self, name: str, most: int) -> tuple[list[Array], list[Array]]:
+        """Drawn and colliding surfaces of a body and of what is fixed to it.
+
+        Args:
+            name: The body.
+            most: Shapes that it may have.
+
+        Returns:
+            Triangles (n, 3, 3) in m of each, about the body's origin, turned as at the zero pose.
+
+        Raises:
+            FootError: If a mesh cannot be read, or there are more shapes.
+        """
+        try:
+            return self._shapes(name, most, read_all=False)
+        except _NotCompiled:  # MuJoCo reads no text STL and none of more than 200,000 triangles
+            return self._shapes(name, most, read_all=True)
+
+    def mass(self, name: str) -> tuple[float | None, str]:
+        """Mass in kg of the robot that a body belongs to, None where it cannot be told; and a note.
+
+        Bodies without a stated inertia have that of their shapes; so have links of a URDF of what collides.
+        """
+        import mujoco
+
+        model, problem = None, ""
+        for read_all in (False, True):
+            try:
+                spec = self.spec()
+                for body in spec.bodies:
+                    weighed = _weighed_by_shapes(spec, body)
+                    _delete(spec, [g for g in body.geoms if g.meshname and not weighed])
+                self._give_meshes(spec, read_all)
+                model = self._placed(spec)[0]
+                break
+            except FootError as error:
+                problem = str(error).removeprefix(f"{self.file}: ")
+        if model is None:
+            return None, f"the robot's mass is not read: {problem[:120]}"
+        body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
+        mass = float(model.body_subtreemass[model.body_rootid[body]])
+        if not (math.isfinite(mass) and mass > model.nbody * 2.0 * _LEAST):
+            return None, "the robot's model states no mass"
+        return mass, f"the robot's mass is {mass:.4g} kg, of its model"
+
+    def _shapes(self, name: str, most: int, *, read_all: bool) -> tuple[list[Array], list[Array]]:
+        import mujoco
+
+        spec = self.spec()
+        for geom in spec.geoms:
+            geom.group = _ELSEWHERE
+        part = [geom for body in _fixed_to(spec.body(name)) for geom in body.geoms]
+        for geom in part:
+            geom.group = _COLLIDING if geom.contype or geom.conaffinity else _DRAWN
+            geom.contype = geom.conaffinity = 0  # no convex hull of a mesh is needed then
+        _delete(spec, [geom for geom in spec.geoms if geom.group == _ELSEWHERE])
+        count = len(part)
+        if count > most:
+            raise FootError(f"{self.file}: body '{name}' has {count} shapes; allowed: up to {most}")
+        self._give_meshes(spec, read_all)
+        fitted = {
+            g.meshname
+            for g in spec.geoms
+            if g.meshname and g.type not in (mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF)
+        }
+        for mesh in [m for m in spec.meshes if m.name not in fitted]:
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # is there for open and flat surfaces, too
+        model, data = self._placed(spec)
+        self._few_enough(model, name)
+        origin = data.xpos[mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)]
+        drawn: list[Array] = []
+        colliding: list[Array] = []
+        for g in range(model.ngeom):
+            if model.geom_type[g] in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
+                continue
+            local = _surface(model, g, f"{self.file}: <geom name='{model.geom(g).name}'>")
+            turn = data.geom_xmat[g].reshape(3, 3)
+            (drawn if model.geom_group[g] == _DRAWN else colliding).append(local @ turn.T + data.geom_xpos[g] - origin)
+        return drawn, colliding
+
+    def _few_enough(self, model: Any, name: str) -> None:
+        """Refuse shapes of too many triangles before they are made: a mesh may be used many times."""
+        meshes = model.geom_dataid >= 0
+        faces = np.zeros(model.ngeom, dtype=np.int64)
+        faces[meshes] = model.mesh_facenum[model.geom_dataid[meshes]]
+        drawn = model.geom_group == _DRAWN
+        count = int(faces[drawn].sum() if drawn.any() else faces.sum())
+        if count > MOST_TRIANGLES:
+            raise FootError(
+                f"{self.file}: body '{name}' has {count} triangles; allowed: up to {MOST_TRIANGLES}; reduce its meshes"
+            )
+
+    def _give_meshes(self, spec: Spec, read_all: bool) -> None:
+        """Take out meshes that no shape is made of; hand those to MuJoCo that it does not read itself."""
+        used = {g.meshname for g in spec.geoms if g.meshname}
+        for mesh in list(spec.meshes):
+            if mesh.name not in used:
+                spec.delete(mesh)
+                continue
+            if not mesh.file:
+                continue
+            path = self._path(spec, mesh)
+            kind = path.suffix.lower()
+            if kind == ".msh" or (kind in _READ_BY_MUJOCO and not read_all):
+                check_input(path, FootError, _LARGEST)
+                mesh.file = str(path.resolve())
+            else:
+                triangles = read_mesh(path)[0]
+                mesh.file = ""
+                mesh.uservert = triangles.ravel()
+                mesh.userface = np.arange(3 * len(triangles), dtype=np.int32)
+
+    def _path(self, spec: Spec, mesh: Any) -> Path:
+        """Where the file of a mesh lies."""
+        where = f"{self.file}: <mesh name='{mesh.name}'>"
+        if self.urdf is not None:
+            return mesh_of_urdf(self.file, self.mesh_names.get(mesh.file, mesh.file), FootError, where)
+        name = re.split(r"[/\\]", mesh.file)[-1] if spec.strippath else mesh.file
+        places = [folder / _mesh_folder(spec, mesh) / name for folder in self.folders]
+        found = next((place for place in places if place.is_file()), places[0])
+        return named_file(found, folders_of_model(self.file), FootError, where)
+
+    def _placed(self, spec: Spec) -> tuple[Any, Any]:
+        """The compiled model and its data at the zero pose."""
+        import mujoco
+
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", UserWarning)  # of settings that MuJoCo will drop
+                model = spec.compile()
+        except Exception as error:  # MuJoCo raises ValueError and its own
+            raise _NotCompiled(
+                f"{self.file}: cannot be read as a robot's model: {' '.join(str(error).split())}"
+            ) from None
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        return model, data
+
+
+def read_model_source(file: Path) -> ModelSource:
+    """A robot's model, its outermost element looked at and the names of files in it found allowed.
+
+    Args:
+        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file.
+
+    Raises:
+        FootError: If it is neither, or names files that lie where they may not.
+    """
+    root = parsed_model(file, FootError)
+    _few_parts(file, root)
+    if root.tag == "robot":
+        text, names = urdf_for_mujoco(root)
+        if text is None:
+            raise FootError(f"{file}: holds no link that hangs on none; allowed: a tree of links and joints")
+        return ModelSource(file, text, names)
+    if root.tag != "mujoco":
+        raise FootError(f"{file}: the outermost element is <{root.tag}>; allowed: <mujoco> (MJCF), <robot> (URDF)")
+    check_model(file, FootError)
+    for element in root.iter():
+        for key, text in element.attrib.items():
+            if key not in ("name", "class") and "nan" in text.lower().split():
+                raise FootError(f"{file}: <{element.tag}>: {key} is '{text[:40]}'; allowed: finite numbers")
+    attached = [file.parent / e.get("file", "") for e in root.iter("model") if e.get("file")]
+    for path in attached:
+        check_input(path, FootError, XML_MOST)
+    return ModelSource(file, None, folders=(file.parent, *(path.parent for path in attached)))
+
+
+def _few_parts(file: Path, root: Element) -> None:
+    """Refuse a model of more shapes or bodies than any robot has, replicas counted."""
+    counts = {"shapes": 0.0, "bodies": 0.0}
+    kinds = dict.fromkeys(("geom", "visual", "collision"), "shapes") | dict.fromkeys(("body", "link"), "bodies")
+    left = [(root, 1.0)]
+    while left:
+        element, times = left.pop()
+        if element.tag in kinds:
+            counts[kinds[element.tag]] += times
+        if element.tag == "replicate":
+            with suppress(ValueError):  # of what is no number MuJoCo tells
+                times *= max(0.0, float(element.get("count", "1")))
+        left += [(child, times) for child in element]
+    for what, count in counts.items():
+        if count > _MOST_PARTS:
+            raise FootError(f"{file}: has {count:.0f} {what}; allowed: up to {_MOST_PARTS} of a robot's model")
+
+
+def _compiler(spec: Spec, element: Any) -> Any:
+    """Settings by which MuJoCo reads an element: those of the file that it came with; older MuJoCo has one for all."""
+    return getattr(element, "compiler", spec.compiler)
+
+
+def _mesh_folder(spec: Spec, mesh: Any) -> str:
+    """Folder that a mesh is looked for in, as its file states it."""
+    return str(getattr(_compiler(spec, mesh), "meshdir", spec.meshdir))
+
+
+def _fixed_to(body: Any) -> Iterator[Any]:
+    """A body and those without joints below it."""
+    yield body
+    for child in body.bodies:
+        if not child.joints:
+            yield from _fixed_to(child)
+
+
+def _delete(spec: Spec, elements: list[Any]) -> None:
+    for element in elements:
+        spec.delete(element)
+
+
+def _weighed_by_shapes(spec: Spec, body: Any) -> bool:
+    """Whether MuJoCo takes a body's mass from its shapes."""
+    import mujoco
+
+    kind = mujoco.mjtInertiaFromGeom
+    chosen = int(_compiler(spec, body).inertiafromgeom)
+    return chosen == int(kind.mjINERTIAFROMGEOM_TRUE) or (
+        chosen == int(kind.mjINERTIAFROMGEOM_AUTO) and not body.explicitinertial
+    )
+
+
+def _surface(model: Any, geom: int, where: str) -> Array:
+    """Triangles (n, 3, 3) of a shape in its own frame in m."""
+    import mujoco
+
+    kind = mujoco.mjtGeom(int(model.geom_type[geom]))
+    if not (np.abs(model.geom_size[geom]) < FARTHEST).all():
+        raise FootError(f"{where} reaches farther than {FARTHEST:g} m")
+    if kind in (mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF):
+        mesh = int(model.geom_dataid[geom])
+        start, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+        first, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
+        points = model.mesh_vert[start : start + count].astype(np.float64)
+        return np.asarray(points[model.mesh_face[first : first + faces]])
+    return primitive(kind.name.removeprefix("mjGEOM_").lower(), model.geom_size[geom], where)

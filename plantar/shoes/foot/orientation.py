@@ -1,0 +1,400 @@
+"""How a foot stands: which way is up, whether its sole is tilted, and where the toes are. Triangles (n, 3, 3) in mm."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from plantar.optional_library import optional_library
+from plantar.shoes.geometry.surface import convex_outline, corner_numbers
+
+__all__ = [
+    "AXES",
+    "Axis",
+    "check_one_body",
+    "check_told",
+    "check_upright",
+    "flat_share",
+    "forward_axis",
+    "levelled",
+    "rotation_forward",
+    "rotation_up",
+    "straightened",
+]
+
+Axis = Literal["x", "-x", "y", "-y", "z", "-z"]
+"""An axis of a mesh, with its direction."""
+
+AXES: tuple[Axis, ...] = ("x", "-x", "y", "-y", "z", "-z")
+"""All axes."""
+
+_TILT_LEAST = math.radians(1.0)
+_TILT_MOST = math.radians(25.0)
+_SAME_PLANE = math.cos(math.radians(0.5))
+_NEAR = 1.0  # mm
+_MANY = 100_000  # points, above which the lowest in each column are looked at
+_COLUMN = 1.0  # mm
+_RESTS = 0.3  # share of the silhouette that one plane of the hull must have to be what the foot rests on
+_BAND, _DEEP = 5.0, 2.0  # mm: how far what lies below reaches up, and a face on a side inwards
+_SIDE = 1.5  # of the face below: a face on a side that is so much larger is the sole
+_SLANTED = "a slanted one"
+_DECK_TILT = 3.0  # degrees by which a deck may be tilted over a sole that nothing levels
+_DECK = 0.5  # of the silhouette: a plane above that is so large is the foot's deck
+_EITHER = 0.8  # of the face below: a face above that is so large could be the sole
+_UPWARD = 0.2  # of a normal: faces above are no sole
+_LONGER = 1.05  # of the other side: what counts as the long side
+_CLEAR = 0.06  # of the foot's length: how far the ankle lies from its middle where it tells the heel from the toes
+_BLOCK = 0.6  # of the foot's length: what is shorter on top of it is its ankle
+_TURN_TOLD = 4.0  # degrees: a foot that stands so much askew is told to
+_TURN_SQUARE = 30.0  # degrees: a foot about as wide as long that stands so much askew could point either way
+_TURN_LEAST = 6.0  # degrees: a foot turned by less is taken as it stands
+_STRAIGHTER = 0.03  # by how much a foot is more like its mirror image where it is taken to be turned
+_SECOND = 0.25  # of the largest body's area: what lies apart and is smaller is a loose part
+_APART = 4.0  # mm between two bodies
+_MOST_PARTS = 3000  # loose parts that are looked at one by one
+
+Array = NDArray[np.float64]
+
+
+def _direction(axis: Axis) -> Array:
+    out = np.zeros(3)
+    out["xyz".index(axis[-1])] = -1.0 if axis[0] == "-" else 1.0
+    return out
+
+
+def rotation_up(up: Axis) -> Array:
+    """Rotation (3, 3) that turns an axis of the mesh up, to +z; x stays where it can."""
+    z = _direction(up)
+    x = np.array([1.0, 0.0, 0.0]) if abs(z[0]) < 0.5 else np.array([0.0, 1.0, 0.0])
+    return np.stack([x, np.cross(z, x), z])
+
+
+def rotation_forward(forward: Axis) -> Array:
+    """Rotation (3, 3) about z that turns a horizontal axis of the mesh forward, to +x."""
+    x, z = _direction(forward), np.array([0.0, 0.0, 1.0])
+    return np.stack([x, np.cross(z, x), z])
+
+
+def _thinned(points: Array) -> Array:
+    """Points without repetition; of very many the lowest in each column of a grid.
+
+    They are points of the surface, so that a plane through them is one of its own.
+    """
+    if len(points) <= _MANY:
+        return np.unique(points.round(6), axis=0)
+    order = np.argsort(points[:, 2], kind="stable")
+    _, first = np.unique(corner_numbers(points[order, :2] * (1e-3 / _COLUMN)), return_index=True)
+    return np.asarray(points[order[first]])
+
+
+def _resting_plane(triangles: Array) -> tuple[Array, float]:
+    """Normal of the largest plane of the convex hull's lower side, and its share of the silhouette."""
+    with optional_library("scipy", "shoes"):
+        from scipy.spatial import ConvexHull, QhullError
+
+    points = _thinned(triangles.reshape(-1, 3))
+    try:
+        hull = ConvexHull(points)
+        silhouette = ConvexHull(points[:, :2]).volume
+    except (QhullError, ValueError):
+        return np.array([0.0, 0.0, -1.0]), 0.0
+    corners = points[hull.simplices]
+    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    normal = hull.equations[:, :3]
+    below = normal[:, 2] < -math.cos(_TILT_MOST)
+    if not below.any():
+        return np.array([0.0, 0.0, -1.0]), 0.0
+    normal, area = normal[below], area[below]
+    best, share = normal[int(area.argmax())], 0.0
+    for i in np.argsort(-area, kind="stable")[:12]:
+        same = normal @ normal[i] > _SAME_PLANE
+        if area[same].sum() > share:
+            share = float(area[same].sum())
+            mean = (area[same, None] * normal[same]).sum(axis=0)
+            best = mean / np.linalg.norm(mean)
+    return best, share / silhouette
+
+
+def _flat_area(triangles: Array, normal: Array) -> float:
+    """Share of the silhouette that faces of the mesh have in its outermost plane with a normal."""
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    double = np.linalg.norm(cross, axis=1)
+    depth = triangles @ normal
+    near = (depth.max() - depth.min(axis=1) < _NEAR) & (np.abs(cross @ normal) > _SAME_PLANE * double)
+    return float(0.5 * double[near].sum() / convex_outline(triangles.reshape(-1, 3)[:, :2]).area)
+
+
+def flat_share(triangles: Array) -> float:
+    """Share of the silhouette from above, 0..1, that the plane has on which the foot would come to rest."""
+    return _resting_plane(triangles)[1]
+
+
+def levelled(triangles: Array) -> tuple[Array, float]:
+    """A foot turned so that the plane it would rest on is level.
+
+    Args:
+        triangles: Triangles with z about up.
+
+    Returns:
+        The triangles, and the tilt in degrees that was taken out: 0 below 1 degree, or where no plane is large enough.
+    """
+    normal, share = _resting_plane(triangles)
+    tilt = math.acos(min(1.0, -float(normal[2])))
+    if share < _RESTS or tilt < _TILT_LEAST or _flat_area(triangles, normal) < _RESTS * share:
+        return triangles, 0.0
+    down = np.array([0.0, 0.0, -1.0])
+    axis = np.cross(normal, down)
+    axis /= np.linalg.norm(axis)
+    k = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+    turn = np.eye(3) + math.sin(tilt) * k + (1.0 - math.cos(tilt)) * k @ k
+    return np.asarray(triangles @ turn.T), math.degrees(tilt)
+
+
+def check_upright(triangles: Array, where: str) -> list[str]:
+    """Refuse a foot that lies on its side: one that could stand on a face much larger than what lies below.
+
+    Faces are compared by the hull of what lies near them: along the axes, and along the largest plane of the
+    convex hull. Faces above are left out, since a foot's deck may be larger than its sole.
+
+    Args:
+        triangles: Triangles in mm with z taken to point up.
+        where: Name of the file, for the message.
+
+    Returns:
+        A note where a side is about as large.
+
+    Raises:
+        FootError: If a face on a side is larger by half.
+    """
+    points = triangles.reshape(-1, 3)
+    if len(points) > _MANY:
+        _, first = np.unique(corner_numbers(points * (1e-3 / _COLUMN)), return_index=True)
+        points = points[first]
+    below = _face_area(points, _direction("-z"), _BAND)
+    sides = [(_face_area(points, -_direction(axis), _DEEP), f"{axis} up") for axis in AXES[:4]]
+    sides += [(_face_area(points, n, _DEEP), _SLANTED) for n in _largest_plane(points) if _is_face(triangles, n)]
+    area, which = max(sides, key=lambda side: round(side[0]))  # of equal ones an axis
+    if area > _SIDE * below:
+        raise FootError(
+            f"{where}: the foot seems to lie on its side: {0.01 * below:.0f} cm2 lie below, and {0.01 * area:.0f} cm2 "
+            f"on another side ({which}); give the axis that points up ({', '.join(AXES)}), or level the mesh"
+        )
+    if area > below:
+        return [
+            f"another side of the foot is as large as what lies below ({which}); look whether it stands as it should"
+        ]
+    return []
+
+
+def check_told(triangles: Array, where: str) -> list[str]:
+    """Refuse a foot without a plane to rest on whose upper side is a tilted plane: the foot is tilted with it.
+
+    Args:
+        triangles: Triangles in mm with z taken to point up.
+        where: Name of the file, for the message.
+
+    Returns:
+        Notes of what nothing tells: whether a rounded or padded sole is level, and whether the foot is upside down.
+
+    Raises:
+        FootError: If the upper side is tilted by 3 to 25 degrees.
+    """
+    below, share = _resting_plane(triangles)
+    if share < _RESTS or _flat_area(triangles, below) < _RESTS * share:
+        above, deck = _resting_plane(triangles * np.array([1.0, 1.0, -1.0]))
+        tilt = math.degrees(math.acos(min(1.0, -float(above[2]))))
+        if deck > _DECK and tilt > _DECK_TILT:
+            raise FootError(
+                f"{where}: the sole has no plane to be levelled by, and the upper side is tilted by {tilt:.1f} "
+                "degrees, as the foot seems to be; level the mesh, or give the axis that points up (--up z) to take it "
+                "as it stands"
+            )
+        return ["the sole has no plane to be levelled by: taken to be level as the mesh's axes are"]
+    points = triangles.reshape(-1, 3)
+    up = _face_area(points, _direction("z"), _DEEP)
+    if up > _EITHER * _face_area(points, _direction("-z"), _BAND):
+        return ["the foot could stand on its upper side as well: z is taken to point up (or give the axis that does)"]
+    return []
+
+
+def _is_face(triangles: Array, normal: Array) -> bool:
+    """Whether faces of the surface fill a plane of its hull by a share; over what juts out there are none."""
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    depth = triangles @ normal
+    near = (depth.max() - depth.min(axis=1) < _NEAR) & (cross @ normal > _SAME_PLANE * np.linalg.norm(cross, axis=1))
+    own = 0.5 * float(np.linalg.norm(cross[near], axis=1).sum())
+    return own > _RESTS * _face_area(triangles.reshape(-1, 3), normal, _DEEP)
+
+
+def _face_area(points: Array, outward: Array, deep: float) -> float:
+    """Area in mm^2 of the hull of what lies within so many mm of the farthest point in a direction."""
+    depth = points @ outward
+    near = points[depth > depth.max() - deep]
+    across = np.linalg.svd(outward[None])[2][1:]
+    return float(convex_outline(near @ across.T).area)
+
+
+def _largest_plane(points: Array) -> list[Array]:
+    """Outward normal (3,) of the largest plane of the convex hull that does not face upwards; none of a flat body."""
+    with optional_library("scipy", "shoes"):
+        from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        hull = ConvexHull(points)
+    except (QhullError, ValueError):
+        return []
+    normals = hull.equations[:, :3]
+    corners = points[hull.simplices]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area[normals[:, 2] > _UPWARD] = 0.0
+    likely = np.argsort(-area, kind="stable")[:12]
+    same = [float(area[normals @ normals[i] > _SAME_PLANE].sum()) for i in likely]
+    return [normals[likely[int(np.argmax(same))]]]
+
+
+def check_one_body(triangles: Array, where: str) -> None:
+    """Refuse a surface that shows two feet.
+
+    Args:
+        triangles: Triangles in mm with z up.
+        where: Name of the file, for the message.
+
+    Raises:
+        FootError: If seen from above it falls into two bodies of about a size.
+    """
+    import shapely
+
+    with optional_library("scipy", "shoes"):
+        from scipy.sparse import coo_array
+        from scipy.sparse.csgraph import connected_components
+
+    index = corner_numbers(triangles)
+    a, b, c = index.T
+    index = index.ravel()
+    links = coo_array((np.ones(2 * len(a)), (np.concatenate([a, b]), np.concatenate([b, c]))))
+    size = int(index.max()) + 1
+    links.resize(size, size)
+    count, label = connected_components(links, directed=False)
+    if not 2 <= count <= _MOST_PARTS:
+        return
+    flat = triangles.reshape(-1, 3)[:, :2]
+    order = np.argsort(label[index], kind="stable")
+    ends = np.cumsum(np.bincount(label[index], minlength=count))[:-1]
+    hulls = shapely.convex_hull([shapely.multipoints(flat[part]) for part in np.split(order, ends)])
+    bodies = shapely.union_all(shapely.buffer(hulls, 0.5 * _APART))
+    areas = sorted((g.area for g in getattr(bodies, "geoms", [bodies])), reverse=True)
+    if len(areas) > 1 and areas[1] > _SECOND * areas[0]:
+        raise FootError(
+            f"{where}: holds {sum(v > _SECOND * areas[0] for v in areas)} bodies apart from each other, "
+            "two feet maybe; give a file of one foot"
+        )
+
+
+def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list[str]]:
+    """A foot turned so that its length lies along x or y.
+
+    The outline's long axis tells about where it points, its symmetry exactly: the direction within 25 degrees of the
+    long axis about which the outline is most like its mirror image. A foot that points along an axis of the mesh, or is
+    about as much like its mirror image there, stays.
+
+    Args:
+        triangles: Triangles with z up.
+        where: Name of the file, for the message.
+
+    Returns:
+        The triangles, and a note where they were turned, or stand a little askew.
+
+    Raises:
+        FootError: If it is about as wide as long, and askew by so much that it could point along either axis.
+    """
+    import shapely
+
+    hull = convex_outline(triangles.reshape(-1, 3)[:, :2])
+    if hull.geom_type != "Polygon":
+        return triangles, []
+    hull = hull.simplify(0.3)
+    box = shapely.get_coordinates(shapely.minimum_rotated_rectangle(hull).exterior)
+    sides = np.diff(box, axis=0)[:2]
+    lengths = np.hypot(*sides.T)
+    square = lengths.max() < _LONGER * lengths.min()
+    along = sides[int(lengths.argmax())]
+    start = math.degrees(math.atan2(along[1], along[0]))
+    angles = start + np.arange(-25.0, 25.5, 0.5)
+    alike = [_likeness(hull, v) for v in angles]
+    best = float(angles[int(np.argmax(alike))])
+    off = (best + 45.0) % 90.0 - 45.0
+    if abs(off) < _TURN_TOLD or max(alike) - _likeness(hull, best - off) < _STRAIGHTER:
+        return triangles, []
+    if abs(off) < _TURN_LEAST:
+        return triangles, [
+            f"by its symmetry the foot points {off:.1f} degrees past an axis of the mesh: taken as it stands, since "
+            f"that is less than {_TURN_LEAST:g}; turn the mesh if it should not"
+        ]
+    if square and abs(off) > _TURN_SQUARE:
+        raise FootError(
+            f"{where}: the foot is about as wide as long and stands askew by {abs(off):.0f} degrees, so that nothing "
+            f"tells where it points; turn the mesh, or give the forward axis ({', '.join(AXES[:4])}) to take it as it "
+            "stands"
+        )
+    c, s = math.cos(math.radians(-off)), math.sin(math.radians(-off))
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    note = f"the foot points {off:.1f} degrees past an axis of the mesh, by its symmetry: turned back by that"
+    return np.asarray(triangles @ turn.T), [note]
+
+
+def _likeness(outline: Any, degrees: float) -> float:
+    """Share of an outline, 0..1, that is covered by its mirror image about a line through its middle."""
+    import shapely
+
+    level = shapely.affinity.rotate(outline, -degrees, origin="centroid")
+    image = shapely.affinity.scale(level, 1.0, -1.0, origin="centroid")
+    return float(level.intersection(image).area / level.union(image).area)
+
+
+def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
+    """Which horizontal axis points to the toes: that along which the foot is longer, away from the ankle.
+
+    The ankle is nearer to the heel. It is the mesh's origin where that lies within the foot, and the middle of a block
+    on top of it. A foot whose ankle is about in its middle points along x, as usual, or y.
+
+    Args:
+        triangles: Triangles with z up.
+        where: Name of the file, for the message.
+
+    Returns:
+        The axis, and a note on how it was found.
+
+    Raises:
+        FootError: If origin and block tell opposite directions.
+    """
+    points = triangles.reshape(-1, 3)
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = high - low
+    i = 1 if size[1] > _LONGER * size[0] else 0
+    name = "xy"[i]
+    middle = 0.5 * (low + high)
+    told: list[tuple[float, str]] = []
+    if (low[:2] <= 0.0).all() and (high[:2] >= 0.0).all():
+        told.append((float(middle[i] / size[i]), "origin"))
+    upper = points[points[:, 2] > high[2] - 0.15 * size[2], i]
+    if upper.max() - upper.min() < _BLOCK * size[i]:
+        told.append((float((middle[i] - 0.5 * (upper.max() + upper.min())) / size[i]), "uppermost part"))
+    told = [(share, what) for share, what in told if abs(share) > _CLEAR]
+    how = f"the foot is longer along {name}" if i else f"{name} points to the toes, as usual"
+    if not told:
+        return ("y", f"{how}, taken to point to the toes (or give the forward axis)") if i else ("x", how)
+    if len({share > 0.0 for share, _ in told}) > 1:
+        raise FootError(
+            f"{where}: origin and uppermost part lie near opposite ends of the foot; give the forward axis "
+            f"({', '.join(AXES[:4])})"
+        )
+    axis: Axis = ("x", "y")[i] if told[0][0] > 0.0 else ("-x", "-y")[i]
+    if axis == "x":
+        return "x", how
+    what = " and ".join(what for _, what in told)
+    verb = "lie" if len(told) > 1 else "lies"
+    return axis, f"the foot is longer along {name}, and its {what} {verb} nearer to the heel: {axis} points to the toes"

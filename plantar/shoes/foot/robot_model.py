@@ -1,0 +1,126 @@
+"""The outer geometry of a robot's foot, and the robot's mass, from its model: MJCF or URDF."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from plantar.shoes.foot.model_source import FARTHEST, BodyPlace, read_model_source
+
+__all__ = ["MODEL_FORMATS", "BodyGeometry", "read_foot_body", "side_of_name"]
+
+MODEL_FORMATS: tuple[str, ...] = (".xml", ".mjcf", ".urdf")
+"""File endings of robot models that are read."""
+
+_SHOWN = 14  # names in a message
+_WORDS = ("foot|feet|sole", "ank", "toe")  # in names of bodies that are a foot, or hold one
+_MOST_SHAPES = 200  # of a foot's body
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class BodyGeometry:
+    """The surface of a body, its frame's origin at the origin and turned as in the model's zero pose.
+
+    Attributes:
+        triangles: Triangles (n, 3, 3) in m, z up.
+        side: Side that the body's name tells, None where it does not.
+        mass: Mass of the robot in kg, None where it cannot be told.
+        notes: What was read.
+    """
+
+    triangles: Array
+    side: Literal["left", "right"] | None
+    mass: float | None
+    notes: tuple[str, ...]
+
+
+def side_of_name(name: str) -> Literal["left", "right"] | None:
+    """Side that a body's name tells.
+
+    Example:
+        >>> side_of_name("leg_left_6_link"), side_of_name("R_ANKLE_P_S"), side_of_name("LeftFoot"), side_of_name("sole")
+        ('left', 'right', 'left', None)
+    """
+    words = [w.lower() for w in re.findall(r"[A-Z]?[a-z]+|[A-Z]+|\d+", name)]
+    left, right = (s in words or name.lower().startswith(s) for s in ("left", "right"))
+    if left == right:
+        left, right = "l" in words, "r" in words
+    if left == right:
+        return None
+    return "left" if left else "right"
+
+
+def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeometry:
+    """Read the geometry of a robot's foot, and the robot's mass, from its model.
+
+    Classes, includes, frames, attached models and angles are MuJoCo's to read. What is drawn is taken (visual
+    geometry), or what collides where nothing is drawn. Bodies fixed to it count as part of it.
+
+    Args:
+        path: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file; meshes are looked for as the model says.
+        body: Name of the foot's body or link.
+
+    Returns:
+        The geometry.
+
+    Raises:
+        FootError: If the file or one of its meshes cannot be read, or there is no such body, or it has no geometry.
+        DependencyError: If MuJoCo is not installed.
+    """
+    source = read_model_source(Path(path))
+    bodies = source.bodies()
+    if body is None or body not in bodies:
+        what = "name the foot's body (--body)" if body is None else f"there is no body '{body}'"
+        raise FootError(f"{source.file}: {what}; allowed: {_names_shown(bodies, body or '')}")
+    where = f"{source.file}: body '{body}'"
+    drawn, colliding = source.shapes(body, _MOST_SHAPES)
+    shapes = drawn or colliding
+    if not shapes:
+        raise FootError(f"{where} has no geometry; name the body that has the foot's: {_names_shown(bodies, body)}")
+    triangles = _together(shapes, where)
+    mass, note = source.mass(body)
+    told = f"body '{body}': {len(shapes)} {'drawn' if drawn else 'colliding'} shape(s), in m as models are"
+    return BodyGeometry(triangles, side_of_name(body), mass, (told, note))
+
+
+def _names_shown(bodies: dict[str, BodyPlace], wanted: str) -> str:
+    """The bodies that are most like the wanted one and like feet, for a message."""
+    likely = _like_feet(bodies, wanted)
+    return (", ".join(likely[:_SHOWN]) + (", ..." if len(likely) > _SHOWN else "")) or "there is none"
+
+
+def _like_feet(bodies: dict[str, BodyPlace], wanted: str) -> list[str]:
+    """Names of bodies with a shape, those most like a foot first: like the name that was asked for, then low ends."""
+    shaped = [name for name, body in bodies.items() if body.shaped and name]
+    alike = get_close_matches(wanted, shaped, 4, 0.75)
+    called = {name: _called_foot(name) for name in shaped}
+    named = [name for name in shaped if called[name] < len(_WORDS)]
+
+    def rank(name: str) -> tuple[int, bool, float, int]:
+        body = bodies[name]
+        return called[name], body.carries, round(body.height, 2), -body.depth
+
+    return [*alike, *(name for name in sorted(named or shaped, key=rank) if name not in alike)]
+
+
+def _called_foot(name: str) -> int:
+    """Place of the first of the words for a foot that are in a name."""
+    return next((i for i, words in enumerate(_WORDS) if re.search(words, name, re.IGNORECASE)), len(_WORDS))
+
+
+def _together(shapes: list[Array], where: str) -> Array:
+    """Triangles of all shapes."""
+    triangles = np.concatenate(shapes)
+    if not (np.abs(triangles) < FARTHEST).all():
+        raise FootError(f"{where} reaches farther than {FARTHEST:g} m")
+    return triangles

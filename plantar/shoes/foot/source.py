@@ -1,0 +1,149 @@
+"""Where a foot comes from: a mesh, a robot's model, a drawing, a built-in robot, or the sizes of a box."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, cast
+
+from plantar.errors import FootError, InputError, RobotError
+from plantar.files.input_file import check_input
+from plantar.files.structured_text import packaged_files, read_toml
+from plantar.shoes.foot.foot import Foot, foot_from_dimensions
+from plantar.shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
+from plantar.shoes.foot.mesh_file import MESH_FORMATS
+from plantar.shoes.foot.outline_file import OUTLINE_FORMATS, foot_from_drawing
+from plantar.shoes.foot.robot_model import MODEL_FORMATS, read_foot_body
+from plantar.shoes.order import FootSource
+from plantar.sides import SIDES
+
+__all__ = ["foot_of_robot", "read_foot"]
+
+_ALLOWED = {
+    "mesh_side": SIDES,
+    "unit": ("m", "cm", "mm", "in"),
+    "up": ("x", "-x", "y", "-y", "z", "-z"),
+    "forward": ("x", "-x", "y", "-y"),
+}
+
+
+def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None]:
+    """Read the foot from where it comes.
+
+    Args:
+        source: One source, and how its file is to be read.
+        sole_band: Height of the lowest part of a mesh that is its sole, in mm.
+
+    Returns:
+        The left foot, and the number of taxels that a robot's file asks for; None where nobody does.
+
+    Raises:
+        InputError: If it is not one source, or an option is none of those allowed; the message names the option as the
+            command line does.
+        FootError: If what a file holds is no foot.
+        RobotError: If a robot's file cannot be used.
+
+    Example:
+        >>> foot, taxels = read_foot(FootSource(dimensions="240x95"), sole_band=5.0)
+        >>> foot.name, taxels
+        ('foot', None)
+    """
+    if sum(v is not None for v in (source.file, source.robot, source.dimensions)) != 1:
+        raise InputError(
+            "give one of: a file of the foot (plantar shoe FOOT.stl), --robot NAME, or --dimensions LENGTHxWIDTH"
+        )
+    for name, allowed in _ALLOWED.items():
+        value = getattr(source, name)
+        if value is not None and value not in allowed:
+            raise InputError(f"--{name.replace('_', '-')} is '{value}'; allowed: {', '.join(allowed)}")
+    if source.file is None:
+        for name in ("body", "sole_z", "up", "forward", "unit", "mesh_side"):
+            if getattr(source, name) is not None:
+                given = "--robot" if source.robot is not None else "--dimensions"
+                raise InputError(f"--{name.replace('_', '-')} is for a file of the foot; {given} needs none")
+    if source.robot is not None:
+        return foot_of_robot(source.robot)
+    if source.dimensions is not None:
+        return _box_foot(source.dimensions), None
+    return _foot_of_file(cast(Path, source.file), source, sole_band), None
+
+
+def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
+    """The foot of a mesh, a robot's model or a drawing, by the file's ending."""
+    kind = path.suffix.lower()
+    if kind not in (*MESH_FORMATS, *MODEL_FORMATS, *OUTLINE_FORMATS):
+        check_input(path, FootError)  # a wrong path is told as such, whatever it ends in
+        meshes, models, outlines = (", ".join(kinds) for kinds in (MESH_FORMATS, MODEL_FORMATS, OUTLINE_FORMATS))
+        raise FootError(
+            f"{path}: a foot is not read from '{kind or path.name}'; allowed: a mesh ({meshes}), a robot's model with "
+            f"--body ({models}), the outline of a sole ({outlines})"
+        )
+    side = cast(Any, source.mesh_side or "left")
+    options: dict[str, Any] = {"unit": source.unit, "forward": source.forward}
+    if kind in OUTLINE_FORMATS:
+        for option, value in (("--body", source.body), ("--sole-z", source.sole_z), ("--up", source.up)):
+            if value is not None:
+                raise InputError(f"{option} is for meshes and models; {path} is the outline of a sole")
+        return foot_from_drawing(path, mesh_side=side, **options)
+    options |= {"up": source.up, "sole_z": source.sole_z, "sole_band": sole_band}
+    if kind in MODEL_FORMATS:
+        found = read_foot_body(path, source.body)
+        side = cast(Any, source.mesh_side or found.side or "left")
+        where = f"{path}, body '{source.body}'"
+        foot = foot_from_triangles(path.stem, found.triangles, where=where, file_unit="m", mesh_side=side, **options)
+        return replace(foot, mass=found.mass, notes=(*found.notes, *foot.notes))
+    if source.body is not None:
+        raise InputError(f"--body is for a robot's model ({', '.join(MODEL_FORMATS)}); {path} is none")
+    return foot_from_mesh(path, mesh_side=side, **options)
+
+
+def _box_foot(text: str) -> Foot:
+    """The foot of --dimensions LxW or LxWxR in mm."""
+    try:
+        values = [float(v) / 1000.0 for v in text.lower().split("x")]
+    except ValueError:
+        values = []
+    if len(values) not in (2, 3):
+        raise InputError(f"--dimensions is '{text}'; allowed: LENGTHxWIDTH or LENGTHxWIDTHxRADIUS in mm, as 241x138x20")
+    if 0.0 < values[0] < values[1]:
+        raise InputError(f"--dimensions is '{text}', wider than long; allowed: LENGTHxWIDTH in mm, as 241x138")
+    radius = values[2] if len(values) == 3 else min(0.010, 0.25 * abs(values[1]))
+    return foot_from_dimensions("foot", length=values[0], width=values[1], corner_radius=radius)
+
+
+def foot_of_robot(name: str) -> tuple[Foot, int | None]:
+    """The foot of a built-in robot; its file is read where the simulator keeps it, which is not loaded.
+
+    Args:
+        name: The robot, for example "h1".
+
+    Returns:
+        The left foot, and the number of taxels that the robot's file asks for; None where it asks for none.
+
+    Raises:
+        InputError: If there is no such robot; the message names those that are there.
+        RobotError: If its file cannot be used.
+
+    Example:
+        >>> foot_of_robot("h1")[1]
+        42
+    """
+    files = {path.parent.name: path for path in packaged_files("plantar.sim", "robots/*/robot.toml")}
+    if name not in files:
+        raise InputError(f"unknown robot '{name}'; allowed: {', '.join(sorted(files))}")
+    try:
+        source = read_toml(files[name], RobotError, f"robot file {files[name]}")
+        facts = source["foot"]
+        mass = source.get("biped", {}).get("total_mass")
+        foot = foot_from_dimensions(
+            name,
+            length=float(facts["foot_length"]),
+            width=float(facts["foot_width"]),
+            sole_center=(float(facts["sole_center"][0]), float(facts["sole_center"][1])),
+            corner_radius=float(facts["corner_radius"]),
+            mass=None if mass is None else float(mass),
+        )
+        taxels = facts.get("taxels")
+    except (ValueError, LookupError, TypeError) as error:
+        raise RobotError(f"{files[name]}: table [foot] cannot be used ({error!r})") from None
+    return foot, None if taxels is None else int(taxels)

@@ -1,0 +1,138 @@
+"""Shoes for a foot that was found in a robot's model: its surface stands in the sole's frame already."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError, PlantarError
+from plantar.gravity import GRAVITY
+from plantar.shoes.build import Progress, ShoeBuild, build_shoe
+from plantar.shoes.foot.foot import Foot, foot_from_outline
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.geometry.outline import tidy
+from plantar.shoes.papers.export import export_shoe
+from plantar.shoes.units import MM_PER_M, to_m
+from plantar.sides import SIDES
+
+__all__ = ["TAXELS", "FoundShoes", "shoe_for_surface", "taxel_area"]
+
+TAXELS = 42
+"""Taxels of the papers' soles, which a smaller sole has, too: what they tell depends on how many there are."""
+
+_THRESHOLD = 0.146  # of the mean load of a taxel of a standing robot: 0.15 kg of the papers' 86 kg over two soles of 42
+_AREAS = (100.0, 691.0)  # mm^2 of a taxel: what can be made, and what the papers have
+
+
+@dataclass(frozen=True)
+class FoundShoes:
+    """What is to be known of the shoes that were built.
+
+    Attributes:
+        thickness: Outer contact face below the bare sole in m.
+        mass: Mass of one in kg; None where the printable part was not built.
+        notes: What was found, assumed and decided, checks that do not hold among it.
+    """
+
+    thickness: float
+    mass: float | None
+    notes: tuple[str, ...]
+
+
+def taxel_area(area: float) -> float:
+    """Area of a taxel for a sole: so that it has as many as the papers' soles, and none is larger than theirs.
+
+    Args:
+        area: Area of the sole in mm^2.
+
+    Returns:
+        Area of a taxel in mm^2.
+
+    Example:
+        >>> taxel_area(27_791.0), taxel_area(9_900.0), taxel_area(900.0)
+        (662.0, 236.0, 100.0)
+    """
+    least, most = _AREAS
+    return float(np.clip(round(area / TAXELS), least, most))
+
+
+def shoe_for_surface(
+    name: str,
+    triangles: NDArray[np.float64],
+    folder: Path,
+    mass: float,
+    *,
+    solid: bool = False,
+    progress: Progress | None = None,
+) -> FoundShoes:
+    """Build and write the shoes of a left foot whose surface stands in the frame of its sole.
+
+    The layouts are written into the folder itself, printable parts and papers into its folder "shoe".
+
+    Args:
+        name: Name of the robot.
+        triangles: Surface (n, 3, 3) of the left foot in m: x forward, y left, z up, the sole plane at z = 0, the origin
+            below the ankle.
+        folder: An existing folder.
+        mass: Mass of the robot in kg.
+        solid: Whether the printable part is built, too; where it cannot be, the layouts are.
+        progress: Receives fraction and text.
+
+    Returns:
+        What was made of it.
+
+    Raises:
+        FootError: If the foot cannot carry taxels.
+    """
+    foot = replace(_foot(name, triangles), mass=mass)
+    area = taxel_area(foot.sole.area)
+    build = _felt(build_shoe(foot, cell_area=area, layout_only=True), mass)
+    weight, notes = None, build.notes
+    if solid:
+        try:
+            build = _felt(build_shoe(foot, cell_area=area, progress=progress), mass)
+            (folder / "shoe").mkdir()
+            report = export_shoe(build, folder / "shoe").as_dict()
+            weight = 1e-3 * float(report["worn_mass_g"])
+            notes = build.notes if report["holds"] else (*build.notes, "a check of the printed shoe does not hold")
+        except PlantarError as error:
+            notes = (*notes, f"no printable part, only the layouts: {error}")
+    if weight is None:
+        export_shoe(build, folder)
+    else:
+        for side in SIDES:
+            (folder / "shoe" / f"layout_{side}.json").replace(folder / f"layout_{side}.json")
+    level = build.shoes[0].layout.force_threshold
+    told = (f"{len(build.shoes[0].layout)} taxels of {area:g} mm^2, each active from {level:.2g} N on", *notes)
+    return FoundShoes(to_m(build.parameters.thickness), weight, told)
+
+
+def _felt(build: ShoeBuild, mass: float) -> ShoeBuild:
+    """Shoes whose taxels are active from so much on as suits the robot's mass in kg; none is less sensitive for it."""
+    shoes = []
+    for shoe in build.shoes:
+        layout = shoe.layout
+        wanted = _THRESHOLD * 0.5 * mass * GRAVITY / len(layout)
+        level = float(f"{min(layout.force_threshold, wanted):.2g}")
+        kept = replace(layout, thresholds={**layout.thresholds, "force": level})
+        shoes.append(replace(shoe, plan=replace(shoe.plan, layout=kept)))
+    return replace(build, shoes=tuple(shoes))
+
+
+def _foot(name: str, triangles: NDArray[np.float64]) -> Foot:
+    """The foot of a surface; where that is none, one with upright sides on the hull of its lowest band."""
+    try:
+        return foot_from_triangles(name, triangles, where=name, file_unit="m", up="z", forward="x", sole_z=0.0)
+    except FootError as error:
+        import shapely
+
+        points = triangles.reshape(-1, 3) * MM_PER_M
+        lowest = points[points[:, 2] <= 5.0][:, :2]
+        hull = shapely.MultiPoint(lowest).convex_hull
+        if not math.isfinite(hull.area) or hull.geom_type != "Polygon":
+            raise
+        return foot_from_outline(name, tidy(hull), (f"hull of the lowest 5 mm, because: {error}",))

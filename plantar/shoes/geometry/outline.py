@@ -1,0 +1,270 @@
+"""Outlines in the sole plane, in mm: of the lowest part of a foot, of a rounded rectangle, and their repair.
+
+Polygons are shapely polygons, counter-clockwise, without holes, on a grid of 1 micrometre.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from plantar.shoes.geometry.surface import convex_outline, covered_area
+
+__all__ = [
+    "CORNER",
+    "GRID",
+    "apart",
+    "cut_below",
+    "flush",
+    "grown",
+    "outline_below",
+    "outline_of",
+    "ring",
+    "rounded_rectangle",
+    "single_outline",
+    "tidy",
+    "touching",
+]
+
+GRID = 1e-3
+"""Grid in mm that polygon corners lie on."""
+CORNER = 1.2
+"""How much farther than its edges the corner of a grown outline may lie."""
+_SIMPLIFY = 0.04  # mm of detail that is dropped; less than what the gap between foot and wall may lack
+_GROOVE = 10.0  # mm: half the width of a groove that is bridged
+_NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline
+_HAIR = 0.05  # mm: half the width of what lies between two outlines and is left out
+_LEAST = 0.02  # mm between two corners
+_EXACT = 1e-9  # mm: what lies nearer to a line lies on it
+
+
+def tidy(polygon: Any) -> Any:
+    """A polygon on the grid, counter-clockwise and without repeated or collinear points.
+
+    Args:
+        polygon: A shapely polygon in mm; of several parts the largest is taken, holes are filled.
+
+    Returns:
+        The shapely polygon.
+    """
+    import shapely
+
+    shape = shapely.set_precision(polygon, GRID)
+    parts = [p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon" and not p.is_empty]
+    if not parts:
+        raise FootError("the outline has no area")
+    largest = max(parts, key=lambda p: p.area)
+    return shapely.geometry.polygon.orient(shapely.Polygon(largest.exterior).simplify(0.5 * GRID))
+
+
+def grown(shape: Any, distance: float) -> Any:
+    """A shape with its edges moved outwards: gentle corners stay one point, sharp ones are bevelled.
+
+    Args:
+        shape: Shapely polygon or multipolygon.
+        distance: How far, in mm, 0 or more; a corner moves at most CORNER times as far.
+
+    Returns:
+        The grown shape.
+    """
+    return shape.buffer(distance, join_style="mitre", mitre_limit=CORNER - 0.05) if distance > 0.0 else shape
+
+
+def ring(polygon: Any) -> NDArray[np.float64]:
+    """Corners (k, 2) of a polygon in mm, counter-clockwise, without the repeated last point."""
+    corners = np.array(polygon.exterior.coords, dtype=float)[:-1, :2]
+    return corners if polygon.exterior.is_ccw else corners[::-1].copy()
+
+
+def apart(outer: Any, inner: Any) -> Any:
+    """What an outline has beyond another, without what is a hair wide; a hair more all around.
+
+    Args:
+        outer: A shapely polygon in mm.
+        inner: One that it takes in.
+
+    Returns:
+        A shapely geometry, empty where the two are about the same.
+    """
+    return outer.difference(inner).buffer(-_HAIR).buffer(2.0 * _HAIR, quad_segs=1)
+
+
+def flush(outer: Any, inner: Any) -> Any:
+    """An outline that takes in another, and is the very same wherever both are about the same.
+
+    Walls that run along each other a hair apart, or meet a hair beside a corner, give faces and edges of no width,
+    which the CAD kernel loses. Where the two part the result lies on no grid: there they would part a hair elsewhere.
+
+    Args:
+        outer: A shapely polygon in mm without holes.
+        inner: One that it takes in.
+
+    Returns:
+        The shapely polygon, counter-clockwise, with the inner one's corners where it follows it.
+
+    Example:
+        >>> import shapely
+        >>> flush(shapely.box(-0.01, 0.0, 9.0, 4.0), shapely.box(0.0, 0.0, 5.0, 4.0)).bounds
+        (0.0, 0.0, 9.0, 4.0)
+    """
+    import shapely
+
+    joined = inner.union(apart(outer, inner).intersection(outer))
+    largest = max(getattr(joined, "geoms", [joined]), key=lambda g: float(g.area))
+    points = ring(shapely.geometry.polygon.orient(shapely.Polygon(largest.exterior)))
+    corners = set(map(tuple, ring(inner).tolist()))
+    beside = inner.exterior.distance(shapely.points(points))
+    points, along = (v[(beside < _EXACT) | (beside > _LEAST)] for v in (points, beside < _EXACT))
+    # Of two corners that are nearly one the inner outline's stays, or else what lies on its edge.
+    rank = [2 if tuple(p) in corners else int(on) for p, on in zip(points.tolist(), along, strict=True)]
+    kept: list[int] = []
+    for i in range(len(points)):
+        while kept and math.dist(points[i], points[kept[-1]]) < _LEAST and rank[kept[-1]] < rank[i]:
+            kept.pop()
+        if not kept or rank[i] == 2 or math.dist(points[i], points[kept[-1]]) >= _LEAST:
+            kept.append(i)
+    if math.dist(points[kept[0]], points[kept[-1]]) < _LEAST and min(rank[kept[0]], rank[kept[-1]]) < 2:
+        kept.pop(0 if rank[kept[0]] < rank[kept[-1]] else -1)
+    return shapely.Polygon(points[kept])
+
+
+def rounded_rectangle(length: float, width: float, centre: tuple[float, float], radius: float) -> Any:
+    """A rectangle with rounded corners.
+
+    Args:
+        length: Extent along x in mm.
+        width: Extent along y in mm.
+        centre: Middle (x, y) in mm.
+        radius: Corner radius in mm, 0 up to half the shorter extent.
+
+    Returns:
+        The shapely polygon.
+
+    Example:
+        >>> rounded_rectangle(200.0, 100.0, (20.0, 0.0), 10.0).bounds
+        (-80.0, -50.0, 120.0, 50.0)
+    """
+    import shapely
+
+    x, y = centre
+    a, b = 0.5 * length - radius, 0.5 * width - radius
+    core = shapely.LineString([(x - a, y), (x + a, y)]) if b <= 0.0 < a else shapely.box(x - a, y - b, x + a, y + b)
+    return tidy(core.buffer(radius, quad_segs=8) if radius > 0.0 else core)
+
+
+def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
+    """Outline of what a surface has below a height, seen from above.
+
+    Args:
+        triangles: Triangles (n, 3, 3) in mm with the sole plane at z = 0.
+        height: Height in mm; triangles that cross it are cut there.
+
+    Returns:
+        One shapely polygon in mm, see `single_outline`.
+
+    Raises:
+        FootError: If nothing with an area lies below the height.
+    """
+
+    return outline_of(cut_below(triangles, height), height)
+
+
+def outline_of(below: NDArray[np.float64], height: float) -> Any:
+    """Outline of the lowest part of a surface.
+
+    Args:
+        below: Triangles (n, 3, 3) in mm: what lies below the height.
+        height: The height in mm, for messages.
+
+    Returns:
+        One shapely polygon in mm, see `single_outline`.
+
+    Raises:
+        FootError: If it has no area.
+    """
+    if len(below) == 0:
+        raise FootError(f"the mesh has no surface in its lowest {height:g} mm")
+    points = convex_outline(below.reshape(-1, 3)[:, :2])
+    if points.geom_type != "Polygon" or points.area < 1.0:
+        raise FootError(f"the lowest {height:g} mm of the mesh have no area: a point or an edge is no sole")
+    # Vertical walls project to lines: they count in the hull, not in the union.
+    return single_outline(_projected(below), points)
+
+
+def touching(triangles: NDArray[np.float64], height: float) -> Any:
+    """What a surface covers of the floor with its part below a height: a shapely polygon, multipolygon, or empty.
+
+    Args:
+        triangles: Triangles (n, 3, 3) in mm with the sole plane at z = 0.
+        height: Height in mm.
+
+    Returns:
+        The area, which may be in parts and have holes.
+    """
+    return _projected(cut_below(triangles, height))
+
+
+def _projected(triangles: NDArray[np.float64]) -> Any:
+    """Union of triangles seen from above."""
+    import shapely
+
+    return shapely.set_precision(covered_area(triangles[..., :2]), GRID)  # which closes hairline gaps
+
+
+def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
+    """One sensible outline of a sole that may touch in patches or have grooves and holes.
+
+    Several patches, or a shape that nearly fills its convex hull, give the hull; one patch with a marked waist or
+    notch keeps it, with holes filled and grooves bridged.
+
+    Args:
+        union: The touching area: a shapely polygon or multipolygon in mm, possibly empty.
+        hull: Its convex hull.
+        detail: Detail in mm that may be dropped.
+
+    Returns:
+        The shapely polygon.
+    """
+    import shapely
+
+    filled = shapely.union_all([shapely.Polygon(p.exterior) for p in getattr(union, "geoms", [union]) if p.area > 1.0])
+    bridged = filled.buffer(_GROOVE).buffer(-_GROOVE)
+    one_patch = bridged.geom_type == "Polygon" and not bridged.is_empty
+    if not one_patch or bridged.area >= _NEARLY_CONVEX * hull.area:
+        return tidy(hull.simplify(detail).convex_hull)
+    return tidy(shapely.Polygon(bridged.exterior).simplify(detail))
+
+
+def cut_below(triangles: NDArray[np.float64], height: float) -> NDArray[np.float64]:
+    """Parts of a surface at or below a height.
+
+    Args:
+        triangles: Triangles (n, 3, 3) in mm.
+        height: Height z in mm.
+
+    Returns:
+        Triangles (m, 3, 3); those that cross the height are cut there.
+    """
+    z = triangles[..., 2]
+    inside = z <= height
+    count = inside.sum(axis=1)
+    out = [triangles[count == 3]]
+    for kept in (1, 2):
+        chosen = triangles[count == kept]
+        if not len(chosen):
+            continue
+        # Turn each triangle so that its odd corner comes first.
+        odd = np.argmax(inside[count == kept] == (kept == 1), axis=1)
+        turned = chosen[np.arange(len(chosen))[:, None], (odd[:, None] + np.arange(3)) % 3]
+        a, b, c = turned[:, 0], turned[:, 1], turned[:, 2]
+        ab = a + ((height - a[:, 2]) / (b[:, 2] - a[:, 2]))[:, None] * (b - a)
+        ac = a + ((height - a[:, 2]) / (c[:, 2] - a[:, 2]))[:, None] * (c - a)
+        if kept == 1:
+            out.append(np.stack([a, ab, ac], axis=1))
+        else:
+            out += [np.stack([ab, b, c], axis=1), np.stack([ab, c, ac], axis=1)]
+    return np.concatenate(out)

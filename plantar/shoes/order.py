@@ -1,0 +1,75 @@
+"""What a user asks for: the options of a shoe, with what each means; light, so that a help needs no geometry."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+__all__ = ["FootSource", "ShoeOrder"]
+
+
+def _option(default: Any, text: str, metavar: str | None = None) -> Any:
+    return field(default=default, metadata={"help": text, "metavar": metavar})
+
+
+@dataclass(frozen=True)
+class FootSource:
+    """Where the foot comes from: a file, a built-in robot or dimensions; the rest says how a file is to be read.
+
+    `plantar.shoes.foot.source.read_foot` checks and reads it. None leaves the choice to what is found.
+
+    Example:
+        >>> FootSource(robot="h1").file is None
+        True
+    """
+
+    file: Path | None = None
+    robot: str | None = _option(None, "A built-in robot instead of a file, for example h1.")
+    body: str | None = _option(None, "Name of the foot's body or link in a robot's model.")
+    dimensions: str | None = _option(
+        None, "Length, width and corner radius of a box instead of a file, in mm.", metavar="LxW[xR]"
+    )
+    mesh_side: str | None = _option(
+        None, "Which foot the file shows: left or right. Default: by the body's name, or left."
+    )
+    unit: str | None = _option(None, "Unit of the file: m, cm, mm, in. Default: from its size.")
+    up: str | None = _option(None, "Axis that points up: x, -x, y, -y, z, -z. Default: found.")
+    forward: str | None = _option(None, "Axis to the toes: x, -x, y, -y. Default: found.")
+    sole_z: float | None = _option(None, "Height of the sole plane in the mesh, in mm. Default: its lowest point.")
+
+
+@dataclass(frozen=True)
+class ShoeOrder:
+    """What is built for the foot; `plantar.shoes.ordered.build_ordered` checks it.
+
+    Example:
+        >>> ShoeOrder().cell_area
+        691.0
+    """
+
+    side: str = _option("both", "left, right or both; the right shoe mirrors the left.")
+    cell_area: float = _option(691.0, "Area of one taxel in mm^2, as the papers give it.")
+    taxels: int | None = _option(
+        None, "Number of taxels; may reach beyond the sole as far as needed. Default: as many as fit."
+    )
+    overhang: float = _option(0.0, "How far taxels may reach beyond the sole, in mm.")
+    rim: str | None = _option(
+        None,
+        "Cells along the edge: whole, or fine for a row of smaller ones and a blind rim of 12 mm at most. "
+        "Default: whole; of an insole fine.",
+    )
+    cell: str | None = _option(
+        None,
+        "Other cells: hex, square, fsr_402, sheet, or a TOML file of the cell's body (docs/shoes.md). "
+        "Default: hexagons of --cell-area.",
+        metavar="CELL",
+    )
+    name: str | None = _option(None, "Name of the shoe. Default: that of the file or robot.")
+    insole: float | None = _option(
+        None,
+        "Make a flat insole for a person's foot instead of a shoe, so thick in mm (4 to 15), pad included.",
+        metavar="MM",
+    )
+    coupon: bool = _option(False, "Only a print to try the fit of one cell and one clip or lug, in the same sizes.")
+    layout_only: bool = _option(False, "Write only the layouts (under 2 s).")

@@ -1,0 +1,121 @@
+"""What an order asks for: a shoe or an insole, built, or its coupons."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+
+from plantar.errors import InputError
+from plantar.shoes.build import Progress, ShoeBuild, build_shoe
+from plantar.shoes.cells.cell import Cell
+from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.coupon import build_coupons, write_coupons
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.insole import build_insole
+from plantar.shoes.order import ShoeOrder
+from plantar.shoes.parameters import ShoeParameters
+
+__all__ = ["build_ordered", "coupons_text", "ordered_cell", "write_ordered_coupons"]
+
+
+def build_ordered(
+    foot: Foot,
+    order: ShoeOrder,
+    parameters: ShoeParameters,
+    taxels: int | None = None,
+    progress: Progress | None = None,
+) -> ShoeBuild:
+    """Build the shoe or the insole of an order; of one that asks for coupons, only the layouts.
+
+    Args:
+        foot: The left foot.
+        order: What is wanted.
+        parameters: Dimensions.
+        taxels: Number of taxels that the foot's robot asks for; None where it asks for none.
+        progress: Receives fraction and text.
+
+    Returns:
+        The build.
+
+    Raises:
+        InputError: If the order contradicts itself.
+        FootError: If the foot cannot carry the taxels.
+    """
+    light = order.layout_only or order.coupon
+    common: dict[str, Any] = {"side": order.side, "cell_area": order.cell_area, "name": order.name}
+    common["cell"] = ordered_cell(order)
+    common |= {"parameters": parameters, "layout_only": light, "progress": progress}
+    if order.coupon and order.layout_only:
+        raise InputError("--coupon writes prints, --layout-only none; give one of them")
+    if order.coupon and order.side == "right":
+        raise InputError("a coupon is a piece of the left shoe, whose mirror image the right one is; leave --side out")
+    if order.insole is None:
+        rim = order.rim or "whole"
+        wanted = order.taxels if order.taxels is not None or rim == "fine" or order.cell is not None else taxels
+        return build_shoe(foot, taxels=wanted, overhang=order.overhang, rim=cast(Any, rim), **common)
+    if order.taxels is not None or order.overhang > 0.0:
+        raise InputError("an insole takes the taxels that fit in the foot's outline; leave out --taxels, --overhang")
+    return build_insole(foot, order.insole, rim=cast(Any, order.rim or "fine"), **common)
+
+
+def ordered_cell(order: ShoeOrder) -> Cell | None:
+    """The cell that an order names.
+
+    Args:
+        order: What is wanted.
+
+    Returns:
+        The cell; None for hexagons of skin.
+
+    Raises:
+        InputError: If there is no such cell, or the order contradicts itself.
+    """
+    if order.cell is None:
+        return None
+    if order.rim == "fine":
+        raise InputError("a fine rim is made of skin; with --cell leave --rim out, or give --rim whole")
+    if order.cell_area != ShoeOrder().cell_area:
+        raise InputError("--cell states how large a cell is; leave --cell-area out")
+    return read_cell(order.cell)
+
+
+def write_ordered_coupons(build: ShoeBuild, folder: Path, progress: Progress | None = None) -> dict[str, Any]:
+    """Build and write the coupons of a build; gives names, what each is for, sizes in mm, and the files.
+
+    Args:
+        build: The left shoe or insole, or a pair.
+        folder: An existing folder.
+        progress: Receives fraction and text.
+
+    Returns:
+        Plain JSON values.
+    """
+    coupons = build_coupons(build, progress=progress)
+    files = write_coupons(coupons, folder)
+    rows = [
+        {
+            "name": c.name,
+            "what": c.text,
+            "size_mm": np.ptp(c.surface.reshape(-1, 3), axis=0).round(2).tolist(),
+        }
+        for c in coupons
+    ]
+    return {"coupons": rows, "notes": list(build.notes), "files": list(files), "parameters": build.parameters.as_dict()}
+
+
+def coupons_text(summary: dict[str, Any]) -> str:
+    """The coupons for people.
+
+    Args:
+        summary: Of `write_ordered_coupons`, with the files' paths.
+
+    Returns:
+        Lines.
+    """
+    lines = [f"  {note}" for note in summary["notes"]]
+    for row in summary["coupons"]:
+        size = " x ".join(f"{v:.1f}" for v in row["size_mm"])
+        lines.append(f"coupon of a {row['name']}, {size} mm: {row['what']}")
+    return "\n".join([*lines, *(f"  {name}" for name in summary["files"])])

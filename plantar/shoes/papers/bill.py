@@ -1,0 +1,138 @@
+"""Bill of parts of a pair or a single shoe: what is printed, cut and bought, and what it weighs."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from plantar.shoes.build import Shoe, ShoeBuild
+from plantar.shoes.checks.weights import BOARD_UP, Weights
+from plantar.shoes.plan.cell_room import tail_lines
+from plantar.shoes.units import to_mm
+
+__all__ = ["Part", "bill_of_parts", "bill_text"]
+
+
+@dataclass(frozen=True)
+class Part:
+    """One line of the bill.
+
+    Attributes:
+        part: What it is.
+        quantity: How many for one shoe.
+        material: Of what.
+        size: How large.
+        mass_g: Mass of all of them in g; None where it is not known.
+        note: What it is for, or how it is made.
+    """
+
+    part: str
+    quantity: int
+    material: str
+    size: str
+    mass_g: float | None
+    note: str
+
+
+def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
+    """The parts of one shoe.
+
+    Args:
+        shoe: The shoe.
+        build: What it belongs to.
+        weights: Its masses.
+
+    Returns:
+        The lines of the bill.
+    """
+    p, plan, side = build.parameters, shoe.plan, shoe.side
+    low_x, low_y, high_x, high_y = plan.contact.bounds
+    outline = f"{high_x - low_x:.1f} x {high_y - low_y:.1f}"
+    flat = build.kind == "insole"
+    size = f"{outline} x {p.thickness - p.bottom:g} mm" if flat else f"{outline} x {p.rim_top - p.bottom:g} mm and more"
+    parts = [
+        Part(
+            f"{build.kind}, {side}", 1, p.material, size, weights.printed,
+            f"printed from {build.kind}_{side}.stl, .3mf or .step",
+        )
+    ]  # fmt: skip
+    if p.pad_thickness > 0.0:
+        parts.append(
+            Part(
+                f"pad, {side}", 1, f"silicone, about {p.pad_hardness:g} Shore A",
+                f"{outline} x {p.pad_thickness + p.pad_rim_height:g} mm", weights.pad,
+                f"cast, or cut from sheet and rim, to pad_{side}.stl; glued to the taxels, replaced when worn",
+            )
+        )  # fmt: skip
+    cut = int((build.fit.shares < 1.0 - 1e-6).sum())
+    patches = f"in {len(plan.connectors)} patch(es)" if plan.connectors else "wired by themselves"
+    note = patches + (f"; {cut} of them trimmed at the rim" if cut else "")
+    height = p.taxel_protrusion + p.pocket_depth
+    size = f"{build.fit.cell_area:g} mm2 x {height:g} mm"
+    cell = plan.cell
+    if cell is None:
+        parts.append(Part("taxel", len(shoe.layout), "skin", size, weights.skin, note))
+    elif plan.lines is not None:
+        rows, columns = plan.sheet_lines
+        note = f"{rows} rows x {columns} columns, tail of {tail_lines(plan)} lines; outline in cells_{side}.dxf"
+        parts.append(Part(f"sheet {cell.label}", 1, "sensor sheet", f"{cell.thickness:g} mm thick", weights.skin, note))
+    else:
+        across = " x ".join(f"{v:g}" for v in dict.fromkeys(np.round(cell.body, 2).tolist()))
+        size = f"{across} mm" + (f" x {cell.thickness:g} mm" if cell.thickness else "")
+        parts.append(Part(f"cell {cell.label}", len(shoe.layout), cell.shape, size, weights.skin, note))
+    if plan.heel.board:
+        size = f"{p.board_length:g} x {BOARD_UP:g} x {p.board_thickness:g} mm"
+        parts.append(Part("connection board", 1, "FR4", size, weights.board, "slides into the rails behind the heel"))
+    if plan.connectors:
+        length = f"{_cable(shoe):.0f} mm or longer"
+        parts.append(Part("cable", len(plan.connectors), "flat", length, None, "patch to heel, in the channel"))
+    parts += _holding(build, high_y - low_y)
+    return parts
+
+
+def _cable(shoe: Shoe) -> float:
+    """Length in mm from the farthest connector to the heel."""
+    x, y = shoe.plan.heel.x, shoe.plan.heel.y
+    at = to_mm(shoe.layout.positions[list(shoe.plan.connectors), :2])
+    return float(np.hypot(at[:, 0] - x, at[:, 1] - y).max()) + 20.0
+
+
+def _holding(build: ShoeBuild, width: float) -> list[Part]:
+    """What holds the shoe and is not printed with it."""
+    p, retention = build.parameters, build.retention
+    if retention is None or not retention.places:
+        return []
+    if retention.kind == "straps":
+        over = 2.5 * (width + 2.0 * min(build.foot.height, 80.0))
+        size = f"{retention.width:g} x {p.strap_thickness:g} mm, {10 * math.ceil(over / 10):g} mm long"
+        return [Part("strap", retention.straps, "hook and loop", size, None, "over the instep, through the lugs")]
+    if retention.kind == "screws":
+        size = f"M{retention.width:g} x {p.rim_thickness + 2.0 * retention.width:.0f} mm, soft tip"
+        count = len(retention.places)
+        return [
+            Part("set screw", count, "steel", size, None, "through the wall, clamps the foot's sides"),
+            Part("nut", count, "steel", f"M{retention.width:g}", None, "in the slot of the boss"),
+        ]
+    return []
+
+
+def bill_text(bills: dict[str, list[Part]]) -> str:
+    """Bills of parts of each side as CSV.
+
+    Args:
+        bills: The lines by side.
+
+    Returns:
+        The text, a header first.
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["side", *Part.__dataclass_fields__])
+    for side, parts in bills.items():
+        for part in parts:
+            writer.writerow([side, *("" if v is None else v for v in asdict(part).values())])
+    return out.getvalue()

@@ -1,0 +1,241 @@
+"""Files of a shoe: STL, STEP, 3MF, layout, pad, drawing, picture, bill of parts, and what was checked on them."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.atomic import write_text
+from plantar.errors import InputError
+from plantar.layouts.layout_file import layout_to_dict
+from plantar.shoes.build import Progress, Shoe, ShoeBuild
+from plantar.shoes.checks.check import ShoeCheck, check_shoe
+from plantar.shoes.checks.weights import Weights
+from plantar.shoes.geometry.outline import ring
+from plantar.shoes.papers.assembly import assembly_page
+from plantar.shoes.papers.bill import Part, bill_of_parts, bill_text
+from plantar.shoes.papers.drawing import draw_shoe
+from plantar.shoes.papers.package_3mf import NamedBody, write_3mf, write_assembly
+from plantar.shoes.papers.picture import draw_picture
+from plantar.shoes.papers.stl import read_stl, write_stl
+from plantar.shoes.papers.wiring_list import cells_dxf, wiring_text
+from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
+from plantar.shoes.solid.tray import read_step, write_step
+from plantar.shoes.units import to_m
+
+__all__ = ["ShoeReport", "export_shoe"]
+
+
+@dataclass(frozen=True)
+class ShoeReport:
+    """What was exported and measured.
+
+    Attributes:
+        build: The shoes.
+        checks: Measures of each shoe by side; empty where only layouts were asked for.
+        files: Names of the files written, in the folder given.
+        weights: Masses of each shoe by side.
+        bills: Bill of parts of each shoe by side.
+    """
+
+    build: ShoeBuild
+    checks: dict[str, ShoeCheck]
+    files: tuple[str, ...]
+    weights: dict[str, Weights] = field(default_factory=dict)
+    bills: dict[str, list[Part]] = field(default_factory=dict)
+
+    @property
+    def holds(self) -> bool:
+        """Whether every check of every shoe holds."""
+        return all(c.holds for c in self.checks.values())
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain JSON values; of a pair the top level holds the worse figure, `sides` each shoe's own."""
+        build, fit, first = self.build, self.build.fit, self.build.shoes[0]
+        out: dict[str, Any] = {
+            "name": first.layout.name,
+            "kind": build.kind,
+            "taxels": len(first.layout),
+            "whole_taxels": fit.whole,
+            "whole_taxels_bound": fit.bound,
+            "cell_area_mm2": round(fit.cell_area, 3),
+            "cell": None if fit.cell is None else fit.cell.as_dict() | {"kind": fit.cell.kind},
+            "smallest_cell_share": round(float(fit.shares.min()), 4),
+            "patches": len(first.plan.connectors),
+            "covered_area_ratio": round(fit.covered_area_ratio, 4),
+            "sole_area_mm2": round(build.foot.sole.area, 1),
+            "contact_area_mm2": round(first.plan.contact.area, 1),
+            "contact_size_mm": [round(float(v), 3) for v in _extent(first)],
+            "overhang_mm": round(max(s.plan.overhang for s in build.shoes), 2),
+            "blind_rim_mm": round(first.plan.blind_rim, 2),
+            "taxel_overhang_mm": round(fit.overhang, 3),
+            "thickness_mm": round(build.parameters.thickness, 3),
+            "notes": list(build.notes or build.foot.notes),
+        }
+        if self.checks:
+            all_checks = list(self.checks.values())
+            worst = max(self.weights.values(), key=lambda w: w.total)
+            out |= {
+                "watertight": all(c.watertight for c in all_checks),
+                "volume_cm3": max(c.volume_cm3 for c in all_checks),
+                "mass_g": max(c.mass_g for c in all_checks),
+                "worn_mass_g": round(worst.total, 2),
+                "min_wall_mm": min(c.min_wall_mm for c in all_checks),
+                "size_mm": list(all_checks[0].size_mm),
+                "print_hours": max(c.print_hours for c in all_checks),
+                "retention": build.retention.kind if build.retention else "none",
+                "holds": self.holds,
+                "sides": {side: _plain(c) | {"weights_g": c.weights.as_dict()} for side, c in self.checks.items()},
+                "parts": {side: [asdict(part) for part in bill] for side, bill in self.bills.items()},
+            }
+        return out | {"parameters": build.parameters.as_dict(), "files": list(self.files)}
+
+
+def _extent(shoe: Shoe) -> NDArray[np.float64]:
+    """Length and width of the contact face in mm."""
+    low_x, low_y, high_x, high_y = shoe.plan.contact.bounds
+    return np.array([high_x - low_x, high_y - low_y])
+
+
+def _plain(value: Any) -> Any:
+    """Plain JSON values of a record; a measure that is not finite becomes null."""
+    if isinstance(value, ShoeCheck):
+        told = asdict(value) | {"holds": value.holds}
+        del told["weights"]  # stated with their unit and sum
+        return _plain(told)
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in value]
+    if isinstance(value, float):
+        return round(value, 6) if math.isfinite(value) else None
+    return value
+
+
+def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
+    """The layout file, with what a simulator and whoever wires the shoe want to know of it in SI units."""
+    plan, ids = shoe.plan, shoe.layout.ids.tolist()
+    extra: dict[str, Any] = {
+        "thickness": round(to_m(build.parameters.thickness), 6),
+        "overhang": round(to_m(plan.overhang), 6),
+        "rim_stiffness": round(build.load_share.rim_stiffness, 4),
+        "foot_outline": to_m(ring(plan.foot)).round(6).tolist(),
+    }
+    if weights is not None:
+        extra |= {
+            "mass": round(1e-3 * weights.total, 6),
+            "mass_printed": round(1e-3 * weights.printed, 6),
+            "mass_pad": round(1e-3 * weights.pad, 6),
+            "mass_skin": round(1e-3 * weights.skin, 6),
+        }
+    extra |= {
+        "connectors": [ids[i] for i in plan.connectors],
+        "cable_route": [[ids[i], ids[j]] for i, j in plan.route],
+        "cell_shares": build.fit.shares.round(6).tolist(),
+    }
+    if plan.lines is not None and plan.crossings is not None:
+        extra |= {"rows": plan.lines[:, 0].tolist(), "columns": plan.lines[:, 1].tolist()}
+        extra |= {"crossings": to_m(plan.crossings).round(6).tolist()}
+    return json.dumps(layout_to_dict(shoe.layout) | {"shoe": extra}, indent=1) + "\n"
+
+
+def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: Progress | None = None) -> ShoeReport:
+    """Write the files of every shoe and check what was written.
+
+    Args:
+        build: The shoes; where they have no solid, only their layouts are written.
+        folder: An existing folder; files of the same name are replaced.
+        progress: Receives fraction and text.
+
+    Returns:
+        Measures, checks and file names.
+
+    Raises:
+        InputError: If a file cannot be written.
+    """
+    target = Path(folder)
+    tell = progress or (lambda fraction, text: None)
+    checks: dict[str, ShoeCheck] = {}
+    weights: dict[str, Weights] = {}
+    bills: dict[str, list[Part]] = {}
+    files: list[str] = []
+    for i, shoe in enumerate(build.shoes):
+        side, count = shoe.side, len(build.shoes)
+        if shoe.surface is not None:
+            tell(i / count, f"writing the {side} shoe")
+            surface, step, names = _write_solids(shoe, build, target)
+            tell((i + 0.4) / count, f"checking the {side} shoe")
+            checks[side] = check_shoe(shoe, build, surface=surface, step=step)
+            weights[side] = checks[side].weights
+            bills[side] = bill_of_parts(shoe, build, weights[side])
+            names += _write_for_wiring(shoe, build, target)
+            tell((i + 0.6) / count, f"drawing the {side} shoe")
+            names += _draw(shoe, build, surface, target)
+            files += names
+        layout = write_text(target / f"layout_{side}.json", _layout_text(shoe, build, weights.get(side)))
+        files.append(layout.name)
+    if checks:
+        write_text(target / "parts.csv", bill_text(bills))
+        write_text(target / "wiring.csv", wiring_text(build.shoes, build.parameters))
+        write_text(target / "assembly.html", assembly_page(build, checks, bills))
+        files += ["parts.csv", "wiring.csv", "assembly.html", "check.json"]
+    report = ShoeReport(build, checks, tuple(files), weights, bills)
+    if checks:
+        write_text(target / "check.json", json.dumps(report.as_dict(), indent=1) + "\n")
+    tell(1.0, "shoes written")
+    return report
+
+
+def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[np.float64], Any, list[str]]:
+    """Write a shoe's STL, STEP and 3MF and its pad; gives the triangles and the shape as read back, and the names."""
+    assert shoe.surface is not None
+    side, p = shoe.side, build.parameters
+    names = [f"{build.kind}_{side}.stl", f"{build.kind}_{side}.step", f"{build.kind}_{side}.3mf"]
+    try:
+        write_stl(shoe.surface, target / names[0])
+        write_step(shoe.solid, str(target / names[1]))
+        write_3mf(shoe.surface, f"{shoe.layout.name} {side}", target / names[2])
+        if p.pad_thickness > 0.0:
+            names += [f"pad_{side}.stl", f"mould_{side}.stl"]
+            write_stl(pad_surface(shoe.plan, p), target / names[3])
+            write_stl(mould_surface(shoe.plan, p), target / names[4])
+    except OSError as error:
+        raise InputError(f"cannot write the {side} shoe to {target}: {error.strerror}") from None
+    return read_stl(target / names[0]), read_step(str(target / names[1])), names
+
+
+def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
+    """Write the outlines of the cells, and the assembly with its parts by name; gives the files' names."""
+    assert shoe.surface is not None
+    side, p = shoe.side, build.parameters
+    names = [f"cells_{side}.dxf", f"assembly_{side}.3mf"]
+    bodies = [
+        NamedBody(f"{build.kind} {side}", p.material, "#4C72B0", shoe.surface),
+        *(
+            NamedBody(f"taxel {k}" if shoe.plan.lines is None else "sheet", "skin", "#55A868", surface)
+            for k, surface in zip(shoe.layout.ids.tolist(), taxel_surfaces(shoe.plan, p), strict=False)  # or one sheet
+        ),
+    ]
+    if p.pad_thickness > 0.0:
+        rubber = f"rubber of {p.pad_hardness:g} Shore A"
+        bodies.append(NamedBody("pad", rubber, "#333333", pad_surface(shoe.plan, p)))
+    write_text(target / names[0], cells_dxf(shoe, build))
+    write_assembly(bodies, f"{shoe.layout.name} {side}", target / names[1])
+    return names
+
+
+def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Path) -> list[str]:
+    """Draw a shoe; gives the files' names."""
+    side, p = shoe.side, build.parameters
+    drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.png", target / f"drawing_{side}.svg"])
+    pad = pad_surface(shoe.plan, p) if p.pad_thickness > 0.0 else None
+    title = f"{shoe.layout.name}, {side} {build.kind}"
+    drawn.append(draw_picture(surface, pad, title, target / f"picture_{side}.png"))
+    return [path.name for path in drawn]

@@ -1,0 +1,154 @@
+"""Blocks that a shoe is put together from: outlines at two heights and what is between. Lengths in mm."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.shoes.geometry.outline import ring
+
+__all__ = ["Block", "Groove", "Step", "box_block", "mirrored_block", "mirrored_step", "moved_edges", "tapered"]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A body between two heights.
+
+    Attributes:
+        low: Outline at the lower height, a shapely polygon; holes are allowed where `high` is None.
+        z_low: Lower height.
+        z_high: Upper height.
+        high: Outline at the upper height, with as many corners, each edge parallel to that below; None for a prism.
+    """
+
+    low: Any
+    z_low: float
+    z_high: float
+    high: Any | None = None
+
+
+@dataclass(frozen=True)
+class Groove:
+    """Half of a V groove along a closed line, on the line's inner side, open below.
+
+    Attributes:
+        line: The line, a shapely polygon: the groove's upper edge.
+        edge: The groove's lower inner edge, with as many corners, each edge parallel to the line's.
+        z_low: Height of the lower edge.
+        z_high: Height of the upper edge.
+    """
+
+    line: Any
+    edge: Any
+    z_low: float
+    z_high: float
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of building: blocks that are added to the body so far, or cut from it.
+
+    Attributes:
+        kind: "add" or "cut".
+        name: What they are.
+        blocks: The blocks.
+        within: Outline that they are limited to, a shapely polygon; None for no limit.
+    """
+
+    kind: Literal["add", "cut"]
+    name: str
+    blocks: tuple[Block | Groove, ...]
+    within: Any | None = None
+
+
+def box_block(low: tuple[float, float, float], high: tuple[float, float, float]) -> Block:
+    """A box.
+
+    Args:
+        low: Its lower corner (x, y, z) in mm.
+        high: Its upper corner.
+
+    Returns:
+        The block.
+    """
+    import shapely
+
+    return Block(shapely.box(low[0], low[1], high[0], high[1]), low[2], high[2])
+
+
+def mirrored_block(block: Block | Groove) -> Block | Groove:
+    """The block with y reversed, its outlines counter-clockwise again and in step with each other."""
+    if isinstance(block, Groove):
+        return replace(block, line=_flipped(block.line), edge=_flipped(block.edge))
+
+    return replace(block, low=_flipped(block.low), high=None if block.high is None else _flipped(block.high))
+
+
+def mirrored_step(step: Step) -> Step:
+    """The step with y reversed."""
+    blocks = tuple(mirrored_block(b) for b in step.blocks)
+    return replace(step, blocks=blocks, within=None if step.within is None else _flipped(step.within))
+
+
+def _flipped(polygon: Any) -> Any:
+    import shapely
+
+    flat = np.array([1.0, -1.0])
+    holes = [np.asarray(h.coords)[:-1][::-1] * flat for h in polygon.interiors]
+    return shapely.Polygon(ring(polygon)[::-1] * flat, holes)
+
+
+def moved_edges(points: NDArray[np.float64], distance: float) -> NDArray[np.float64] | None:
+    """A ring with each edge moved outwards, corner by corner, so that it keeps its number of corners.
+
+    Args:
+        points: Corners (k, 2), counter-clockwise.
+        distance: How far, in mm; negative moves inwards.
+
+    Returns:
+        Corners (k, 2), or None where an edge would vanish or the ring cross itself.
+
+    Example:
+        >>> moved_edges(np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]]), -0.5).tolist()
+        [[0.5, 0.5], [3.5, 0.5], [3.5, 1.5], [0.5, 1.5]]
+    """
+    import shapely
+
+    edge = np.roll(points, -1, axis=0) - points
+    length = np.hypot(*edge.T)
+    if not (length > 0.0).all():
+        return None
+    normal = np.column_stack([edge[:, 1], -edge[:, 0]]) / length[:, None]
+    before = np.roll(normal, 1, axis=0)
+    open_up = 1.0 + np.einsum("ij,ij->i", before, normal)
+    if (open_up < 0.2).any():
+        return None
+    moved = points + distance * (before + normal) / open_up[:, None]
+    new_edge = np.roll(moved, -1, axis=0) - moved
+    if (np.einsum("ij,ij->i", edge, new_edge) <= 1e-3 * length).any() or not shapely.Polygon(moved).is_valid:
+        return None
+    return np.asarray(moved)
+
+
+def tapered(polygon: Any, start: float, end: float, z_low: float, z_high: float) -> Block | None:
+    """A block whose outline is a polygon moved outwards by one distance below and by another above.
+
+    Args:
+        polygon: Shapely polygon without holes.
+        start: Distance of the lower outline outwards from the polygon.
+        end: Distance of the upper outline.
+        z_low: Lower height.
+        z_high: Upper height.
+
+    Returns:
+        The block, or None where an edge would vanish.
+    """
+    import shapely
+
+    low, high = moved_edges(ring(polygon), start), moved_edges(ring(polygon), end)
+    if low is None or high is None:
+        return None
+    return Block(shapely.Polygon(low), z_low, z_high, shapely.Polygon(high))

@@ -1,0 +1,146 @@
+"""What a cell's body needs of the shoe: depth of its pocket, and room for its leads or its tail. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from plantar.errors import FootError
+from plantar.shoes.cells.cell import Cell
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.shoe_plan import ShoePlan
+
+__all__ = ["LeadRoom", "cell_parameters", "lead_rooms", "led_parameters", "tail_lines"]
+
+_TAIL_PLAY = 0.5  # mm on either side of a sheet's tail
+_DEEPEST = 8.0  # mm: of a pocket that is deepened for leads
+
+
+@dataclass(frozen=True)
+class LeadRoom:
+    """A narrow place of the leads.
+
+    Attributes:
+        name: Where it is.
+        needed: Area in mm^2 that the leads take there, each a square of its diameter.
+        room: Area that there is.
+    """
+
+    name: str
+    needed: float
+    room: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether the leads pass."""
+        return self.needed <= self.room * (1.0 + 1e-9)
+
+
+def cell_parameters(cell: Cell | None, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
+    """Dimensions for a cell: its pocket holds its body, and only tiles have grooves in their ribs.
+
+    Args:
+        cell: The cell; None of hexagons of skin, which change nothing.
+        parameters: Dimensions; a pocket of a depth that was set is deepened, never made flatter.
+
+    Returns:
+        The dimensions, and a note for what was changed.
+    """
+    p = parameters
+    if cell is None:
+        return p, ()
+    if cell.kind != "tile":
+        p = replace(p, scribe=0.0)
+    default = ShoeParameters().pocket_depth
+    least, _, _, _ = ShoeParameters.range_of("pocket_depth")
+    flush = cell.kind == "sheet" and p.pocket_depth == default  # a sheet ends level with the print around it
+    depth = max(least, cell.thickness) if flush else max(p.pocket_depth, cell.thickness)
+    if depth == p.pocket_depth:
+        return p, ()
+    note = f"pocket_depth is {depth:g} instead of {p.pocket_depth:g} mm: the cell's body is {cell.thickness:g} mm thick"
+    return replace(p, pocket_depth=depth), (note,)
+
+
+def tail_lines(plan: ShoePlan) -> int:
+    """Lines in the tail of a sheet: one for each row and column, and one more."""
+    return sum(plan.sheet_lines) + 1
+
+
+def led_parameters(
+    plan: ShoePlan, parameters: ShoeParameters, *, deepen: bool = True
+) -> tuple[ShoeParameters, tuple[str, ...]]:
+    """Dimensions whose channel, ports and pockets let a sheet's tail or the cells' own leads pass.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+        deepen: Whether pockets may be made deeper.
+
+    Returns:
+        The dimensions, and a note for each that was raised.
+
+    Raises:
+        FootError: If a sheet's tail is wider than a channel can be.
+    """
+    p, cell = parameters, plan.cell
+    if cell is None or not plan.connectors:
+        return p, ()
+    _, widest, _, _ = ShoeParameters.range_of("channel_width")
+    notes = []
+    if cell.kind == "sheet":
+        width = tail_lines(plan) * cell.tail_pitch + 2.0 * _TAIL_PLAY
+        if width > widest:
+            name, most = cell.label, widest - 2.0 * _TAIL_PLAY
+            raise FootError(
+                f"cell {name}: a tail of {tail_lines(plan)} lines is {width - 2.0 * _TAIL_PLAY:g} mm wide; allowed: "
+                f"{most:g} mm, by a smaller tail_pitch or a larger pitch"
+            )
+    elif cell.leads:
+        if deepen:
+            short = max((r.needed / r.room for r in lead_rooms(plan, p) if "channel" not in r.name), default=0.0)
+            depth = min(_DEEPEST, math.ceil(10.0 * (p.pocket_depth * max(1.0, short) + cell.thickness)) / 10.0)
+            if short > 1.0:
+                notes.append(
+                    f"pocket_depth raised from {p.pocket_depth:g} to {depth:g} mm: the cells' leads pass there"
+                )
+                p = replace(p, pocket_depth=depth)
+        needed = max(r.needed for r in lead_rooms(plan, p) if "channel" in r.name)
+        width = min(widest, needed / p.pocket_depth)
+    else:
+        return p, ()
+    width = math.ceil(10.0 * width - 1e-6) / 10.0
+    if width > p.channel_width:
+        notes.append(f"channel_width raised from {p.channel_width:g} to {width:g} mm by what leads to the heel")
+        p = replace(p, channel_width=width)
+    return p, tuple(notes)
+
+
+def lead_rooms(plan: ShoePlan, parameters: ShoeParameters) -> tuple[LeadRoom, ...]:
+    """The fullest port, pocket and channel where cells have leads of their own.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        The places; none where a cable runs from cell to cell.
+    """
+    p, cell = parameters, plan.cell
+    if cell is None or not cell.leads or not plan.connectors:
+        return ()
+    each = cell.leads * cell.lead_diameter**2
+    behind = np.ones(len(plan.cells))
+    for i, j in reversed(plan.route):  # a tree, from the connectors outwards
+        behind[i] += behind[j]
+    patches = behind[list(plan.connectors)]
+    rooms = [LeadRoom("channel", each * float(patches.sum()), p.channel_width * p.pocket_depth)]
+    if plan.route:
+        _, full = max(((behind[j], (i, j)) for i, j in plan.route), key=lambda f: f[0])
+        width = min(p.port_width, plan.port(*full)[2])
+        rooms.append(LeadRoom("fullest port", each * float(behind[full[1]]), width * p.pocket_depth))
+    if cell.kind == "film":  # around the land
+        beside = (min(cell.body) + 2.0 * cell.play - min(cell.felt)) * (p.pocket_depth - cell.thickness)
+        rooms.append(LeadRoom("fullest pocket", each * float(patches.max()), beside))
+    return tuple(rooms)

@@ -1,0 +1,120 @@
+"""Where the cable leaves the shoe and the connection board stands: a place at the rear wall. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.shoes.geometry.outline import ring
+from plantar.shoes.parameters import ShoeParameters
+
+__all__ = ["LIP", "PLAY", "POST", "Heel", "find_heel", "holder_depth"]
+
+LIP = 1.5
+"""Rail behind the board."""
+
+POST = 2.5
+"""Rail beside the board."""
+
+PLAY = 0.3
+"""Gap between board and rail."""
+
+_TURNS = (0, 10, -10, 20, -20, 30, -30, 40, -40, 50, -50, 60, -60)  # degrees from straight back
+_TURN_COST = 0.03  # mm of reach that a degree of turning is worth
+_REAR = 4.0  # mm: how much of the rim counts as its rear edge
+
+
+@dataclass(frozen=True)
+class Heel:
+    """A place on the outside of the rear wall, and a frame there: x into the shoe, y to the left of that.
+
+    Attributes:
+        x: Of the place, in mm in the sole frame.
+        y: Of the place.
+        turn: Angle of the frame's x against the sole's in rad; 0 where the board stands straight behind the foot.
+        board: Whether the connection board has its holder there.
+    """
+
+    x: float
+    y: float
+    turn: float
+    board: bool
+
+    def placed(self, shape: Any) -> Any:
+        """A shapely shape of this frame in the sole frame."""
+        import shapely
+
+        turned = shapely.affinity.rotate(shape, self.turn, origin=(0.0, 0.0), use_radians=True) if self.turn else shape
+        return shapely.affinity.translate(turned, self.x, self.y)
+
+    def point(self, x: float, y: float) -> NDArray[np.float64]:
+        """A point of this frame in the sole frame.
+
+        Args:
+            x: Into the shoe, in mm.
+            y: To the left of that.
+
+        Returns:
+            The point (2,) in mm.
+        """
+        c, s = math.cos(self.turn), math.sin(self.turn)
+        return np.array([self.x + c * x - s * y, self.y + s * x + c * y])
+
+    def mirrored(self) -> Heel:
+        """The place on the other foot's shoe."""
+        return replace(self, y=-self.y, turn=-self.turn)
+
+
+def holder_depth(parameters: ShoeParameters) -> float:
+    """How far the board's holder reaches behind the wall, in mm."""
+    return parameters.board_gap + parameters.board_thickness + PLAY + LIP
+
+
+def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, str | None]:
+    """Find the place where the holder reaches the least beyond the foot, straight back or turned up to 60 degrees.
+
+    Args:
+        rim: Outside of the wall, a shapely polygon.
+        foot: Outline of the foot.
+        parameters: Size of the board.
+
+    Returns:
+        The place; and a note where the holder is left out because it would reach farther than allowed.
+    """
+    import shapely
+
+    half = 0.5 * parameters.board_length + POST + 0.5 * PLAY
+    depth = holder_depth(parameters)
+    points = ring(rim)
+    best: tuple[float, float, Heel] | None = None
+    for degrees in _TURNS:
+        turn = math.radians(degrees)
+        along = np.array([math.cos(turn), math.sin(turn)])
+        across = np.array([-along[1], along[0]])
+        start = float((points @ along).min())
+        local = shapely.affinity.rotate(rim, -turn, origin=(0.0, 0.0), use_radians=True) if degrees else rim
+        low_x, low_y, _, high_y = local.bounds
+        rear = local.intersection(shapely.box(low_x - 1.0, low_y - 1.0, low_x + _REAR, high_y + 1.0))
+        middle = 0.5 * (rear.bounds[1] + rear.bounds[3])
+        x, y = (round(float(v), 3) for v in start * along + middle * across)
+        heel = Heel(x, y, turn, True)
+        corners = [heel.point(-depth, side * half) for side in (-1.0, 1.0)]
+        reach = float(max(foot.distance(shapely.points(corners))))
+        score = reach + _TURN_COST * abs(degrees)
+        if best is None or score < best[0] - 1e-6:
+            best = (score, reach, heel)
+    assert best is not None
+    _, reach, heel = best
+    if parameters.board_length <= 0.0:
+        return replace(heel, board=False), None
+    if reach > parameters.reach_max:
+        note = (
+            f"no holder for the connection board: behind this heel it would reach {reach:.1f} mm beyond the foot "
+            "(reach_max; a shorter board_length may fit)"
+        )
+        return replace(heel, board=False), note
+    return heel, None

@@ -1,0 +1,226 @@
+"""Which share of the load the taxels carry: the print and the ground as rigid plates, springs between them.
+
+Under a taxel the pad's sheet and the taxel are in series; beside the taxels the pad's rim takes its part as soon as it
+has closed the relief below the print, and where it is too narrow for a rim the sheet, once it meets the print. Each is
+a layer of rubber between two plates that it does not slide on: its apparent modulus is
+
+    E_c = E (1 + 2 k S^2)                                                        (Gent and Lindley 1959, eq. 11)
+
+with the shape factor S = loaded area / (perimeter x thickness), and with E from the hardness H in degrees Shore A
+
+    E = 0.0981 (56 + 7.62336 H) / (0.137505 (254 - 2.54 H))  in MPa              (Gent 1958)
+
+k falls with the hardness (Lindley, "Engineering design with natural rubber", table 3). Springs do not pull. The print
+sinks and tilts until forces and moments meet the load's; what is in the springs of the taxels is their share.
+
+Gent: "On the relation between indentation hardness and Young's modulus", Trans. IRI 34, 1958. Gent, Lindley: "The
+compression of bonded rubber blocks", Proc. IMechE 173, 1959.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.pad_outline import pad_rim
+from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.plan.strength import LoadCase
+
+__all__ = ["LoadShare", "apparent_modulus", "check_load_share", "relieved", "shore_modulus"]
+
+_POINTS = 3000  # springs of a sole
+_HARD = 1e3  # N/mm^3: print on the ground, without a pad
+_RESERVE = 1.25  # relief over the taxels' compression at the largest load
+_STEP = 0.1  # mm
+_HALF = 0.9  # share on half the sole that the relief is raised for
+_HARDNESS, _FACTOR = (30.0, 40.0, 50.0, 60.0, 70.0), (0.93, 0.85, 0.73, 0.57, 0.53)  # k by hardness
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class LoadShare:
+    """The share of the load that the taxels carry.
+
+    Attributes:
+        flat: On flat ground, 0..1.
+        half: On the worst of four footholds that are half the sole: heel, toes, left, right; 0..1.
+        worst_half: Which of them that is.
+        compression: How far the print sinks on flat ground in mm.
+        rim_stiffness: Stiffness of what is beside the taxels, per area, over that of a taxel, as it comes to on flat
+            ground; 0 where the taxels carry all.
+    """
+
+    flat: float
+    half: float
+    worst_half: str
+    compression: float
+    rim_stiffness: float
+
+
+def shore_modulus(hardness: float) -> float:
+    """Young's modulus in MPa of a rubber of a hardness in degrees Shore A.
+
+    Example:
+        >>> round(shore_modulus(40.0), 2), round(shore_modulus(60.0), 2)
+        (1.69, 3.61)
+    """
+    return 0.0981 * (56.0 + 7.62336 * hardness) / (0.137505 * (254.0 - 2.54 * hardness))
+
+
+def apparent_modulus(hardness: float, area: float, perimeter: float, thickness: float) -> float:
+    """Modulus in MPa of a rubber layer between two plates that it does not slide on.
+
+    Args:
+        hardness: In degrees Shore A.
+        area: Loaded area in mm^2.
+        perimeter: Its border, at which the layer may bulge, in mm.
+        thickness: Of the layer in mm, above 0.
+
+    Returns:
+        Pressure over compression per thickness.
+    """
+    shape = area / (perimeter * thickness)
+    factor = float(np.interp(hardness, _HARDNESS, _FACTOR))
+    return shore_modulus(hardness) * (1.0 + 2.0 * factor * shape**2)
+
+
+def _taxel_stiffness(plan: ShoePlan, p: ShoeParameters) -> float:
+    """Pressure over compression of taxel and pad in series, of a median cell, in N/mm^3; of films and sheets the body,
+    the pad's land below it and the pad's sheet."""
+    blocks = plan.lands or plan.cells
+    area = float(np.median([c.area for c in blocks]))
+    perimeter = float(np.median([c.length for c in blocks]))
+    height, hardness = p.taxel_protrusion + p.pocket_depth, p.taxel_hardness
+    soft = 0.0
+    if plan.cell is not None:
+        height -= plan.cell.thickness
+        hardness = p.pad_hardness if plan.lands and p.pad_thickness > 0.0 else hardness
+        if plan.cell.stiffness:
+            soft = float(np.median([c.area for c in plan.cells])) / plan.cell.stiffness
+    if height > 0.0:
+        soft += height / apparent_modulus(hardness, area, perimeter, height)
+    if p.pad_thickness > 0.0:
+        soft += p.pad_thickness / apparent_modulus(p.pad_hardness, area, perimeter, p.pad_thickness)
+    return 1.0 / soft
+
+
+def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
+    """Parameters whose pad stays below the print until the taxels carry the load case, in steps of 0.1 mm.
+
+    Args:
+        plan: The sole.
+        load: The load case.
+        parameters: Dimensions; with `strengthen` no they stay.
+
+    Returns:
+        The parameters, and a note where the relief was raised.
+    """
+    p = parameters
+    if p.strengthen == "no":
+        return p, ()
+    cells = sum(c.area for c in plan.cells)
+    needed = _RESERVE * load.force / (p.load_share * cells) / _taxel_stiffness(plan, p)
+    relief = max(p.pad_relief, math.ceil(needed / _STEP - 1e-6) * _STEP)
+    # Where the taxels stand on one side of a foothold the print tilts towards its other.
+    while relief < p.taxel_protrusion and check_load_share(plan, load, replace(p, pad_relief=relief)).half < _HALF:
+        relief += 2.0 * _STEP
+    relief = round(min(p.taxel_protrusion, relief), 3)
+    if relief <= p.pad_relief:
+        return p, ()
+    note = f"pad_relief raised from {p.pad_relief:g} to {relief:g} mm by the load case"
+    return replace(p, pad_relief=relief), (note,)
+
+
+def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> LoadShare:
+    """The taxels' share of the load case's force on flat ground and on half footholds.
+
+    Args:
+        plan: The sole.
+        load: The load case; its force acts in the middle of what the ground holds.
+        parameters: Dimensions as used.
+
+    Returns:
+        The shares.
+    """
+    springs = _Springs.of(plan, parameters)
+    x, y = springs.points.T
+    low_x, low_y, high_x, high_y = plan.contact.bounds
+    middle_x, middle_y = 0.5 * (low_x + high_x), 0.5 * (low_y + high_y)
+    halves = {"heel": x < middle_x, "toes": x > middle_x, "left": y > middle_y, "right": y < middle_y}
+    flat, sunk = springs.share(np.ones(len(x), dtype=bool), load.force)
+    shares = {name: springs.share(held, load.force)[0] for name, held in halves.items()}
+    worst = min(shares, key=lambda name: shares[name])
+    beside = float((~springs.taxel).sum()) / max(1, int(springs.taxel.sum()))
+    stiffness = max(0.0, 1.0 - flat) / (flat * beside) if flat > 0.0 and beside > 0.0 else 0.0
+    return LoadShare(flat, shares[worst], worst, sunk, stiffness)
+
+
+@dataclass(frozen=True)
+class _Springs:
+    """Springs (n,) on a grid: where, whether of a taxel, the way until they carry in mm, stiffness in N/mm."""
+
+    points: Array
+    taxel: NDArray[np.bool_]
+    gap: Array
+    stiffness: Array
+
+    @classmethod
+    def of(cls, plan: ShoePlan, p: ShoeParameters) -> _Springs:
+        import shapely
+
+        step = math.sqrt(plan.contact.area / _POINTS)
+        low_x, low_y, high_x, high_y = plan.contact.bounds
+        x, y = np.meshgrid(np.arange(low_x + 0.5 * step, high_x, step), np.arange(low_y + 0.5 * step, high_y, step))
+        points = np.column_stack([x.ravel(), y.ravel()])
+        rim, cells = pad_rim(plan, p), shapely.union_all(plan.cells)
+        inside, taxel, raised = (_within(shape, points) for shape in (plan.contact, cells, rim))
+        gap = np.where(taxel, 0.0, np.where(raised, p.pad_relief, p.taxel_protrusion))
+        beside = _HARD
+        if p.pad_thickness > 0.0:
+            across = plan.contact.area, plan.contact.length
+            beside = apparent_modulus(p.pad_hardness, *across, p.pad_thickness) / p.pad_thickness
+        thick = p.pad_thickness + p.pad_rim_height
+        rim_stiffness = 0.0 if rim.is_empty else apparent_modulus(p.pad_hardness, rim.area, rim.length, thick) / thick
+        stiffness = np.where(taxel, _taxel_stiffness(plan, p), np.where(raised, rim_stiffness, beside)) * step**2
+        return cls(points[inside], taxel[inside], gap[inside], stiffness[inside])
+
+    def share(self, held: NDArray[np.bool_], force: float) -> tuple[float, float]:
+        """Share of a force in N that the taxels carry where the ground holds some springs, and how far the print sinks
+        in mm: Newton's method on the convex energy of springs that do not pull, with a line search."""
+        if not held.any():
+            return 0.0, 0.0
+        points, gap, k = self.points[held], self.gap[held], self.stiffness[held]
+        at = points - points.mean(axis=0)  # the load acts in the middle
+        u = np.column_stack([np.ones(len(at)), at / np.abs(at).max()])
+        load = np.array([force, 0.0, 0.0])
+        sunk = np.array([float(gap.min()) + force / k.sum(), 0.0, 0.0])
+
+        def energy(at: Array) -> float:
+            return float(0.5 * (k * np.maximum(u @ at - gap, 0.0) ** 2).sum() - load @ at)
+
+        for _ in range(60):
+            way = np.maximum(u @ sunk - gap, 0.0)
+            slope = u.T @ (k * way) - load
+            if np.abs(slope).max() < 1e-9 * force:
+                break
+            active = k * (way > 0.0)
+            step = np.linalg.solve((u.T * active) @ u + 1e-9 * k.sum() * np.eye(3), slope)
+            rate, before = 1.0, energy(sunk)
+            while energy(sunk - rate * step) > before and rate > 1e-6:
+                rate *= 0.5
+            sunk = sunk - rate * step
+        way = k * np.maximum(u @ sunk - gap, 0.0)
+        return float(way[self.taxel[held]].sum() / way.sum()), float(sunk[0])
+
+
+def _within(shape: Any, points: Array) -> NDArray[np.bool_]:
+    import shapely
+
+    shapely.prepare(shape)
+    return np.asarray(shapely.contains_xy(shape, points[:, 0], points[:, 1]))

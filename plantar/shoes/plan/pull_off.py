@@ -1,0 +1,102 @@
+"""How firmly clips, straps or screws hold a shoe, against its weight in swing and a scuff at the toe. Lengths in mm.
+
+- A clip's arm is a cantilever that the hook bends by its reach d; its retaining face stands at 45 degrees:
+  F = E b t^3 d / (4 L^3), pull-off P = F (mu + tan 45) / (1 - mu tan 45)          (Bayer, Snap-fit joints for plastics)
+  It snaps on over a lead-in of 45 degrees with the same force, which a person pushes with: 200 N at most (EN 1005-3)
+- A strap slips where its hooks and loops shear over the length they overlap, and pulls on both of its lugs at 45
+  degrees: P = 2 sin 45 x shear strength x width x overlap (7 N/cm^2, hook-and-loop tapes' data sheets)
+- A set screw presses with what two fingers tighten, 100 N, on a soft tip: P = mu 100 N
+
+Needed are 5 g on the worn mass in swing, and at the toe, where the ground drags a tenth of the robot's weight over the
+contact face, a moment of mu 0.1 m g (thickness + rim / 3), which turns the shoe about the heel's edge off the toes.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from plantar.mechanics.lip import GRAVITY
+from plantar.shoes.parameters import ShoeParameters
+
+__all__ = ["SNAP_MOST", "PullOff", "clip_force", "needed_force", "pull_off"]
+
+_MU = 0.3  # plastic on plastic or metal
+_SWING = 5.0  # g
+_SCUFF = 0.1  # of the robot's weight on the toe
+_SHEAR, _OVERLAP = 0.07, 50.0  # MPa and mm of hooks and loops
+_SCREW = 100.0  # N
+
+SNAP_MOST = 200.0
+"""Force in N that a person pushes with his body at most, at work (EN 1005-3)."""
+
+
+@dataclass(frozen=True)
+class PullOff:
+    """What holds against what pulls.
+
+    Attributes:
+        force: Force in N that pulls the shoe off downwards.
+        swing: What is needed of it in N: 5 g on the worn mass.
+        moment: Moment in N m about the heel's edge that the holders take.
+        scuff: What is needed of it in N m.
+        snap: Force in N that snaps the stiffest clip on; 0 without clips.
+    """
+
+    force: float
+    swing: float
+    moment: float
+    scuff: float
+    snap: float = 0.0
+
+
+def clip_force(length: float, parameters: ShoeParameters) -> float:
+    """Force in N that pulls one clip off.
+
+    Args:
+        length: Free length of its arm in mm.
+        parameters: Its sizes and material.
+
+    Returns:
+        The force.
+
+    Example:
+        >>> round(clip_force(28.0, ShoeParameters()), 1)
+        11.8
+    """
+    p = parameters
+    bend = p.printed.modulus * p.clip_width * p.clip_thickness**3 * p.clip_hook / (4.0 * length**3)
+    return bend * (_MU + 1.0) / (1.0 - _MU)
+
+
+def needed_force(worn: float) -> float:
+    """Force in N that a shoe of a worn mass in kg pulls with in swing."""
+    return _SWING * GRAVITY * worn
+
+
+def pull_off(
+    kind: str, places: tuple[tuple[float, float], ...], width: float, heel: float, worn: float, mass: float,
+    parameters: ShoeParameters,
+) -> PullOff:  # fmt: skip
+    """Forces and moments of one shoe.
+
+    Args:
+        kind: "clips", "straps" or "screws".
+        places: x in mm, and of clips the arm's length in mm, of each holder.
+        width: Width of a strap in mm.
+        heel: x of the foot's rear edge in mm.
+        worn: Worn mass in kg.
+        mass: Mass of the robot in kg.
+        parameters: Dimensions as used.
+
+    Returns:
+        What holds and what is needed.
+    """
+    p = parameters
+    strap = 2.0 * math.sqrt(0.5) * _SHEAR * width * _OVERLAP / 2.0  # at each of its two lugs
+    each = [clip_force(arm, p) if kind == "clips" else strap if kind == "straps" else _MU * _SCREW for _, arm in places]
+    moment = sum(f * (x - heel) for f, (x, _) in zip(each, places, strict=True))
+    scuff = _MU * _SCUFF * mass * GRAVITY * (p.thickness + p.rim_height / 3.0)
+    snap = max(each) if kind == "clips" else 0.0
+    rounded = (round(v, 3) for v in (sum(each), needed_force(worn), 1e-3 * moment, 1e-3 * scuff, snap))
+    return PullOff(*rounded)

@@ -1,0 +1,399 @@
+"""The sole seen from above: contact face, rim, taxel pockets and the way the cable takes, in mm, and its layout."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError, LayoutError
+from plantar.layouts.cell_layout import layout_of_cells
+from plantar.layouts.layout import Side, SoleLayout, mirrored
+from plantar.layouts.tiling import hex_layout
+from plantar.shoes.cells.cell import Cell
+from plantar.shoes.fit.fine_rim import blind_rim
+from plantar.shoes.fit.taxels import TaxelFit, rows_and_columns
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.geometry.outline import GRID, flush, grown, ring, single_outline, tidy
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.block import moved_edges
+from plantar.shoes.plan.heel import Heel, find_heel
+from plantar.shoes.units import to_m, to_mm
+
+__all__ = ["ShoePlan", "mirrored_plan", "plan_face", "plan_shoe"]
+
+_TOUCH = 1e-3  # mm between cells that share an edge
+_PORT_SHARE = 0.6  # of a shared edge or a body: the widest port
+_LAND_PLAY = 0.3  # mm between a sheet's land and its recess
+_PASSABLE = 6.0  # mm of a shared edge: a port in a shorter one is narrow for a cable
+
+
+@dataclass(frozen=True)
+class ShoePlan:
+    """Outlines of one shoe in its sole frame, and its layout. Outlines are shapely polygons in mm.
+
+    Attributes:
+        side: "left" or "right".
+        foot: Outline of the foot below the rim's upper edge.
+        contact: Outline of the contact face: of the pad, and of the printed plate but for the heel's shelf and lugs.
+        cavity: Inside of the rim at its upper edge.
+        rim: Outside of the rim.
+        cells: Cells of the layout, in the order of its taxels.
+        pockets: Taxel pockets: the cells moved in by half a rib, or the bodies with their play; of a sheet its recess.
+        route: Pairs of taxel indices that the cable joins, from the connectors outwards: a tree for each patch.
+        connectors: Index of the taxel of each patch at which its cable leaves; the first patch's leads to the heel.
+            Empty where there are no ways for a cable.
+        heel: Where the cable leaves the shoe.
+        layout: The sole layout, in m.
+        notes: What was decided.
+        cell: What a cell's body is; None of hexagons of skin.
+        lines: Row and column (n, 2) of a sheet's cells; else None.
+        crossings: Where (n, 2) in mm these cross; else None.
+    """
+
+    side: Side
+    foot: Any
+    contact: Any
+    cavity: Any
+    rim: Any
+    cells: tuple[Any, ...]
+    pockets: tuple[Any, ...]
+    route: tuple[tuple[int, int], ...]
+    connectors: tuple[int, ...]
+    heel: Heel
+    layout: SoleLayout
+    notes: tuple[str, ...] = ()
+    cell: Cell | None = None
+    lines: NDArray[np.int64] | None = None
+    crossings: NDArray[np.float64] | None = None
+
+    @cached_property
+    def lands(self) -> tuple[Any, ...]:
+        """What of the pad presses on films, or on a sheet: shapely polygons; none of tiles, which have heads."""
+        if self.cell is None or self.cell.kind == "tile":
+            return ()
+        if self.cell.kind == "film":
+            return self.cells
+        import shapely
+
+        # Only below cells: what presses beside them would not be felt.
+        land = shapely.union_all(self.cells, grid_size=GRID).intersection(self.pockets[0].buffer(-_LAND_PLAY))
+        parts = shapely.get_parts(shapely.set_precision(land, GRID))
+        return tuple(shapely.geometry.polygon.orient(q) for q in parts if q.geom_type == "Polygon")
+
+    def port(self, i: int, j: int) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+        """Where the cable passes from a cell to another.
+
+        Args:
+            i: Index of a taxel.
+            j: Index of one to which a cable leads.
+
+        Returns:
+            Ends (2, 2) of the way through the rib between the two pockets, along which it passes; the unit vector (2,)
+            across it; and the most width in mm that it has there.
+        """
+        if self.cell is None:
+            edge = self.shared_edge(i, j)
+            middle, across = edge.mean(axis=0), edge[1] - edge[0]
+            length = float(np.hypot(*across))
+            across = across / length
+            along = np.array([across[1], -across[0]])
+            return np.stack([middle - along, middle + along]), across, _PORT_SHARE * length
+        import shapely
+
+        ends = to_mm(self.layout.positions[[i, j], :2])
+        line = shapely.LineString(ends)
+        step = (ends[1] - ends[0]) / line.length
+        leaves = max(line.project(shapely.Point(c)) for c in _crossed(self.pockets[i], line))
+        enters = min(line.project(shapely.Point(c)) for c in _crossed(self.pockets[j], line))
+        across = np.array([-step[1], step[0]])
+        body = self.cell.tail_width or min(self.cell.body)
+        return np.stack([ends[0] + leaves * step, ends[0] + enters * step]), across, _PORT_SHARE * body
+
+    @property
+    def sheet_lines(self) -> tuple[int, int]:
+        """Rows and columns of a sheet that have a cell."""
+        assert self.lines is not None
+        return rows_and_columns(self.lines)
+
+    @property
+    def overhang(self) -> float:
+        """How far the contact face reaches beyond the foot, in mm."""
+        import shapely
+
+        return float(max(self.foot.distance(shapely.points(ring(self.contact)))))
+
+    @property
+    def blind_rim(self) -> float:
+        """Widest place of the contact face beyond the hull of the taxels' centres, in mm: a load there is told to be at
+        that hull."""
+        return blind_rim(self.contact, to_mm(self.layout.positions[:, :2]))
+
+    def shared_edge(self, i: int, j: int) -> NDArray[np.float64]:
+        """Ends (2, 2) in mm of the longest straight line that two neighbouring cells share.
+
+        One cell's corner may lie inside another's edge, where rounding would leave nothing of an exact intersection.
+
+        Args:
+            i: Index of a taxel.
+            j: Index of one of its neighbours in the layout.
+
+        Returns:
+            The ends.
+        """
+        import shapely
+
+        common = self.cells[i].exterior.intersection(self.cells[j].buffer(_TOUCH))
+        lines = [shapely.get_coordinates(line) for line in shapely.get_parts(shapely.line_merge(common))]
+        ends = [np.stack(pair) for line in lines for pair in pairwise(line)]
+        return max(ends, key=lambda pair: float(np.hypot(*(pair[1] - pair[0]))))
+
+    @property
+    def fewest_taxels(self) -> tuple[int, str]:
+        """Taxels in the barest of the contact face's thirds along the foot and its bands on the left and on the right,
+        a third of the width or a taxel wide; and which of them it is."""
+        x, y = to_mm(self.layout.positions[:, :2]).T
+        low_x, low_y, high_x, high_y = self.contact.bounds
+        third, band = (high_x - low_x) / 3.0, max((high_y - low_y) / 3.0, float(self.cells[0].area) ** 0.5)
+        counts = {
+            "heel's third": int((x < low_x + third).sum()),
+            "middle third": int(((x >= low_x + third) & (x <= high_x - third)).sum()),
+            "toes' third": int((x > high_x - third).sum()),
+            "left band": int((y > high_y - band).sum()),
+            "right band": int((y < low_y + band).sum()),
+        }
+        where = min(counts, key=lambda name: counts[name])
+        return counts[where], where
+
+
+def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
+    """Draw the left sole around a foot and its taxels.
+
+    The contact face takes in the foot with clearance and rim, and the taxels with the border around them.
+
+    Args:
+        foot: The left foot.
+        fit: The cells.
+        parameters: Dimensions of the shoe.
+        name: Name the layout takes; None takes the foot's.
+
+    Returns:
+        The plan of the left shoe.
+
+    Raises:
+        FootError: If the cells are so small that no pocket is left between the ribs.
+    """
+    import shapely
+
+    outline = foot.passing(parameters.rim_height)
+    cavity = tidy(grown(outline, parameters.clearance))
+    rim = tidy(grown(outline, parameters.clearance + parameters.rim_thickness))
+    # Corners that cells share are bit-identical, so the union leaks no slivers.
+    patch = shapely.union_all([shapely.Polygon(c) for c in (fit.cells if fit.rooms is None else fit.rooms)])
+    walls = patch.convex_hull if patch.geom_type == "Polygon" else patch
+    shape = rim.union(grown(walls, fit.border))
+    contact = flush(single_outline(shape, shape.convex_hull, detail=0.0), rim)
+    return plan_face(outline, contact, cavity, rim, fit, parameters, name=name or foot.name)
+
+
+def plan_face(
+    outline: Any, contact: Any, cavity: Any, rim: Any, fit: TaxelFit, parameters: ShoeParameters, *, name: str
+) -> ShoePlan:
+    """Plan pockets, layout and cable of a contact face.
+
+    Args:
+        outline: The foot's outline.
+        contact: The contact face.
+        cavity: Inside of the wall at its upper edge.
+        rim: Outside of the wall.
+        fit: The cells.
+        parameters: Dimensions.
+        name: Name that the layout takes.
+
+    Returns:
+        The left plan.
+
+    Raises:
+        FootError: If the cells are so small that no pocket is left between the ribs.
+    """
+    import shapely
+
+    cells = tuple(shapely.Polygon(c) for c in fit.cells)
+    if fit.pockets is not None:
+        pockets = tuple(shapely.Polygon(p) for p in fit.pockets)
+    else:
+        pockets = tuple(_pocket(c, parameters.rib) for c in cells)
+        if any(p is None or p.area < 0.1 * c.area for p, c in zip(pockets, cells, strict=True)):
+            raise FootError(
+                f"cells of {fit.cell_area:g} mm^2 leave no pocket between ribs of {parameters.rib:g} mm; "
+                "use larger cells or a thinner rib"
+            )
+    layout = _layout(contact, fit, name)
+    heel, note = find_heel(rim, outline, parameters)
+    neighbours = _passable(layout) if fit.links is None else _linked(fit.links, len(layout))
+    connectors, route = _route(layout, neighbours, (heel.x, heel.y))
+    if fit.lines is not None:  # one sheet, whose tail leaves where it is nearest to the heel
+        connectors, route = connectors[:1], ()
+    if parameters.port_width <= 0.0:
+        heel, connectors, route = replace(heel, board=False), (), ()
+        note = "no ports, channel or board for a cable (port_width 0): the cells are to be wired by themselves"
+    notes = () if note is None else (note,)
+    told = (fit.cell, fit.lines, fit.crossings)
+    return ShoePlan(
+        "left", outline, contact, cavity, rim, cells, pockets, route, connectors, heel, layout, notes, *told
+    )
+
+
+def _crossed(pocket: Any, line: Any) -> NDArray[np.float64]:
+    """Where a line crosses the border of a pocket, (k, 2)."""
+    import shapely
+
+    return np.asarray(shapely.get_coordinates(pocket.exterior.intersection(line)))
+
+
+def _linked(links: Sequence[tuple[int, int]], count: int) -> tuple[tuple[int, ...], ...]:
+    """Indices of the cells that each is linked to."""
+    near: list[list[int]] = [[] for _ in range(count)]
+    for i, j in links:
+        near[i].append(j)
+        near[j].append(i)
+    return tuple(tuple(sorted(n)) for n in near)
+
+
+def _pocket(cell: Any, rib: float) -> Any | None:
+    """A cell with its edges moved in by half a rib; None where nothing is left."""
+    import shapely
+
+    moved = moved_edges(ring(cell), -0.5 * rib)
+    if moved is not None:
+        return shapely.Polygon(moved)
+    shape = cell.buffer(-0.5 * rib, join_style="mitre")  # a cut cell with an edge that vanishes
+    return shape if shape.geom_type == "Polygon" and not shape.is_empty else None
+
+
+def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
+    outline = to_m(ring(contact)).round(6)
+    shape = "hexagon" if fit.blind_most is None else "mixed"
+    if fit.cell is not None:
+        shape = {"hex": "hexagon", "round": "polygon"}.get(fit.cell.shape, "rectangle")
+    try:
+        if fit.lattice_cells is not None:
+            x, y = fit.lattice.origin
+            layout = hex_layout(
+                outline,
+                name=name,
+                side="left",
+                cell_area=fit.cell_area * 1e-6,
+                origin=(to_m(x), to_m(y)),
+                angle=fit.lattice.angle,
+                cells=fit.lattice_cells,
+            )
+        else:
+            layout = layout_of_cells(
+                [to_m(c) for c in fit.cells], name=name, side="left", outline=outline, cell_shape=shape
+            )
+            layout = replace(layout, cell_area=fit.cell_area * 1e-6)
+        if fit.cell is None:
+            return layout
+        ranges = {**layout.ranges, "force": (0.0, fit.cell.rated_load)}
+        thresholds = {**layout.thresholds, "force": fit.cell.threshold}
+        return replace(layout, modalities=("force",), ranges=ranges, thresholds=thresholds)
+    except LayoutError as error:
+        raise FootError(f"the shoe's outline cannot carry a layout: {error}") from None
+
+
+def _route(
+    layout: SoleLayout, neighbours: Sequence[Sequence[int]], heel: tuple[float, float]
+) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
+    """Connector of each connected group of cells, and the tree of fewest hops from it to all of its cells.
+
+    The first connector is the cell nearest to the heel; another group's is the cell nearest to the groups before it.
+    """
+    centres = layout.positions[:, :2]
+    start = np.array([to_m(heel[0]), to_m(heel[1])])
+    distance = np.hypot(*(centres - start).T)
+    left = set(range(len(layout)))
+    connectors: list[int] = []
+    route: list[tuple[int, int]] = []
+    while left:
+        rest = sorted(left)
+        first = rest[int(np.argmin(distance[rest]))]
+        connectors.append(first)
+        left.discard(first)
+        queue, group = deque([first]), [first]
+        while queue:
+            here = queue.popleft()
+            for near in sorted(neighbours[here], key=lambda j: (round(float(distance[j]), 9), j)):
+                if near in left:
+                    left.discard(near)
+                    route.append((here, near))
+                    queue.append(near)
+                    group.append(near)
+        if left:
+            gaps = np.hypot(*(centres[:, None] - centres[None, group]).transpose(2, 0, 1)).min(axis=1)
+            distance = gaps if len(connectors) == 1 else np.minimum(distance, gaps)
+    return tuple(connectors), tuple(route)
+
+
+def _passable(layout: SoleLayout) -> tuple[tuple[int, ...], ...]:
+    """Neighbours of each cell over edges long enough for a cable; all of them where that leaves cells apart."""
+    long: list[tuple[int, ...]] = []
+    for i, own in enumerate(layout.neighbours):
+        corners = layout.corners[i]
+        edges = set(map(frozenset, zip(corners, (*corners[1:], corners[0]), strict=True)))
+        kept = []
+        for j in own:
+            theirs = layout.corners[j]
+            common = edges & set(map(frozenset, zip(theirs, (*theirs[1:], theirs[0]), strict=True)))
+            ends = [layout.vertices[list(edge)] for edge in common]
+            if to_mm(sum(float(np.hypot(*(b - a)[:2])) for a, b in ends)) >= _PASSABLE:
+                kept.append(j)
+        long.append(tuple(kept))
+    return tuple(long) if _groups(long) == _groups(layout.neighbours) else layout.neighbours
+
+
+def _groups(neighbours: Sequence[Sequence[int]]) -> int:
+    """How many groups of cells there are that hang together."""
+    left, count = set(range(len(neighbours))), 0
+    while left:
+        count += 1
+        queue = [left.pop()]
+        while queue:
+            near = left.intersection(neighbours[queue.pop()])
+            left -= near
+            queue += near
+    return count
+
+
+def mirrored_plan(plan: ShoePlan) -> ShoePlan:
+    """The plan of the other foot's shoe: y changes sign, taxel ids stay."""
+
+    def flip(polygon: Any) -> Any:
+        import shapely
+
+        return shapely.geometry.polygon.orient(shapely.Polygon(ring(polygon) * np.array([1.0, -1.0])))
+
+    layout = mirrored(plan.layout)
+    return ShoePlan(
+        layout.side,
+        flip(plan.foot),
+        flip(plan.contact),
+        flip(plan.cavity),
+        flip(plan.rim),
+        tuple(flip(c) for c in plan.cells),
+        tuple(flip(p) for p in plan.pockets),
+        plan.route,
+        plan.connectors,
+        plan.heel.mirrored(),
+        layout,
+        plan.notes,
+        plan.cell,
+        plan.lines,
+        None if plan.crossings is None else plan.crossings * np.array([1.0, -1.0]),
+    )

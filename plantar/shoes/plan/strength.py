@@ -1,0 +1,196 @@
+"""Strength of the printed part: beams under 1.5 x body weight on a third of the sole, and the thickness they need.
+
+The plan takes the thickness from here before anything is built; the last check states the stresses that it comes to.
+
+The pressure p = load_factor m g / (load_share A) acts on the plate from below; the foot, which is stiff, carries it
+where it touches. Beams of 1 mm width, ribs and wall left out, so on the safe side:
+
+- beyond the foot, over a reach c: a cantilever, M = p c^2 / 2
+- between two places where the foot touches, over a span L: a beam with clamped ends, M = p L^2 / 12
+- the wall, pushed sideways with `friction` times the load over the foot's width b; the push falls off linearly to the
+  wall's upper edge, so it acts at a third of its height h: M = friction F / b x h / 3, across the layers
+
+Stress is 6 M / t^2; it may be the material's strength over `safety`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from plantar.mechanics.lip import GRAVITY
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.geometry.outline import ring
+from plantar.shoes.parameters import ShoeParameters
+
+__all__ = ["LoadCase", "Member", "check_strength", "estimated_mass", "load_case", "strengthened"]
+
+_MOST_MASS = 150.0  # kg: what a robot is estimated to weigh at most
+
+
+@dataclass(frozen=True)
+class LoadCase:
+    """The load.
+
+    Attributes:
+        mass: Mass of the robot in kg.
+        source: Where it is from.
+        force: Load in N.
+        pressure: On the share of the sole that carries it, in MPa.
+    """
+
+    mass: float
+    source: str
+    force: float
+    pressure: float
+
+
+@dataclass(frozen=True)
+class Member:
+    """One member of the part under the load.
+
+    Attributes:
+        name: What it is.
+        model: The beam it is taken for.
+        length: Its free length in mm.
+        thickness: Its thickness in mm.
+        needed: Thickness that it needs, in mm.
+        stress: Stress in MPa.
+        allowed: Stress that it may have, in MPa.
+        deflection: Of its end or middle in mm.
+    """
+
+    name: str
+    model: str
+    length: float
+    thickness: float
+    needed: float
+    stress: float
+    allowed: float
+    deflection: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether it carries the load."""
+        return self.stress <= self.allowed * (1.0 + 1e-9)
+
+
+def estimated_mass(length: float) -> float:
+    """Mass in kg of a robot with feet of a length in mm: that of the h1 (86 kg, 224 mm) scaled by volume.
+
+    Example:
+        >>> estimated_mass(224.0)
+        86.0
+    """
+    return round(min(_MOST_MASS, 86.0 * (length / 224.0) ** 3), 1)
+
+
+def load_case(foot: Foot, parameters: ShoeParameters) -> LoadCase:
+    """The load on one foot.
+
+    Args:
+        foot: The foot.
+        parameters: Load factor and share, and the robot's mass where it is given.
+
+    Returns:
+        The load.
+    """
+    p = parameters
+    low, _, high, _ = foot.sole.bounds
+    if p.robot_mass > 0.0:
+        mass, source = p.robot_mass, "as given"
+    elif foot.mass is not None:
+        mass, source = foot.mass, "of the robot's file"
+    else:
+        mass, source = estimated_mass(high - low), "estimated from the foot's length; parameter robot_mass gives it"
+    force = p.load_factor * mass * GRAVITY
+    return LoadCase(mass, source, round(force, 1), force / (p.load_share * foot.sole.area))
+
+
+def check_strength(foot: Foot, contact: Any, parameters: ShoeParameters) -> tuple[LoadCase, tuple[Member, ...]]:
+    """Stresses in plate and wall.
+
+    Args:
+        foot: The left foot.
+        contact: Outline of the contact face, a shapely polygon in mm.
+        parameters: Dimensions as used.
+
+    Returns:
+        The load, and each member.
+    """
+    import shapely
+
+    p, material = parameters, parameters.printed
+    load = load_case(foot, p)
+    allowed = material.strength / p.safety
+    reach = float(max(foot.sole.distance(shapely.points(ring(contact)))))
+    span = _unsupported_span(foot)
+    width = foot.sole.bounds[3] - foot.sole.bounds[1]
+    push = p.friction * load.force / width
+    pressure, lever = load.pressure, p.rim_height / 3.0
+
+    def member(name: str, model: str, length: float, moment: float, at: float, limit: float, bent: float) -> Member:
+        needed = math.ceil(1e3 * math.sqrt(6.0 * moment / limit) - 1e-6) / 1e3  # never rounded below what it takes
+        deflection = bent / (material.modulus * at**3 / 12.0)
+        stress = 6.0 * moment / at**2
+        rounded = (round(v, 3) for v in (length, at, needed, stress, limit, deflection))
+        return Member(name, model, *rounded)
+
+    return load, (
+        member(
+            "plate beyond the foot", "cantilever", reach, 0.5 * pressure * reach**2, p.floor, allowed,
+            pressure * reach**4 / 8.0,
+        ),
+        member(
+            "plate where the foot does not touch", "beam with clamped ends", span, pressure * span**2 / 12.0, p.floor,
+            allowed, pressure * span**4 / 384.0,
+        ),
+        member(
+            "wall", "cantilever across the layers", p.rim_height, push * lever, p.rim_thickness,
+            allowed * material.across, push * lever**2 * (3.0 * p.rim_height - lever) / 6.0,
+        ),
+    )  # fmt: skip
+
+
+def _unsupported_span(foot: Foot) -> float:
+    """Widest place of the sole where the foot does not touch, in mm: the diameter of the largest circle in it."""
+    import shapely
+
+    if foot.support is None or foot.support.is_empty:
+        return 0.0
+    free = foot.sole.difference(foot.support)
+    best = 0.0
+    for part in getattr(free, "geoms", [free]):
+        if part.geom_type == "Polygon" and part.area > 1.0:
+            best = max(best, 2.0 * float(shapely.maximum_inscribed_circle(part, tolerance=0.1).length))
+    return best
+
+
+def strengthened(foot: Foot, contact: Any, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
+    """Parameters whose floor and wall carry the load, in steps of 0.1 mm.
+
+    Args:
+        foot: The left foot.
+        contact: Outline of the contact face, a shapely polygon in mm.
+        parameters: Dimensions; with `strengthen` no they stay.
+
+    Returns:
+        The parameters, and a note for each that was raised.
+    """
+    if parameters.strengthen == "no":
+        return parameters, ()
+    _, members = check_strength(foot, contact, parameters)
+    floor = max(m.needed for m in members if m.name.startswith("plate"))
+    wall = next(m.needed for m in members if m.name == "wall")
+    notes: list[str] = []
+    raised: dict[str, Any] = {}
+    for name, needed in (("floor", floor), ("rim_thickness", wall)):
+        _, high, _, _ = ShoeParameters.range_of(name)
+        wanted = min(high, float(np.ceil(needed * 10.0 - 1e-6)) / 10.0)
+        if wanted > getattr(parameters, name):
+            notes.append(f"{name} raised from {getattr(parameters, name):g} to {wanted:g} mm by the load case")
+            raised[name] = wanted
+    return replace(parameters, **raised), tuple(notes)

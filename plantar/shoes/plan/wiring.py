@@ -1,0 +1,216 @@
+"""The way of the cable: through the ribs from taxel to taxel, to the heel, and the holder of the connection board."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.block import Block, Step
+from plantar.shoes.plan.heel import LIP, PLAY, POST, holder_depth
+from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.units import to_mm
+
+__all__ = [
+    "cable_outlines",
+    "channel_lines",
+    "hole_outline",
+    "length_of",
+    "pocket_outlines",
+    "wire_lines",
+    "wiring_steps",
+]
+
+_SLIVER = 0.02  # mm^2
+_BARB, _BARB_AREA = 0.1, 1e-3  # mm, mm^2
+_STEP = 0.01  # mm between two corners that are one
+_WIDER = 0.3  # mm
+_WITHIN = 1.0  # mm
+
+
+def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
+    """Pockets, joined where the cable passes a rib or runs to the heel.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        Shapely polygons, possibly with holes, from the printed lower face to the pockets' ceiling.
+    """
+    import shapely
+
+    cable = cable_outlines(plan, parameters)
+    openings = shapely.union_all([*plan.pockets, *cable])
+    ways, wall = shapely.union_all(cable), parameters.wall_min
+    # A wedge is cut off square, so far as it is near; where that ends, a barb of some hundredths may be left.
+    for near, thin, least in ((wall, 1.1 * wall, _SLIVER), (2.0 * wall, _BARB, _BARB_AREA)):
+        slivers = _slivers(openings, ways.buffer(near), thin, least)
+        if slivers:  # where they end, steps of some thousandths would be walls of no width
+            openings = shapely.remove_repeated_points(shapely.union_all([openings, *slivers]), _STEP)
+            corners = shapely.multipoints(shapely.get_coordinates(list(plan.pockets)))
+            openings = shapely.snap(openings, corners, _STEP)  # and the pockets' corners stay where they are
+    joined = shapely.set_precision(openings, 1e-4)
+    return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
+
+
+def _slivers(openings: Any, near: Any, thin: float, least: float) -> list[Any]:
+    """What would be left of ribs near the cable thinner than `thin` in mm, where it is larger than `least` in mm^2."""
+    closed = openings.buffer(0.5 * thin, join_style="mitre").buffer(-0.5 * thin, quad_segs=1)
+    left = closed.difference(openings.buffer(1e-4)).intersection(near)
+    return [g.buffer(2e-3, join_style="mitre") for g in getattr(left, "geoms", [left]) if g.area > least]
+
+
+def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
+    """Where the cable passes: ports in the ribs, channels between patches, and the channel to the heel.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        Shapely polygons; none without connectors.
+    """
+    import shapely
+
+    if not plan.connectors:
+        return []
+    parts = []
+    width = parameters.port_width
+    for i, j in plan.route:
+        ends, across, most = plan.port(i, j)
+        middle, along = ends.mean(axis=0), ends[1] - ends[0]
+        length = math.hypot(*along)
+        along = along / length
+        reach, port = 0.5 * parameters.rib + 1.0, min(width, most)
+        if plan.cell is not None:  # into the pockets, until a round one is as wide as the port
+            radius = 0.5 * min(plan.cell.body)
+            reach = 0.5 * length + 1.0 + radius - math.sqrt(max(0.0, radius**2 - 0.25 * port**2))
+        parts.append(shapely.Polygon([middle + a * reach * along + b * 0.5 * port * across for a, b in _SQUARE]))
+    half = 0.5 * parameters.channel_width
+    lines = channel_lines(plan, parameters)
+    return parts + [shapely.LineString(c).buffer(half, cap_style="flat", join_style="mitre") for c in lines]
+
+
+def channel_lines(plan: ShoePlan, parameters: ShoeParameters) -> list[NDArray[np.float64]]:
+    """Middle of each connector's channel: to the exit at the heel, or to the nearest pocket of a patch before it.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        Points (k, 2) in mm from the connector's pocket on, in the order of the connectors.
+    """
+    if not plan.connectors:
+        return []
+    skin = plan.cell is None
+    pockets = [np.array(p.centroid.coords[0]) for p in plan.pockets] if skin else to_mm(plan.layout.positions[:, :2])
+    heel = plan.heel
+    # Straight into the hole behind the wall, or out of the plate where there is none.
+    end = heel.point(-0.5 * parameters.board_gap if heel.board else -40.0, 0.0)
+    lines = [np.stack([pockets[plan.connectors[0]], heel.point(6.0, 0.0), end])]
+    for n, later in enumerate(plan.connectors[1:], start=1):
+        before = [i for c in plan.connectors[:n] for i in _patch_of(plan, c)]
+        nearest = min(before, key=lambda i: (float(math.hypot(*(pockets[i] - pockets[later]))), i))
+        lines.append(np.stack([pockets[later], pockets[nearest]]))
+    return lines
+
+
+def wire_lines(plan: ShoePlan) -> dict[int, NDArray[np.float64]]:
+    """The way of each wire between two cells: from one's centre through the middle of their port to the other's.
+
+    Args:
+        plan: The sole.
+
+    Returns:
+        Points (3, 2) in mm of each pair of `plan.route`, by the second of the pair.
+    """
+    centres = [np.array(c.centroid.coords[0]) for c in plan.cells]
+    return {j: np.stack([centres[i], plan.port(i, j)[0].mean(axis=0), centres[j]]) for i, j in plan.route}
+
+
+def length_of(line: NDArray[np.float64]) -> float:
+    """Length in mm of a line of points (k, 2) in mm.
+
+    Example:
+        >>> length_of(np.array([[0.0, 0.0], [3.0, 4.0], [3.0, 5.0]]))
+        6.0
+    """
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
+
+
+def hole_outline(plan: ShoePlan, parameters: ShoeParameters) -> Any:
+    """The hole between wall and board through which the cable comes up; a little wider than the channel.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        A shapely polygon, empty without a board.
+    """
+    import shapely
+
+    if not plan.heel.board:
+        return shapely.Polygon()
+
+    p = parameters
+    half = min(0.5 * p.channel_width + _WIDER, 0.5 * p.board_length - POST - 0.5)
+    return plan.heel.placed(shapely.box(-p.board_gap, -half, -0.2, half))
+
+
+_SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+
+
+def _patch_of(plan: ShoePlan, connector: int) -> list[int]:
+    """The cells of a connector's patch."""
+    inside = {connector}
+    for i, j in plan.route:  # a tree, from the connector outwards
+        if i in inside:
+            inside.add(j)
+    return sorted(inside)
+
+
+def wiring_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[list[Block], list[Step]]:
+    """The board's holder behind the heel, and what is cut for the cable.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        Blocks of the body, and the steps that cut it: the board's slot and the cable's hole.
+    """
+    import shapely
+
+    p, heel = parameters, plan.heel
+    if not heel.board:
+        return [], []
+    half = 0.5 * p.board_length
+    back, outer = -holder_depth(p), half + POST + 0.5 * PLAY
+    slot_low = back + LIP
+    low_x, _, high_x, _ = plan.rim.bounds
+    inner = 0.2 * (high_x - low_x)  # well inside: what reaches into the foot's place is cut away
+
+    def block(x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]) -> Block:
+        # Behind the wall as it is; inside only what meets the plate.
+        shape = heel.placed(shapely.box(x[0], y[0], x[1], y[1]))
+        if x[1] > 0.0:
+            inside = plan.contact.buffer(-_WITHIN)  # no edge along another, which the kernel might miss by a hair
+            shape = shape.intersection(heel.placed(shapely.box(x[0], y[0], 2.0 * _WITHIN, y[1])).union(inside))
+        # Not on the grid: edges of blocks that lie along each other would leave a hair between them.
+        return Block(max(getattr(shape, "geoms", [shape]), key=lambda g: g.area), *z)
+
+    shelf = block((back, inner), (-outer, outer), (p.bottom, p.thickness))
+    posts = [
+        block((back, inner), ends, (p.thickness - 1.0, p.rim_top))
+        for ends in ((half - POST, outer), (-outer, POST - half))
+    ]
+    play = 0.5 * PLAY
+    slot = block((slot_low, -p.board_gap), (-half - play, half + play), (p.thickness, p.rim_top + 1.0))
+    hole = Block(hole_outline(plan, p), p.bottom - 1.0, p.thickness + 1.0)
+    return [shelf, *posts], [Step("cut", "slot of the connection board and hole of the cable", (slot, hole))]

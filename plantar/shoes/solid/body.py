@@ -1,0 +1,211 @@
+"""The printed body as steps of adding and cutting blocks: plate, wall, pockets, what holds it, cable and mark."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from plantar.layouts.layout import Side
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.geometry.outline import apart, grown, ring, tidy
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.block import Block, Groove, Step, mirrored_step, moved_edges, tapered
+from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.plan.wiring import pocket_outlines, wiring_steps
+from plantar.shoes.solid.lettering import lettering
+from plantar.shoes.solid.retention import Retention, retention_steps
+
+__all__ = ["LEVELS", "bare_floor", "cavity_levels", "insole_steps", "mark_outline", "mirrored_steps", "shoe_steps"]
+
+LEVELS = (0.06, 0.14, 0.25, 0.4, 0.6, 1.0)
+"""Shares of the wall's height at which the foot's outline is taken."""
+
+_STEP = 0.3  # mm by which two levels must differ to be two
+_PLACE = "the foot's place"  # name of the step that cuts it
+_TRIM = 0.8  # mm: bevel of the wall's upper outer edge
+_MARK_MOST = 10  # letters
+_MARK_OFF = 4.0  # mm from walls and from what rises below an arch
+
+
+def shoe_steps(foot: Foot, plan: ShoePlan, retention: Retention, parameters: ShoeParameters) -> tuple[Step, ...]:
+    """The left shoe's body, without its mark.
+
+    Args:
+        foot: The left foot.
+        plan: The left sole.
+        retention: What holds it.
+        parameters: Dimensions.
+
+    Returns:
+        The steps, in order; the first adds.
+    """
+    p = parameters
+    holding, after = retention_steps(foot, plan, retention, p)
+    holder, holes = wiring_steps(plan, p)
+    wall = _wall(plan, p)
+    body = (Block(plan.contact, p.bottom, p.thickness), *wall, *holding, *holder)
+    levels = cavity_levels(foot, plan, p)
+    place = [Block(outline, p.thickness + low, p.thickness + high) for low, high, outline in levels]
+    place.append(Block(levels[-1][2], p.rim_top - 0.5, p.rim_top + 1.0))
+    bevel = tapered(levels[-1][2], -0.02, p.lead_in, p.rim_top - p.lead_in, p.rim_top + 0.02) if p.lead_in > 0 else None
+    if bevel is not None:
+        place.append(bevel)
+    return (
+        Step("add", "plate, wall and what stands on them", body),
+        Step("add", "fillet between wall and plate", tuple(_fillet(plan, p)), within=plan.contact),
+        Step("cut", _PLACE, tuple(place)),
+        *_cell_steps(plan, p),
+        *after,
+        *holes,
+    )
+
+
+def insole_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[Step, ...]:
+    """The left insole's body: a plate with pockets, without its mark.
+
+    Args:
+        plan: The left insole.
+        parameters: Dimensions.
+
+    Returns:
+        The steps, in order; the first adds.
+    """
+    plate = Block(plan.contact, parameters.bottom, parameters.thickness)
+    return (Step("add", "plate", (plate,)), *_cell_steps(plan, parameters))
+
+
+def _cell_steps(plan: ShoePlan, p: ShoeParameters) -> tuple[Step, Step]:
+    """Pockets with the cable's way, and the groove that marks the cells."""
+    pockets = [Block(outline, p.bottom - 1.0, p.ceiling) for outline in pocket_outlines(plan, p)]
+    return (
+        Step("cut", "pockets", tuple(pockets)),
+        Step("cut", "border of the cells", tuple(_scribe(c, p) for c in plan.cells) if p.scribe > 0.0 else ()),
+    )
+
+
+def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> list[tuple[float, float, Any]]:
+    """The place of the foot between the walls, which follow its sides.
+
+    A level holds all of the foot that passes it while the shoe is pushed on from below: the foot's outline up to the
+    level's upper height, grown by the clearance.
+
+    Args:
+        foot: The left foot.
+        plan: The left sole.
+        parameters: Dimensions.
+
+    Returns:
+        Lower and upper height above the face that the foot stands on, and the outline, from below.
+    """
+    p = parameters
+    outlines = [plan.cavity]
+    for share in LEVELS[-2::-1]:  # each within the one above it: nothing of the wall hangs over
+        outline = tidy(grown(foot.passing(share * p.rim_height), p.clearance))
+        outlines.append(_within(outlines[-1], outline))
+    out: list[tuple[float, float, Any]] = []
+    low = 0.0
+    for share, outline in zip(LEVELS, outlines[::-1], strict=True):
+        high = share * p.rim_height
+        if out and outline.hausdorff_distance(out[-1][2]) < _STEP:
+            # About the same as below: one level with the larger of the two.
+            start = out.pop()[0]
+            out.append((start, high, outline))
+        else:
+            out.append((low, high, outline))
+        low = high
+    return out
+
+
+def _within(above: Any, outline: Any) -> Any:
+    """An outline within the one above it, and the same wherever they are about the same.
+
+    Edges that run along each other a hair apart would give faces of no width. The grid would move them apart again.
+    """
+    lower = above.difference(apart(above, outline).difference(outline))
+    return max(getattr(lower, "geoms", [lower]), key=lambda g: float(g.area))
+
+
+def _wall(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
+    """The wall, its upper outer edge bevelled."""
+    trim = min(_TRIM, 0.3 * p.rim_thickness, 0.3 * p.rim_height)
+    cap = tapered(plan.rim, 0.0, -trim, p.rim_top - trim, p.rim_top)
+    return [Block(plan.rim, p.bottom, p.rim_top - (trim if cap else 0.0)), *([cap] if cap else [])]
+
+
+def _fillet(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
+    """The fillet where the plate reaches out beyond the wall: a quarter of a circle in three facets; smaller where a
+    bend of the wall has no room for it, as a facet without that below it would hang over."""
+    angles = np.radians([0.0, 30.0, 60.0, 90.0])
+    for radius in min(p.fillet, 0.5 * p.rim_height) * np.array([1.0, 0.5, 0.25]):
+        out, up = radius * (1.0 - np.sin(angles)), p.thickness + radius * (1.0 - np.cos(angles))
+        facets = [tapered(plan.rim, out[i], out[i + 1], up[i], up[i + 1]) for i in range(3)] if radius > 0.0 else []
+        if all(f is not None for f in facets):
+            return [f for f in facets if f is not None]
+    return []
+
+
+def _scribe(cell: Any, p: ShoeParameters) -> Block | Groove:
+    """Half of the groove around a cell: its upper edge is the cell's border, its lower lies within the cell."""
+    import shapely
+
+    for width in p.scribe * np.array([1.0, 0.5, 0.25, 0.125]):  # narrower in a cut cell with a short edge
+        inner = moved_edges(ring(cell), -width)
+        if inner is not None:
+            return Groove(cell, shapely.Polygon(inner), p.bottom, p.bottom + p.scribe)
+    hole = cell.buffer(-0.1 * p.scribe, join_style="mitre")
+    return Block(shapely.Polygon(ring(cell), [ring(hole)[::-1]]), p.bottom - 0.5, p.bottom + p.scribe)
+
+
+def mirrored_steps(steps: tuple[Step, ...]) -> tuple[Step, ...]:
+    """The steps of the other foot's shoe."""
+    return tuple(mirrored_step(s) for s in steps)
+
+
+def bare_floor(steps: tuple[Step, ...]) -> Any | None:
+    """Where the floor is not covered by what rises below the foot's arch.
+
+    Args:
+        steps: A shoe's or an insole's body, of either side.
+
+    Returns:
+        A shapely polygon; None where no foot has a place in the body, and all of the plate is bare.
+    """
+    place = (b for s in steps if s.name == _PLACE for b in s.blocks)  # from below: the first stands on the floor
+    return next((b.low for b in place if isinstance(b, Block)), None)
+
+
+def mark_outline(plan: ShoePlan, parameters: ShoeParameters, side: Side, floor: Any | None = None) -> Any:
+    """Letters of the mark in the floor: L or R, and the name.
+
+    Args:
+        plan: The sole of that side.
+        parameters: Dimensions; `mark_height` 0 leaves the mark out.
+        side: "left" or "right".
+        floor: That side's bare floor, a shapely polygon; None: everywhere between the walls.
+
+    Returns:
+        A shapely multipolygon, read with the toes to the right, empty without a mark.
+    """
+    import shapely
+    from shapely.ops import polylabel
+
+    name = "".join(c if c.isascii() and (c.isalnum() or c in "-_./") else " " for c in plan.layout.name)
+    text = f"{side[0].upper()} {name[:_MARK_MOST]}".strip()
+    between = plan.cavity.buffer(-_MARK_OFF)
+    room = between if floor is None else between.intersection(floor.buffer(-_MARK_OFF))
+    if parameters.mark_height <= 0.0 or room.is_empty:
+        return shapely.MultiPolygon()
+    widest = max(getattr(room, "geoms", [room]), key=lambda g: g.area)
+    middles = (between.centroid, widest.centroid, polylabel(widest, 1.0))
+    for line in (text, text[0]):
+        height = parameters.mark_height
+        while height >= 4.0:
+            letters = lettering(line, height)
+            for middle in middles:
+                x, y = middle.x - letters.centroid.x, middle.y - letters.centroid.y
+                placed = shapely.affinity.translate(letters, round(x, 3), round(y, 3))
+                if room.covers(placed):
+                    return placed
+            height -= 1.0
+    return shapely.MultiPolygon()

@@ -1,0 +1,178 @@
+"""The replaceable silicone pad: a sheet under the taxels, its rim around them ends below the print. Lengths in mm."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.shoes.geometry.outline import GRID, ring
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.pad_outline import pad_rim
+from plantar.shoes.plan.shoe_plan import ShoePlan
+
+__all__ = ["land_top", "mould_surface", "pad_surface", "prism_surface", "taxel_surfaces", "volume_of"]
+
+_MOULD_WALL, _MOULD_FLOOR = 6.0, 3.0  # mm around and below the cast pad
+
+Array = NDArray[np.float64]
+
+
+def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
+    """Surface of the pad, its lower face at z = 0.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions; `pad_thickness` above 0.
+
+    Returns:
+        Closed surface (n, 3, 3) in mm, outward counter-clockwise.
+    """
+    faces, tops = _faces(plan, parameters)
+    return _height_field(faces, tops)
+
+
+def mould_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
+    """Surface of an open mould that the pad is cast in, its flat lower face up, level with the mould's edge.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions; `pad_thickness` above 0.
+
+    Returns:
+        Closed surface (n, 3, 3) in mm, outward counter-clockwise, standing on z = 0; turned about x against the pad.
+    """
+    faces, tops = _faces(plan, parameters, _MOULD_WALL)
+    height = max(tops) + _MOULD_FLOOR
+    surface = _height_field(faces, [height - top for top in tops])
+    return np.asarray((surface * np.array([1.0, -1.0, 1.0]))[:, ::-1])
+
+
+def _faces(plan: ShoePlan, p: ShoeParameters, around: float = 0.0) -> tuple[list[Any], list[float]]:
+    """The pad from above, and so much around it, as polygons that share their corners; how high the pad is in each."""
+    import shapely
+
+    rim, full = pad_rim(plan, p), p.pad_thickness + p.pad_rim_height
+    # Borders cut each other where they meet, so that neighbouring faces share their corners.
+    whole, pad, raised = plan.contact.buffer(around, join_style="mitre"), plan.contact.buffer(GRID), rim.buffer(GRID)
+    lands = [land.buffer(GRID) for land in plan.lands]
+    borders = [shape.boundary for shape in (plan.contact, rim, whole, *plan.lands)]
+    lines = shapely.union_all(borders, grid_size=GRID)
+    faces = [f for f in shapely.polygonize([lines]).geoms if whole.buffer(GRID).covers(f)]
+    tops = [full if raised.covers(f) else p.pad_thickness if pad.covers(f) else 0.0 for f in faces]
+    if lands:
+        tree = shapely.STRtree(lands)
+        for k in np.unique(tree.query(faces, predicate="covered_by")[0]).tolist():
+            tops[k] = land_top(plan, p)
+    return faces, tops
+
+
+def land_top(plan: ShoePlan, parameters: ShoeParameters) -> float:
+    """How high the pad's lands are, which press on the films, or on the sheet.
+
+    Args:
+        plan: The sole; of films or a sheet.
+        parameters: Dimensions.
+
+    Returns:
+        Their height above the sole frame in mm.
+    """
+    assert plan.cell is not None
+    return parameters.ceiling - plan.cell.thickness
+
+
+def _height_field(faces: Sequence[Any], tops: Sequence[float]) -> Array:
+    """Closed surface over z = 0 of polygons that share their corners, each up to its own height."""
+    import shapely
+
+    parts = []
+    owners: dict[tuple[tuple[float, float], tuple[float, float]], float] = {}
+    for face, top in zip(faces, tops, strict=True):
+        flat = _triangles(face)
+        parts += [_at(flat, 0.0)[:, ::-1], _at(flat, top)]
+        face = shapely.geometry.polygon.orient(face)
+        for line in (face.exterior, *face.interiors):
+            owners |= dict.fromkeys(pairwise([tuple(c) for c in np.array(line.coords)]), top)
+    levels = sorted(set(tops))
+    for (a, b), top in owners.items():
+        low = owners.get((b, a), 0.0)
+        if top > low:  # cut at every height, so that walls that meet share their corners
+            for z, up in pairwise([low, *(v for v in levels if low < v < top), top]):
+                wall = np.array([[*a, z], [*b, z], [*b, up], [*a, up]])
+                parts.append(wall[[[0, 1, 2], [0, 2, 3]]])
+    return np.concatenate(parts)
+
+
+def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
+    """Surface of each taxel: a head below the print, a base in the pocket; both closed. Of films and sheets the bodies;
+    lands are of the pad, where there is one.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        Surfaces (n, 3, 3) in mm, outward counter-clockwise, in the order of the cells.
+    """
+    p = parameters
+    if plan.lands:
+        low = land_top(plan, p)
+        bodies = [prism_surface(q, low, p.ceiling) for q in plan.pockets]
+        if p.pad_thickness > 0.0:
+            return bodies
+        lands = [prism_surface(q, 0.0, low) for q in plan.lands]
+        return [np.concatenate([b, *own]) for b, own in zip(bodies, _shared_out(lands, len(bodies)), strict=True)]
+    bases = [prism_surface(q, p.bottom, p.ceiling) for q in plan.pockets]
+    if p.taxel_protrusion <= 0.0:
+        return bases
+    return [
+        np.concatenate([prism_surface(c, p.pad_thickness, p.bottom), b]) for c, b in zip(plan.cells, bases, strict=True)
+    ]
+
+
+def _shared_out(lands: list[Array], count: int) -> list[list[Array]]:
+    """A land for each of the bodies, or all of them for a sheet."""
+    return [lands] if count == 1 else [[land] for land in lands]
+
+
+def prism_surface(polygon: Any, low: float, high: float) -> Array:
+    """Closed surface of a polygon without holes between two heights.
+
+    Args:
+        polygon: Shapely polygon in mm.
+        low: Lower height in mm.
+        high: Upper height.
+
+    Returns:
+        Surface (n, 3, 3) in mm, outward counter-clockwise.
+    """
+    flat = _triangles(polygon)
+    a = ring(polygon)
+    b = np.roll(a, -1, axis=0)
+
+    def at(points: Array, z: float) -> Array:
+        return np.column_stack([points, np.full(len(points), z)])
+
+    walls = [(at(a, low), at(b, low), at(b, high)), (at(a, low), at(b, high), at(a, high))]
+    return np.concatenate([_at(flat, low)[:, ::-1], _at(flat, high), *(np.stack(w, axis=1) for w in walls)])
+
+
+def _triangles(face: Any) -> Array:
+    """Triangles (n, 3, 2) of a polygon, counter-clockwise, with its own corners only."""
+    import shapely
+
+    oriented = [shapely.geometry.polygon.orient(t) for t in shapely.constrained_delaunay_triangles(face).geoms]
+    return np.array([np.array(t.exterior.coords)[:3, :2] for t in oriented])
+
+
+def _at(flat: Array, z: float) -> Array:
+    return np.concatenate([flat, np.full((*flat.shape[:-1], 1), z)], axis=-1)
+
+
+def volume_of(surface: Array) -> float:
+    """Volume in mm^3 that a closed surface (n, 3, 3) in mm encloses."""
+    a, b, c = np.moveaxis(surface, 1, 0)
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)

@@ -1,0 +1,368 @@
+"""What holds the shoe on the foot without a change to the robot: clips, lugs for straps, or clamping screws."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from plantar.errors import FootError
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.geometry.outline import grown, tidy
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.block import Block, Step, box_block
+from plantar.shoes.plan.pull_off import SNAP_MOST, PullOff, pull_off
+from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.plan.strength import load_case
+
+__all__ = ["Retention", "choose_retention", "retention_steps"]
+
+_LUG_END = 5.0  # mm of lug before and behind a slot
+_BAR = 4.0  # mm of lug above a slot
+_SLOT_PLAY = 2.0  # mm of slot more than the strap, along and up
+_ARM_GAP = 1.2  # mm between a clip's arm and the wall beside it
+_LEAST_ARM = 8.0  # mm: a shorter arm is too stiff
+_ROOT = 6.0  # mm of an arm's root within the plate
+_HEAVY = 1.4e-6  # kg/mm^3: worn mass over contact face and thickness, wall and skin counted
+_PLAY = 0.2  # mm between a clip's hook and the foot's edge
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A place on the left (+1) or right (-1) wall: its middle x, and for a clip the height of the foot's edge there."""
+
+    x: float
+    side: int
+    edge: float = 0.0
+
+
+@dataclass(frozen=True)
+class Retention:
+    """How the shoe is held.
+
+    Attributes:
+        kind: "clips", "straps", "screws" or "none".
+        places: Where, on the left shoe.
+        width: Strap's or clip's width, or screw's diameter in mm.
+        strain: Strain of a clip's arm while it snaps over the edge; 0 without clips.
+        note: What was chosen and why.
+    """
+
+    kind: Literal["clips", "straps", "screws", "none"]
+    places: tuple[_Place, ...]
+    width: float
+    strain: float
+    note: str
+
+    @property
+    def straps(self) -> int:
+        """Number of straps that the shoe needs."""
+        return len(self.places) // 2 if self.kind == "straps" else 0
+
+    def top(self, parameters: ShoeParameters) -> float:
+        """Height of the highest part above the face that the foot stands on, in mm."""
+        p = parameters
+        if self.kind == "straps":
+            return p.rim_height + p.strap_thickness + _SLOT_PLAY + _BAR + 1.0
+        if self.kind == "clips":
+            return max(place.edge for place in self.places) + _hook_height(p)
+        return p.rim_height
+
+    def pull_off(self, foot: Foot, worn: float, mass: float, parameters: ShoeParameters) -> PullOff:
+        """How firmly it holds.
+
+        Args:
+            foot: The left foot.
+            worn: Worn mass of the shoe in kg.
+            mass: Mass of the robot in kg.
+            parameters: Dimensions as used.
+
+        Returns:
+            Forces and moments.
+        """
+        arms = tuple((q.x, q.edge + 0.5 * _hook_height(parameters)) for q in self.places)
+        return pull_off(self.kind, arms, self.width, foot.sole.bounds[0], worn, mass, parameters)
+
+
+def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> Retention:
+    """Choose what holds the shoe: clips where the foot has edges to clip over, lugs for straps otherwise.
+
+    Args:
+        foot: The left foot.
+        plan: The left sole.
+        parameters: Dimensions; `retention` may ask for one kind.
+
+    Returns:
+        The choice.
+
+    Raises:
+        FootError: If clips are asked for and the foot has no edge for them.
+    """
+    p = parameters
+    low, _, high, _ = plan.foot.bounds
+    length, middle = high - low, 0.5 * (low + high)
+    if p.retention == "none":
+        return Retention("none", (), 0.0, 0.0, "nothing holds the shoe but the fit, as asked for")
+    if p.retention == "screws":
+        places = tuple(
+            _straightest(plan, middle, length, share, side, p) for share in (-0.25, 0.25) for side in (1, -1)
+        )
+        return Retention("screws", places, p.screw_diameter, 0.0, "four clamping screws through the wall, as asked for")
+    reason = "as asked for"
+    if p.retention in ("auto", "clips"):
+        clips, reason = _clips(foot, plan, p)
+        if clips is not None:
+            return clips
+        if p.retention == "clips":
+            raise FootError(f"no clips: {reason}; use straps")
+    width = round(min(p.strap_width, length / 6.0), 1)
+    shares = (-0.2, 0.24) if length >= 6.0 * p.strap_width + 4.0 * _LUG_END else (0.0,)
+    places = tuple(_Place(round(middle + s * length, 3), side) for s in shares for side in (1, -1))
+    text = "a strap" if len(shares) == 1 else "two straps"
+    return Retention("straps", places, width, 0.0, f"lugs for {text} of {width:g} mm: {reason}")
+
+
+def _straightest(plan: ShoePlan, middle: float, length: float, share: float, side: int, p: ShoeParameters) -> _Place:
+    """The place near a share of the foot's length at which the wall runs most nearly along the foot."""
+    tries = [middle + (share + 0.02 * k) * length for k in (0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5)]
+    bends = [_wall_line(plan.rim, x, side, p.screw_diameter + 3.0, plan.foot.centroid.y)[1] for x in tries]
+    return _Place(round(tries[int(np.argmin(np.round(bends, 2)))], 3), side)
+
+
+def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | None, str]:
+    """Two pairs of clips on the long sides, or why there are none."""
+    if foot.triangles is None:
+        return None, "the foot's upper side is not known"
+    low, _, high, _ = plan.foot.bounds
+    length, middle = high - low, 0.5 * (low + high)
+    samples = _surface_points(foot.triangles)
+    outline = foot.passing(min(foot.height, p.clip_height_max))
+    places, strain = [], 0.0
+    for share in (-0.27, 0.27):
+        for side in (1, -1):
+            x = middle + share * length
+            edge = _edge_height(samples, outline, p, x, side)
+            if edge is None:
+                return None, "the foot's upper edge is not straight and free where a clip would hold"
+            if edge > p.clip_height_max:
+                return None, f"the foot's upper edge lies {edge:.0f} mm high, above clip_height_max"
+            arm = edge + 0.5 * _hook_height(p)
+            if edge < _LEAST_ARM:
+                return None, f"the foot's upper edge lies {edge:.0f} mm high, too low for an arm that bends"
+            strain = max(strain, 1.5 * p.clip_thickness * p.clip_hook / arm**2)
+            places.append(_Place(round(x, 3), side, round(edge, 3)))
+    if strain > p.printed.strain:
+        return None, (
+            f"a clip's arm would be strained by {100 * strain:.1f} %, {p.material} takes {100 * p.printed.strain:.1f} %"
+        )
+    note = "four clips over the foot's upper edge: " + ", ".join(f"{q.edge:.1f}" for q in places) + " mm high"
+    clips = Retention("clips", tuple(places), p.clip_width, strain, note)
+    held = clips.pull_off(foot, _HEAVY * plan.contact.area * p.thickness, load_case(foot, p).mass, p)
+    if held.force < held.swing:
+        return None, f"four clips would hold {held.force:.0f} N, 5 g on the shoe in swing are {held.swing:.0f} N"
+    if held.moment < held.scuff:
+        return None, f"four clips would hold {held.moment:.2f} N m in a scuff at the toe, which takes {held.scuff:.2f}"
+    if held.snap > SNAP_MOST:
+        return None, f"a clip would take {held.snap:.0f} N to snap on, a person pushes with {SNAP_MOST:g} N"
+    return clips, ""
+
+
+def _surface_points(triangles: Any) -> Any:
+    """Points (n, 3) all over a surface, about 1.5 mm apart."""
+    size = np.linalg.norm(np.stack([triangles[:, i] - triangles[:, i - 1] for i in range(3)]), axis=-1).max(axis=0)
+    steps = np.clip(np.ceil(size / 1.5), 1, 120).astype(int)
+    out = [triangles.reshape(-1, 3)]
+    for count in np.unique(steps):
+        i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1))
+        i, j = i[i + j <= count] / count, j[i + j <= count] / count
+        a, b, c = np.moveaxis(triangles[steps == count], 1, 0)
+        out.append((a[:, None] + i[:, None] * (b - a)[:, None] + j[:, None] * (c - a)[:, None]).reshape(-1, 3))
+    return np.concatenate(out)
+
+
+def _window(x: float, side: int, half: float, y: float) -> Any:
+    """The half strip of a wall within half a width of x, from y outwards."""
+    import shapely
+
+    return (
+        shapely.box(x - half, y, x + half, y + 1000.0) if side > 0 else shapely.box(x - half, y - 1000.0, x + half, y)
+    )
+
+
+def _wall_line(outline: Any, x: float, side: int, half: float, y: float) -> tuple[float, float]:
+    """Outermost y of an outline within a window, and how much less it is at its ends."""
+    strip = outline.intersection(_window(x, side, half, y))
+    if strip.is_empty:
+        return y, math.inf
+    farthest = strip.bounds[3] if side > 0 else strip.bounds[1]
+    ends = [outline.intersection(_window(e, side, 0.05, y)) for e in (x - half, x + half)]
+    if any(e.is_empty for e in ends):
+        return farthest, math.inf
+    return farthest, max(abs(farthest - (e.bounds[3] if side > 0 else e.bounds[1])) for e in ends)
+
+
+def _edge_height(samples: Any, outline: Any, p: ShoeParameters, x: float, side: int) -> float | None:
+    """Height of the foot's upper edge at a place of its outline; None where the outline is not straight there."""
+    half = 0.5 * p.clip_width
+    farthest, bend = _wall_line(outline, x, side, half, outline.centroid.y)
+    if bend > 1.0:
+        return None
+    inside = (np.abs(samples[:, 0] - x) <= half) & (side * (farthest - samples[:, 1]) <= p.clip_hook + 1.0 + bend)
+    if not inside.any():
+        return None
+    return float(samples[inside, 2].max())
+
+
+def _hook_height(p: ShoeParameters) -> float:
+    """Height of a clip's hook: its retaining face and its lead-in, both at 45 degrees, and a land between."""
+    return 2.0 * (p.clip_hook + p.clearance) + 1.0
+
+
+def retention_steps(
+    foot: Foot, plan: ShoePlan, retention: Retention, parameters: ShoeParameters
+) -> tuple[list[Block], list[Step]]:
+    """What holds the left shoe, as blocks.
+
+    Args:
+        foot: The left foot.
+        plan: The left sole.
+        retention: What was chosen.
+        parameters: Dimensions.
+
+    Returns:
+        Blocks of the body, and the steps after the foot's place is cut.
+    """
+    if retention.kind == "straps":
+        return _lugs(foot, plan, retention, parameters)
+    if retention.kind == "clips":
+        return [], _arms(foot, plan, retention, parameters)
+    if retention.kind == "screws":
+        return _bosses(plan, retention, parameters)
+    return [], []
+
+
+def _lugs(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[list[Block], list[Step]]:
+    """Lugs with a slot; above the rim they leave room for the strap between lug and foot."""
+    top = retention.top(p)
+    outline = tidy(foot.passing(top).union(plan.foot))
+    inner = tidy(grown(outline, p.clearance + p.strap_thickness))
+    outer = tidy(grown(outline, p.clearance + p.strap_thickness + p.rim_thickness))
+    middle = plan.foot.centroid.y
+    half = 0.5 * (retention.width + _SLOT_PLAY) + _LUG_END
+    slot_low = p.rim_top + 1.0
+    slot_high = slot_low + p.strap_thickness + _SLOT_PLAY
+    bevel = min(p.fillet + 1.0, _LUG_END - 1.0)
+    blocks, cuts = [], []
+    for place in retention.places:
+        window = _window(place.x, place.side, half, middle)
+        lug = outer.intersection(window)
+        blocks.append(Block(_one(lug), p.bottom, p.thickness + top))
+        slot = _window(place.x, place.side, 0.5 * (retention.width + _SLOT_PLAY), middle)
+        cuts.append(Block(slot, slot_low, slot_high))
+        for end in (-1, 1):
+            cuts.append(_bevel(place, end, half, bevel, middle, p.thickness + top))
+    room = Block(inner, p.rim_top, p.thickness + top + 1.0)
+    return blocks, [Step("cut", "room and slots of the straps", (room, *cuts))]
+
+
+def _one(shape: Any) -> Any:
+    """The largest polygon of a shape, on the grid."""
+    return tidy(max(getattr(shape, "geoms", [shape]), key=lambda g: g.area))
+
+
+def _bevel(place: _Place, end: int, half: float, size: float, middle: float, top: float) -> Block:
+    """The wedge that takes off an upper corner of a lug."""
+    import shapely
+
+    y = sorted((middle, middle + place.side * 1000.0))
+    at = place.x + end * half
+
+    def strip(inwards: float) -> Any:
+        xs = sorted((at - end * inwards, at + end * 1.0))
+        return shapely.box(xs[0], y[0], xs[1], y[1])
+
+    return Block(strip(-0.02), top - size, top + 0.5, strip(size + 0.5 - 0.02))
+
+
+def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -> list[Step]:
+    """Arms with hooks in windows of the wall."""
+    import shapely
+
+    outline = foot.passing(min(foot.height, p.clip_height_max))
+    middle = plan.foot.centroid.y
+    half = 0.5 * retention.width
+    gaps, arms = [], []
+    for place in retention.places:
+        side = place.side
+        window = _window(place.x, side, half + _ARM_GAP, middle)
+        gaps.append(Block(window, p.thickness, p.rim_top + 100.0))
+        farthest, _ = _wall_line(outline, place.x, side, half, middle)
+        inner = farthest + side * p.clearance
+        outer = inner + side * p.clip_thickness
+        top = p.thickness + place.edge + _hook_height(p)
+
+        def plate(start: float, end: float, x: float = place.x) -> Any:
+            return shapely.box(x - half, min(start, end), x + half, max(start, end))
+
+        root = plate(inner - side * _ROOT, outer)  # to the plate, where the foot is wider above than below
+        low = p.ceiling + p.scribe  # above the pockets, which reach below the wall
+        arms.append(Block(root, low, p.thickness - p.mark_depth))
+        arms.append(Block(plate(inner, outer), low, top))
+        reach = p.clip_hook + p.clearance
+        # The foot's edge touches the 45 degree face where it has come in by the clearance.
+        low = p.thickness + place.edge + _PLAY - p.clearance
+        bite = 0.5 * p.clip_thickness * side
+        tip = inner - side * reach
+        arms.append(Block(plate(inner - side * 0.02, inner + bite), low, low + reach, plate(tip, inner + bite)))
+        arms.append(Block(plate(tip, inner + bite), low + reach, low + reach + 1.0))
+        arms.append(
+            Block(
+                plate(tip, inner + bite),
+                low + reach + 1.0,
+                low + 2.0 * reach + 0.98,
+                plate(inner - side * 0.02, inner + bite),
+            )
+        )
+    return [Step("cut", "windows of the clips", tuple(gaps)), Step("add", "clips", tuple(arms))]
+
+
+def _bosses(plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[list[Block], list[Step]]:
+    """Bosses with a hole for a screw that presses on the foot's side, and a slot from above for its nut."""
+    middle = plan.foot.centroid.y
+    diameter = retention.width
+    half, depth = diameter + 3.0, 0.8 * diameter + 2.0
+    nut_width, nut_height = 1.8 * diameter + 0.4, 0.8 * diameter + 0.4
+    hole_z = p.thickness + 0.5 * p.rim_height
+    blocks, cuts = [], []
+    for place in retention.places:
+        line, _ = _wall_line(plan.rim, place.x, place.side, half, middle)
+        start, end = sorted((line - place.side * (p.rim_thickness + 1.0), line + place.side * depth))
+        blocks.append(box_block((place.x - half, start, p.bottom), (place.x + half, end, p.rim_top)))
+        cuts += _hole(place, middle, 0.5 * (diameter + 0.3), hole_z)
+        at = sorted((line - place.side * 0.2, line + place.side * (nut_height - 0.2)))
+        cuts.append(
+            box_block(
+                (place.x - 0.5 * nut_width, at[0], hole_z - 0.5 * nut_width),
+                (place.x + 0.5 * nut_width, at[1], p.rim_top + 1.0),
+            )
+        )
+    return blocks, [Step("cut", "holes and nuts of the clamping screws", tuple(cuts))]
+
+
+def _hole(place: _Place, middle: float, radius: float, height: float) -> list[Block]:
+    """A horizontal hole outwards from the middle: eight-sided, so that its roof carries itself."""
+    import shapely
+
+    y = sorted((middle, middle + place.side * 1000.0))
+    narrow = radius * math.tan(math.pi / 8.0)
+
+    def strip(half: float) -> Any:
+        return shapely.box(place.x - half, y[0], place.x + half, y[1])
+
+    return [
+        Block(strip(narrow), height - radius, height - narrow, strip(radius)),
+        Block(strip(radius), height - narrow, height + narrow),
+        Block(strip(radius), height + narrow, height + radius, strip(narrow)),
+    ]

@@ -1,0 +1,145 @@
+"""A walking robot's arm that gives way to whoever takes it: the companion's tasks on its joints, and what it tells.
+
+Its controller knows the arm's joints and its skin, and nothing of the walk: for it the base stands upright. What the
+arm does to the body the soles feel; where its links are, with all that their skin feels, the walking controller gets
+from its joint angles.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
+from plantar.sim.arms.settings import ArmSettings
+from plantar.sim.arms.worn_arm import WornArm
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.standing.joint_range import JointRange
+from plantar.sim.model.world import World
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.body_compliance import BodyCompliance
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.posture import Posture
+
+__all__ = ["CompliantArm"]
+
+_MARGIN = math.radians(5.0)  # from the end of a joint's range at which it is pushed back
+_AT_END = 0.5  # of a joint's largest torque, with which it is pushed back at the end of its range
+_DAMPED = 0.1  # s: damping there over its stiffness
+
+
+class CompliantArm:
+    """The arm in a world: encoders, tasks and motors.
+
+    The tasks are those of the companion's pressed body (`plantar.sim.companion.standing`): joints keep off the ends of
+    their range; below that a posture holds them by springs, and the skin's forces move them (A 13-14, 18).
+
+    Args:
+        worn: The arm.
+        skin: All the robot's skin, that of the arm among it; None for a robot without.
+        settings: Its settings, for the same robot.
+        world: The world, with the arm in it.
+        period: Control period in s.
+        encoder_noise: Noise (1 sigma) in rad of the joint angles.
+        seed: Of the noise.
+
+    Attributes:
+        angles: Joint angles (k,) in rad as last measured.
+        posture: Those that it is drawn to.
+    """
+
+    def __init__(
+        self,
+        worn: WornArm,
+        skin: BodySkin | None,
+        settings: ArmSettings,
+        world: World,
+        period: float,
+        encoder_noise: float,
+        seed: int,
+    ) -> None:
+        self._settings, self._world, self._encoder_noise = settings, world, encoder_noise
+        self._rng = np.random.default_rng([seed, 0xA3])
+        model = world.model
+        joints = [model.joint(name) for name in worn.joints]
+        self._places = np.array([int(joint.qposadr[0]) for joint in joints])
+        self._speeds = np.array([int(joint.dofadr[0]) for joint in joints])
+        self._motors = np.array([int(model.actuator(name).id) for name in worn.joints])
+        self._skin = skin
+        self._own = np.zeros(0, dtype=bool) if skin is None else skin.taxels_of([p.name for p in worn.skin.patches])
+        self._links = [link for link in worn.skin.links if skin is not None]
+        self.posture = worn.posture
+        self._efforts = worn.efforts
+        self._robot = MujocoDynamics(worn.model)
+        self._stack = _tasks(worn, skin, settings)
+        self._share = period / (period + settings.filter)
+        self._force = np.zeros(len(self._own))
+        self.angles = self.posture.copy()
+
+    @property
+    def torque(self) -> NDArray[np.float64]:
+        """Torque (k,) in N m that the motors are told to give."""
+        return np.array(self._world.data.ctrl[self._motors])
+
+    @property
+    def true_angles(self) -> NDArray[np.float64]:
+        """Joint angles (k,) in rad as they are; for who judges."""
+        return np.array(self._world.data.qpos[self._places])
+
+    def place(self) -> None:
+        """Put the joints into the posture, at rest."""
+        self._world.data.qpos[self._places] = self.posture
+        self._world.data.qvel[self._speeds] = 0.0
+
+    def read(self) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Read the encoders.
+
+        Returns:
+            Origin (3,) in m and rotation (3, 3) of each link that has skin, in the base frame, by the link's name.
+        """
+        data, rng, k = self._world.data, self._rng, len(self._places)
+        self.angles = data.qpos[self._places] + self._encoder_noise * rng.standard_normal(k)
+        speeds = data.qvel[self._speeds] + self._settings.speed_noise * rng.standard_normal(k)
+        self._robot.update(self.angles, speeds, float(data.time))
+        return {link: self._robot.pose(link) for link in self._links}
+
+    def hold(self) -> None:
+        """Read the encoders and hold the posture, without skin: while the robot is put on its feet."""
+        self.read()
+        self.step(None)
+
+    def step(self, felt: SkinReading | None) -> None:
+        """Set the motors' torques for a control period, by the last reading of the encoders.
+
+        Args:
+            felt: What the skin says; None where nobody reads it.
+        """
+        external = None
+        if felt is not None and self._skin is not None:
+            self._force = self._force + self._share * (np.nan_to_num(felt.force) - self._force)
+            felt = SkinReading(felt.time, self._force, felt.distance)
+            external = self._external(self._skin, felt)
+        torque = self._stack.step(self._robot, felt, external).torque
+        self._world.data.ctrl[self._motors] = np.clip(torque, -self._efforts, self._efforts)
+
+    def _external(self, skin: BodySkin, felt: SkinReading) -> NDArray[np.float64] | None:
+        """Generalized force (k,) of what the arm's skin feels; None for nothing."""
+        total: NDArray[np.float64] | None = None
+        for link, wrench, _ in link_wrenches(skin, felt.force, self._own & (felt.force >= skin.thresholds)):
+            turned = (wrench.reshape(2, 3) @ self._robot.pose(link)[1].T).ravel()
+            own = turned @ self._robot.jacobian(link)
+            total = own if total is None else total + own
+        return total
+
+
+def _tasks(worn: WornArm, skin: BodySkin | None, settings: ArmSettings) -> TaskStack:
+    """The arm's tasks in their order."""
+    low, high = worn.ranges
+    stiff = _AT_END * worn.efforts / _MARGIN
+    ends = JointRange(low, high, _MARGIN, stiff, _DAMPED * stiff)
+    springs = Posture(worn.posture, settings.spring * worn.efforts, settings.damper * worn.efforts, torques=True)
+    patches = [patch.name for patch in worn.skin.patches]
+    yields = [] if skin is None else [DirectInteraction(skin, settings.gain, patches)]
+    return TaskStack([[ends], [BodyCompliance(springs, *yields)]])

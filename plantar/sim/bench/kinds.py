@@ -1,0 +1,212 @@
+"""What `plantar bench` can measure, a function a kind, by name; what a kind needs is loaded when it is asked for."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from plantar.atomic import output_folder, write_text
+from plantar.console.command import file_lines
+from plantar.console.progress import part_of, progress_bar
+from plantar.errors import InputError
+from plantar.optional_library import need_libraries
+from plantar.sim.libraries import LIBRARIES
+
+__all__ = ["BenchOptions", "Told", "measure"]
+
+Progress = Callable[[float, str], None]
+
+
+@dataclass(frozen=True)
+class BenchOptions:
+    """Options of the kinds; `measure` refuses one that is given to a kind that does not take it.
+
+    Attributes:
+        layout: Layout file of the sole, or None for the default one.
+        stress: Throw readings at the perception.
+        readings: How many.
+        seed: Seed of what is left to chance in them.
+        scenarios: How many scenarios of the whole loop.
+        first: Number of the first one.
+        scene: Walks to run; all where empty.
+        robot: Robots to run them with; all where empty.
+        quick: Run what tells most, once.
+    """
+
+    layout: Path | None = None
+    stress: bool = False
+    readings: int = 1_000_000
+    seed: int = 0
+    scenarios: int = 10_000
+    first: int = 0
+    scene: tuple[str, ...] = ()
+    robot: tuple[str, ...] = ()
+    quick: bool = False
+
+
+class Told(NamedTuple):
+    """What was measured.
+
+    Attributes:
+        result: As plain JSON values, with the names of its files under "files" where it wrote some.
+        text: In words.
+        failures: What of it failed, a line each.
+    """
+
+    result: dict[str, Any]
+    text: str
+    failures: tuple[str, ...] = ()
+
+
+def measure(what: str, options: BenchOptions, output: Path) -> Told:
+    """Measure a kind, or all of them.
+
+    Args:
+        what: "all" or one of the kinds.
+        options: What the kind is asked for.
+        output: Folder for the files.
+
+    Returns:
+        What came of it, with the files' places.
+
+    Raises:
+        InputError: If there is no such kind, or it does not take an option that was given.
+        DependencyError: If a library is missing.
+    """
+    allowed = (*_PARTS, *_TABLES, "all")
+    if what not in allowed:
+        raise InputError(f"cannot measure '{what}'; allowed: {', '.join(allowed)}")
+    _check(what, options)
+    with progress_bar() as tell:
+        if options.stress:
+            return _readings(options, tell)
+        if what in _TABLES:
+            told = _TABLES[what](output, options, tell)
+            told.result["files"] = [str(output / name) for name in told.result["files"]]
+            return told
+        return _measure_parts(what, options, output, tell)
+
+
+def _check(what: str, options: BenchOptions) -> None:
+    """Refuse options that would do nothing."""
+    kind = f"{what} --stress" if options.stress else what
+    for told in fields(options):
+        takers = _TAKEN_BY[told.name]
+        if getattr(options, told.name) != told.default and kind not in takers:
+            raise InputError(f"--{told.name} is for {' and '.join(takers)}, not '{what}': plantar bench {takers[0]}")
+
+
+_TAKEN_BY: Mapping[str, tuple[str, ...]] = {
+    "layout": ("contact", "all"),
+    "stress": ("kernels --stress",),
+    "readings": ("kernels --stress",),
+    "seed": ("kernels --stress",),
+    "scenarios": ("stress",),
+    "first": ("stress",),
+    "scene": ("scenes",),
+    "robot": ("scenes",),
+    "quick": ("all", "scenes"),
+}
+
+
+def _readings(options: BenchOptions, tell: Progress) -> Told:
+    """Odd readings for every function of the perception."""
+    need_libraries("sim", "scipy", "cv2")
+    from plantar.bench.stress.stress_run import stress
+    from plantar.bench.stress.stress_text import stress_text
+
+    result = stress(options.readings, options.seed, progress=tell)
+    failures = (f"{result.failures} failures in {result.readings} readings",) if result.failures else ()
+    return Told(result.as_dict(), stress_text(result), failures)
+
+
+def _scenes(output: Path, options: BenchOptions, tell: Progress) -> Told:
+    """Walks over the settings that trade run time against error."""
+    need_libraries("sim", *LIBRARIES)
+    from plantar.sim.bench.scenes.measure_scenes import measure_scenes
+    from plantar.sim.bench.scenes.scenes_page import scenes_text
+
+    result = measure_scenes(output, tell, options.scene, options.robot, options.quick)
+    return Told(result, scenes_text(result) + file_lines(str(output / name) for name in result["files"]))
+
+
+def _stress(output: Path, options: BenchOptions, tell: Progress) -> Told:
+    """The whole loop in random scenarios."""
+    need_libraries("sim", *LIBRARIES)
+    from plantar.sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
+
+    result = measure_stress(output, options.scenarios, options.first, tell)
+    failures = [f"{len(result['failures'])} of {options.scenarios} scenarios failed"] if result["failures"] else []
+    return Told(result, stress_loop_text(result), tuple(failures))
+
+
+_TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Told]] = {"scenes": _scenes, "stress": _stress}
+"""Kinds whose tables grow in the folder itself and are gone on with."""
+
+
+def _kernels(folder: Path, options: BenchOptions, tell: Progress) -> Told:
+    """Kernels beside libraries."""
+    need_libraries("sim", "scipy", "cv2")
+    from plantar.bench.kernel_text import kernel_text
+    from plantar.bench.report import measure_kernels
+
+    result = measure_kernels(folder, tell, rounds=3 if options.quick else 9)
+    return Told(result, kernel_text(result))
+
+
+def _contact(folder: Path, options: BenchOptions, tell: Progress) -> Told:
+    """Contact models beside MuJoCo's exact wrench."""
+    need_libraries("sim", *LIBRARIES)
+    from plantar.sim.contact_models import measure_contact
+    from plantar.sim.contact_models.contact_text import contact_text
+
+    result = measure_contact(folder, options.layout, tell)
+    failed = () if result["holds"] else ("the chosen contact model is not as right as it must be",)
+    return Told(result, contact_text(result), failed)
+
+
+def _skip(folder: Path, options: BenchOptions, tell: Progress) -> Told:
+    """Walks that skip what they do not need, and walks that skip nothing."""
+    need_libraries("sim", *LIBRARIES)
+    from plantar.sim.bench.skip_page import skip_text
+    from plantar.sim.bench.skipping import SCENES, measure_skipping
+
+    few, rounds = (SCENES[:1], 1) if options.quick else (SCENES, 3)
+    result = measure_skipping(folder, tell, few, rounds)
+    same = "a run that skips what its scene does not need moves otherwise than one that does not"
+    return Told(result, skip_text(result), () if result["same_motion"] else (same,))
+
+
+_PARTS: Mapping[str, Callable[[Path, BenchOptions, Progress], Told]] = {
+    "kernels": _kernels,
+    "contact": _contact,
+    "skip": _skip,
+}
+"""Kinds that write all their files at their end, in the order of `all`."""
+
+
+def _measure_parts(what: str, options: BenchOptions, output: Path, tell: Progress) -> Told:
+    """One part, or all of them with scenes, the papers' experiments and the page; and bench.json."""
+    names = tuple(_PARTS) if what == "all" else (what,)
+    count = len(names) + (2 if what == "all" else 0)
+    shares = [part_of(tell, i / count, 1 / count) for i in range(count)]
+    result: dict[str, Any] = {}
+    texts: list[str] = []
+    failures: list[str] = []
+    with output_folder(output) as folder:
+        for name, share in zip(names, shares, strict=False):
+            told = _PARTS[name](folder, options, share)
+            result[name] = told.result
+            texts.append(told.text)
+            failures += told.failures
+        if what == "all":
+            from plantar.sim.bench.page.measure_page import measure_page
+
+            result |= measure_page(folder, output, (shares[-2], shares[-1]), result, options.quick)
+        files = [str(output / name) for part in result.values() for name in part.pop("files")]
+        result["files"] = [*files, str(output / "bench.json")]
+        write_text(folder / "bench.json", json.dumps(result, indent=1) + "\n")
+    return Told(result, "\n".join(texts) + file_lines(result["files"]), tuple(failures))

@@ -1,0 +1,59 @@
+"""The end of `plantar bench all`: scenes and the papers' experiments, and the page of all that was measured."""
+
+from __future__ import annotations
+
+import platform
+import shutil
+import time
+from collections.abc import Callable, Mapping
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from plantar.atomic import write_text
+from plantar.sim.bench.page.bench_page import bench_page
+from plantar.sim.bench.page.paper_figures import measure_papers
+from plantar.sim.bench.scenes.measure_scenes import measure_scenes
+from plantar.sim.bench.scenes.scene_runs import TABLE
+
+__all__ = ["measure_page"]
+
+Progress = Callable[[float, str], None]
+
+
+def measure_page(
+    folder: Path, before: Path, progress: tuple[Progress, Progress], result: Mapping[str, Any], quick: bool
+) -> dict[str, Any]:
+    """Measure what is left, and write bench.html.
+
+    Args:
+        folder: Where to write; exists.
+        before: Folder of an earlier run, whose table of scene runs is gone on with; it need not exist.
+        progress: Called with the fraction done and a text: for the scenes, and for the papers' experiments.
+        result: What the other parts gave, by name.
+        quick: Leave out the long experiments.
+
+    Returns:
+        "scenes", "papers" and "made": what this adds to the result, each with the names of its files.
+    """
+    if (before / TABLE).is_file():
+        shutil.copy(before / TABLE, folder / TABLE)
+    added: dict[str, Any] = {
+        "scenes": measure_scenes(folder, progress[0], quick=True),
+        "papers": measure_papers(progress[1], quick=quick),
+        "made": {"version": _version(), "date": time.strftime("%Y-%m-%d"), "machine": _machine(), "quick": quick},
+    }
+    write_text(folder / "bench.html", bench_page({**result, **added}))
+    added["made"]["files"] = ["bench.html"]
+    return added
+
+
+def _version() -> str:
+    try:
+        return f"Plantar {version('plantar')}"
+    except PackageNotFoundError:  # run from a folder that was not installed
+        return "Plantar"
+
+
+def _machine() -> str:
+    return f"{platform.system()} on {platform.machine()}, Python {platform.python_version()}"

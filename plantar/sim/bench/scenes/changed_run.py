@@ -1,0 +1,196 @@
+"""A scene as a `SceneSetting` has it, and what its body and the ground did in it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.tiling import hex_layout
+from plantar.sides import SIDES, Side
+from plantar.sim.bench.scenes.scene_setting import SceneSetting
+from plantar.sim.contact_models.sole_mjcf import SPHERE_RADIUS, support_points
+from plantar.sim.model.contact_truth import ContactReader, ground_truth
+from plantar.sim.model.world import Visitor, World
+from plantar.sim.robots.robot import Robot
+from plantar.sim.robots.robot_file import load_robot
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
+
+__all__ = ["SAMPLE", "ChangedRun", "Trace", "TracedRun"]
+
+SAMPLE = 0.01
+"""Time in s that a sample of a trace is the mean of: a multiple of every physics step that is compared."""
+
+_FORCES_EVERY = 0.001  # s between two looks at the contact forces that such a mean is made of
+_CARRIED = 0.01  # of the weight: below it there is no ZMP
+_SILENT = ("force", "proximity", "encoder", "gyro", "accelerometer")
+
+
+class _SpheresBelow:
+    """Spheres that each sole stands on instead of its box; a visitor of the world."""
+
+    def __init__(self, robot: Robot, count: int) -> None:
+        self._robot, self._count = robot, count
+
+    def names(self, side: Side) -> list[str]:
+        """Names of one sole's spheres."""
+        return [f"{side}_point_{i}" for i in range(self._count * len(self._robot.layouts[side]))]
+
+    def add_to(self, spec: Any) -> None:
+        """Put them under the boxes, which touch nothing any more."""
+        for side in SIDES:
+            box, layout = spec.geom(f"{side}_sole_box"), self._robot.layouts[side]
+            site = spec.site(self._robot.legs[side].sole_site)
+            rotation = np.zeros(9)
+            mujoco.mju_quat2Mat(rotation, np.asarray(site.quat, dtype=np.float64))
+            points = np.concatenate([support_points(layout.cell_polygon(i), self._count) for i in range(len(layout))])
+            for name, (x, y) in zip(self.names(side), points.tolist(), strict=True):
+                sphere = box.parent.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_SPHERE, mass=0.0, group=box.group)
+                sphere.pos = np.asarray(site.pos) + rotation.reshape(3, 3) @ (x, y, SPHERE_RADIUS)
+                sphere.size = [SPHERE_RADIUS, 0.0, 0.0]
+                sphere.contype, sphere.conaffinity = box.contype, box.conaffinity
+                sphere.condim, sphere.friction = box.condim, box.friction
+            box.contype = box.conaffinity = 0
+
+
+class ChangedRun(Simulation):
+    """A scene, run as a setting has it.
+
+    Args:
+        scene: Name of the scene.
+        robot: Name of the robot.
+        setting: What is changed.
+        seed: Seed of the run.
+        walk: Settings of the scene that hold in every run, such as a number of steps.
+        noisy: Whether sensors have the scene's noise; without, two runs differ by nothing but the setting.
+    """
+
+    def __init__(
+        self, scene: str, robot: str, setting: SceneSetting, seed: int, walk: Sequence[str] = (), noisy: bool = True
+    ) -> None:
+        self._setting = setting
+        silent = () if noisy else tuple(f"sensing.{name}_noise=0" for name in _SILENT)
+        layouts = None if setting.cell_ratio == 1.0 else _layouts(load_robot(robot), setting.cell_ratio)
+        super().__init__(load_scene(scene, (*walk, *silent, *setting.settings), robot), seed, layouts)
+        if setting.iterations is not None:
+            self.world.model.opt.iterations = setting.iterations
+
+    def build_world(self, others: Sequence[Visitor]) -> World:
+        """The world with the setting's contacts.
+
+        Args:
+            others: Who else is in it.
+        """
+        setting = self._setting
+        spheres = _SpheresBelow(self.robot, setting.points) if setting.points else None
+        world = super().build_world(others if spheres is None else (*others, spheres))
+        model = world.model
+        if spheres is not None:
+            boxes = [world.sole_geoms[side][0] for side in SIDES]
+            soles = {side: tuple(model.geom(name).id for name in spheres.names(side)) for side in SIDES}
+            for box, side in zip(boxes, SIDES, strict=True):
+                ids = list(soles[side])
+                model.geom_solref[ids], model.geom_solimp[ids] = model.geom_solref[box], model.geom_solimp[box]
+                model.geom_gap[ids] = model.geom_gap[box]
+            world = replace(world, sole_geoms=soles)
+        if setting.contact_time is not None:
+            own = model.geom_solref[world.sole_geoms["left"][0], 0]
+            model.geom_solref[model.geom_solref[:, 0] == own, 0] = setting.contact_time
+        return world
+
+
+def _layouts(robot: Robot, ratio: float) -> dict[Side, SoleLayout]:
+    """The robot's soles with taxels of another area, each laid out as far as the sole's outline reaches."""
+    found = {}
+    for side in SIDES:
+        own = robot.layouts[side]
+        laid = hex_layout(own.outline, side=side, cell_area=ratio * own.cell_area)
+        found[side] = replace(laid, ranges=own.ranges, thresholds=own.thresholds, modalities=own.modalities)
+    return found
+
+
+@dataclass(frozen=True)
+class Trace:
+    """What truly happened in a run, in k means over 10 ms each.
+
+    Attributes:
+        com: Centre of mass (k, 3) in m.
+        zmp: Zero moment point (k, 2) of the mean wrench in m; NaN where nothing carried the robot.
+        force: Vertical ground force (k, 2) on the left and the right sole in N.
+        landings: Side, time in s and largest force in N of each landing.
+        leg: Length of the robot's legs in m.
+        weight: Its weight in N.
+    """
+
+    com: NDArray[np.float64]
+    zmp: NDArray[np.float64]
+    force: NDArray[np.float64]
+    landings: tuple[tuple[str, float, float], ...]
+    leg: float
+    weight: float
+
+
+class TracedRun(ChangedRun):
+    """A changed run whose motion and ground forces are kept.
+
+    Attributes:
+        keeping_s: CPU time in s that this took of the run.
+    """
+
+    def __init__(self, *args: Any, **named: Any) -> None:
+        super().__init__(*args, **named)
+        period = self.world.period
+        self._every, self._steps = max(1, round(_FORCES_EVERY / period)), 0
+        self._of_sample = round(SAMPLE / period)
+        self._contacts = ContactReader(self.world.model, self.world.data, [self.world.sole_geoms[s] for s in SIDES])
+        left, right = (self.world.touch[side] for side in SIDES)
+        self._touched = [left, right]
+        self._wrench, self._force, self._looks = np.zeros(6), np.zeros(2), 0
+        self.keeping_s = 0.0
+        self._landings: tuple[tuple[str, float, float], ...] = ()
+        self._rows: list[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]] = []
+
+    def step_physics(self) -> None:
+        """One step of the physics; samples are kept."""
+        super().step_physics()
+        began = time.thread_time()
+        self._keep()
+        self.keeping_s += time.thread_time() - began
+
+    def _keep(self) -> None:
+        data = self.world.data
+        self._steps += 1
+        self._force += data.sensordata[self._touched]
+        if self._steps % self._every == 0:
+            self._wrench += ground_truth(self._contacts.read()).wrench
+            self._looks += 1
+        if self._steps % self._of_sample == 0:
+            com = data.subtree_com[self.world.torso].copy()
+            self._rows.append((com, self._wrench / self._looks, self._force / self._of_sample))
+            self._wrench, self._force, self._looks = np.zeros(6), np.zeros(2), 0
+
+    def keep_landings(self, summary: Mapping[str, Any]) -> None:
+        """Keep the landings that the summary of the run tells.
+
+        Args:
+            summary: What `run` gave.
+        """
+        told = (summary["landing_sides"], summary["landings_s"], summary["impacts_N"])
+        self._landings = tuple(zip(*told, strict=True))
+
+    def trace(self) -> Trace:
+        """What happened; after the run."""
+        com, wrench, force = (np.array(part) for part in zip(*self._rows, strict=True))
+        fz = np.where(wrench[:, 2] > _CARRIED * self.body.weight, wrench[:, 2], np.nan)
+        height = self.scene.terrain.height
+        zmp = (
+            np.column_stack([height * wrench[:, 0] - wrench[:, 4], height * wrench[:, 1] + wrench[:, 3]]) / fz[:, None]
+        )
+        return Trace(com, zmp, force, self._landings, self.body.leg, self.body.weight)

@@ -1,0 +1,143 @@
+"""What a setting costs and how far it is from its reference, over all of its runs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from statistics import median
+from typing import Any
+
+from plantar.sim.bench.scenes.scene_setting import OWN, SETTINGS, setting_named
+
+__all__ = ["NOISE", "SceneRow", "scene_rows"]
+
+NOISE = "sensor noise"
+"""Name of the row that says how far the scene's own noise moves a walk: what errors are measured by."""
+
+Runs = Sequence[dict[str, str]]
+
+
+@dataclass(frozen=True)
+class SceneRow:
+    """A setting of a scene beside its reference. Medians; NaN for what was not measured.
+
+    Attributes:
+        scene: Name of the scene.
+        robot: Name of the robot.
+        walk: Settings of the scene in all runs.
+        setting: Name of the setting.
+        knob: What it changes.
+        value: To what.
+        against: Name of the setting that it is compared with.
+        machine: Whether it is another robot, not another way to compute the same one.
+        cpu: CPU time in s of a simulated second.
+        ratio: That over the scene's own, of runs with the same seed.
+        com_mm: Error of the centre of mass in mm until the runs part, root mean square.
+        zmp_mm: The same of the zero moment point.
+        force: The same of the ground forces, over the weight.
+        impact: The same of the landings' impacts, over the reference's.
+        together: Share of the walk until the runs part; 1 where they never do.
+        walked: Whether the run without noise was completed.
+        completed: Of the runs with noise, how many were.
+        seeds: Of how many.
+        impact_N: Impact of a landing in N: median of a run's landings, and of the runs.
+        margin_mm: Smallest distance in mm of ZMP and edge of support in a run.
+    """
+
+    scene: str
+    robot: str
+    walk: str
+    setting: str
+    knob: str
+    value: str
+    against: str
+    machine: bool
+    cpu: float
+    ratio: float
+    com_mm: float
+    zmp_mm: float
+    force: float
+    impact: float
+    together: float
+    walked: bool
+    completed: int
+    seeds: int
+    impact_N: float
+    margin_mm: float
+
+    def within(self, other: SceneRow) -> bool:
+        """Whether it walks, and no error is above another row's."""
+        pairs = ((self.com_mm, other.com_mm), (self.zmp_mm, other.zmp_mm), (self.force, other.force))
+        return self.walked and self.completed == self.seeds and self.together == 1.0 and all(a <= b for a, b in pairs)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The fields by name; None for NaN."""
+        return {k: None if isinstance(v, float) and math.isnan(v) else v for k, v in asdict(self).items()}
+
+
+def scene_rows(runs: Runs) -> list[SceneRow]:
+    """Sum up runs.
+
+    Args:
+        runs: Rows of `SceneRuns`.
+
+    Returns:
+        A row for each scene, robot, setting and reference that has a run without noise.
+    """
+    cases = list(dict.fromkeys((r["scene"], r["robot"], r["walk"]) for r in runs))
+    order = {setting.name: number for number, setting in enumerate(SETTINGS)}
+    rows = []
+    for case in cases:
+        mine = [r for r in runs if (r["scene"], r["robot"], r["walk"]) == case]
+        pairs = dict.fromkeys((r["setting"], r["against"], r["kind"]) for r in mine if r["kind"] != "seeded")
+        known = [pair for pair in pairs if pair[0] in order and pair[1] in order]
+        for setting, against, kind in sorted(known, key=lambda p: (p[2] == "noise", order[p[1]], order[p[0]])):
+            rows.append(_row(case, setting, against, kind, mine))
+    return rows
+
+
+def _row(case: tuple[str, str, str], name: str, against: str, kind: str, runs: Runs) -> SceneRow:
+    setting = setting_named(name)
+    beside = [r for r in runs if (r["setting"], r["against"], r["kind"]) == (name, against, kind)]
+    seeded = [r for r in runs if r["setting"] == name and r["kind"] == "seeded"]
+    own = {(r["kind"], r["seed"]): r for r in runs if r["setting"] == OWN.name and r["kind"] != "noise"}
+    costs, ratios = [], []
+    for r in [*beside, *seeded]:
+        cost, other = _cost(r), _cost(own.get((r["kind"], r["seed"]), {}))
+        costs.append(cost)
+        ratios.append(cost / other)
+    whole = _median([_number(r, "together_s") / _number(r, "sim_s") for r in beside])
+    return SceneRow(
+        *case,
+        setting=NOISE if kind == "noise" else name,
+        knob=NOISE if kind == "noise" else setting.knob,
+        value="" if kind == "noise" else setting.value,
+        against=against,
+        machine=setting.machine,
+        cpu=_median(costs),
+        ratio=_median(ratios),
+        com_mm=_median([_number(r, "com_mm") for r in beside]),
+        zmp_mm=_median([_number(r, "zmp_mm") for r in beside]),
+        force=_median([_number(r, "force") for r in beside]),
+        impact=_median([_number(r, "impact") for r in beside]),
+        together=1.0 if whole > 0.99 else whole,
+        walked=all(r["completed"] == "yes" for r in beside),
+        completed=sum(r["completed"] == "yes" for r in seeded),
+        seeds=len(seeded),
+        impact_N=_median([_number(r, "impact_N") for r in seeded]),
+        margin_mm=_median([_number(r, "margin_mm") for r in seeded]),
+    )
+
+
+def _cost(row: dict[str, str]) -> float:
+    return _number(row, "cpu_s") / _number(row, "sim_s")
+
+
+def _number(row: dict[str, str], name: str) -> float:
+    return float(row.get(name) or "nan")
+
+
+def _median(values: Sequence[float]) -> float:
+    kept = [v for v in values if not math.isnan(v)]
+    return median(kept) if kept else math.nan

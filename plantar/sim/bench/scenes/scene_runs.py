@@ -1,0 +1,181 @@
+"""The single runs behind `plantar bench scenes`: a table that grows by a row a run, and goes on where it was left."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from statistics import median
+from typing import Any, NamedTuple
+
+from plantar.errors import PlantarError
+from plantar.sim.bench.growing_table import GrowingTable
+from plantar.sim.bench.scenes.changed_run import ChangedRun, Trace, TracedRun
+from plantar.sim.bench.scenes.scene_setting import OWN, SceneSetting, setting_named
+from plantar.sim.bench.scenes.trace_error import trace_error
+
+__all__ = ["COLUMNS", "SceneCase", "SceneRuns"]
+
+TABLE = "scene_runs.csv"
+
+COLUMNS = (
+    *("scene", "robot", "walk", "setting", "against", "kind", "seed"),
+    *("sim_s", "cpu_s", "completed", "impact_N", "margin_mm"),
+    *("com_mm", "zmp_mm", "force", "impact", "together_s"),
+)
+"""Kind is "traced" (without the sensors' noise, beside the run that it is compared with), "noise" (the scene's own run
+with noise beside itself without), or "seeded" (with noise, for the statistics)."""
+
+
+class SceneCase(NamedTuple):
+    """A walk that is run in many ways.
+
+    Attributes:
+        scene: Name of the scene.
+        robot: Name of the robot.
+        walk: Settings of the scene in all runs.
+    """
+
+    scene: str
+    robot: str
+    walk: tuple[str, ...] = ()
+
+
+class SceneRuns:
+    """The table of runs in a folder, and the runs that are still missing in it.
+
+    Args:
+        folder: Where the table is or will be.
+
+    Raises:
+        InputError: If the file is no such table.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._table = GrowingTable(folder / TABLE, COLUMNS, "scene runs")
+        self._traces: dict[tuple[SceneCase, str, int], tuple[dict[str, Any], Trace]] = {}
+
+    @property
+    def rows(self) -> list[dict[str, str]]:
+        """The rows that there are, as text by column."""
+        return self._table.rows
+
+    def run(
+        self,
+        cases: Sequence[SceneCase],
+        settings: Sequence[SceneSetting],
+        seeds: Sequence[int],
+        traced: int,
+        progress: Callable[[float, str], None],
+    ) -> None:
+        """Run what is missing. Settings take turns, so that a busy minute of the machine falls on all of them.
+
+        Args:
+            cases: The walks.
+            settings: How each is run.
+            seeds: Seeds of each.
+            traced: With how many of the seeds, the first ones, motions are compared.
+            progress: Called with the fraction done and a text.
+        """
+        have = {_key(row) for row in self.rows}
+        wanted = [job for case in cases for job in _jobs(case, settings, seeds, traced)]
+        for done, job in enumerate(wanted):
+            progress(done / len(wanted), f"{job.case.scene}, {job.case.robot}: {job.setting.name}, seed {job.seed}")
+            if job.key not in have:
+                self._table.add({**dict(zip(_KEYS, job.key, strict=True)), **self._measure(job)})
+        self._traces.clear()
+
+    def _measure(self, job: _Job) -> dict[str, Any]:
+        try:
+            if job.kind == "seeded":
+                return _costs(ChangedRun(*job.case[:2], job.setting, job.seed, job.case.walk))
+            if job.kind == "noise":
+                run = TracedRun(*job.case[:2], OWN, job.seed, job.case.walk)
+                told = _costs(run)
+                trace = run.trace()
+            else:
+                told, trace = self._traced(job.case, job.setting, job.seed)
+            error = trace_error(trace, self._traced(job.case, setting_named(job.against), job.seed)[1])
+        except PlantarError as failure:
+            return {"completed": f"no: {failure}"}
+        return {
+            **told,
+            "com_mm": f"{1e3 * error.com_m:.4f}",
+            "zmp_mm": f"{1e3 * error.zmp_m:.3f}",
+            "force": f"{error.force:.5f}",
+            "impact": f"{error.impact:.4f}",
+            "together_s": f"{error.together_s:.2f}",
+        }
+
+    def _traced(self, case: SceneCase, setting: SceneSetting, seed: int) -> tuple[dict[str, Any], Trace]:
+        """What a run without noise costs and does; kept, since several are compared with it."""
+        key = (case, setting.name, seed)
+        if key not in self._traces:
+            self._traces = {k: v for k, v in self._traces.items() if k[0] == case and k[2] == seed}
+            run = TracedRun(*case[:2], setting, seed, case.walk, noisy=False)
+            told = _costs(run)
+            self._traces[key] = told, run.trace()
+        return self._traces[key]
+
+
+_KEYS = ("scene", "robot", "walk", "setting", "against", "kind", "seed")
+
+
+class _Job(NamedTuple):
+    case: SceneCase
+    setting: SceneSetting
+    against: str
+    kind: str
+    seed: int
+
+    @property
+    def key(self) -> tuple[str, ...]:
+        case = self.case
+        return (
+            case.scene,
+            case.robot,
+            " ".join(case.walk),
+            self.setting.name,
+            self.against,
+            self.kind,
+            str(self.seed),
+        )
+
+
+def _key(row: dict[str, str]) -> tuple[str, ...]:
+    return tuple(row[name] for name in _KEYS)
+
+
+def _jobs(case: SceneCase, settings: Sequence[SceneSetting], seeds: Sequence[int], traced: int) -> Iterator[_Job]:
+    """All runs of a walk: first those without noise, seed by seed, then those with."""
+    references = list(dict.fromkeys(s.against for s in settings))
+    for seed in seeds[:traced]:
+        for setting in _of_seed(settings, seed == seeds[0]):
+            own = [setting.name] if setting.name in references else [setting.against]
+            for against in references if setting is OWN else own:
+                yield _Job(case, setting, against, "traced", seed)
+        yield _Job(case, OWN, OWN.name, "noise", seed)
+    for seed in seeds:
+        for setting in _of_seed(settings, seed == seeds[0]):
+            yield _Job(case, setting, "", "seeded", seed)
+
+
+def _of_seed(settings: Sequence[SceneSetting], first: bool) -> list[SceneSetting]:
+    return [s for s in settings if first or not s.costly]
+
+
+def _costs(run: ChangedRun) -> dict[str, Any]:
+    """Run, and tell what it cost, without the building of its world and what keeps its motion, and how it ended."""
+    start = time.process_time()
+    summary = run.run()
+    used = time.process_time() - start - (run.keeping_s if isinstance(run, TracedRun) else 0.0)
+    impacts, margin = summary["impacts_N"], summary["zmp_margin_min_m"]
+    if isinstance(run, TracedRun):
+        run.keep_landings(summary)
+    return {
+        "sim_s": summary["sim_time_s"],
+        "cpu_s": round(used, 4),
+        "completed": "yes" if summary["completed"] else "no: " + " ".join(r["criterion"] for r in summary["reasons"]),
+        "impact_N": round(median(impacts), 1) if impacts else "",
+        "margin_mm": "" if margin is None else round(1e3 * margin, 2),
+    }

@@ -1,0 +1,294 @@
+"""Simulated skin on any link: what obstacles press on each taxel, and how the skin presses back.
+
+Skin is an elastic foundation. A ray a taxel, from inside the body outwards along its normal, tells how deep an obstacle
+has sunk in; the pressure follows from depth and rate, friction from the sliding velocity, and both act on the robot's
+link and, reversed, on the obstacle. Rays are cast for those patches alone that an obstacle is near to. Between skinned
+links and obstacles MuJoCo's own contacts are off, so that nothing but the skin carries.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import number, switch
+from plantar.sim.body_skin.electronics import SkinElectronics, SkinElectronicsSettings
+from plantar.sim.body_skin.obstacle import Obstacle
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP
+
+__all__ = ["LIFT", "SkinSensing", "SkinSensor"]
+
+LIFT = 0.02
+"""Depth in m below the surface from which rays start: what sinks in deeper is not felt."""
+
+_CONTACT_BIT = 1 << 20  # MuJoCo's bit of contacts among obstacles and what has no skin
+_LONGEST_STEP = 0.02  # s between two physics steps over which an obstacle's velocity is taken
+
+
+class SkinSensing(SkinElectronicsSettings):
+    """What the skin is made of, and how well it measures.
+
+    Attributes:
+        stiffness: Of the foundation in Pa/m; the default is foam of 100 kPa, 10 mm thick.
+        damping: Of the foundation in Pa s/m.
+        friction: Coulomb's coefficient between skin and obstacles.
+        slip_speed: Sliding velocity in m/s at which friction has reached 71 % of Coulomb's.
+        everything: Cast all rays always, for comparison; no reading changes by it.
+    """
+
+    stiffness: float = number(1e7, "Pa/m", 1e4, 1e10)
+    damping: float = number(3e4, "Pa s/m", 0.0, 1e8)
+    friction: float = number(0.5, "1", 0.0, 2.0)
+    slip_speed: float = number(0.02, "m/s", 1e-4, 1.0)
+    everything: bool = switch(False)
+
+
+class _Patch(NamedTuple):
+    """A patch that is ready to cast rays: its taxels, its link, and its rays in the link's frame."""
+
+    taxels: slice
+    link: int
+    body: int
+    root: int
+    starts: NDArray[np.float64]
+    ways: NDArray[np.float64]
+    areas: NDArray[np.float64]
+    reach: float
+
+
+class SkinSensor:
+    """The skin of a machine or robot in a world with obstacles.
+
+    Args:
+        model: The MjModel of the world; contacts between skinned links and obstacles are switched off in it.
+        skin: The skin, on links of the model.
+        settings: What the skin is made of and how well it measures.
+        seed: Of noise, gain errors and dead taxels.
+        obstacles: Ids of the geoms that it feels; None for all of `OBSTACLE_GROUP`.
+
+    Attributes:
+        skin: The skin.
+        force: True normal force (N,) on each taxel in N at the last `apply`.
+        distance: True distance (N,) from each taxel to what it sees in m; inf for nothing, negative where pressed in.
+        wrenches: True wrench (L, 6) on each of `skin.links` about the link's origin, in the world frame.
+        on_obstacles: True wrench (6,) on each obstacle about its geom's middle, by the geom's name, in the world frame.
+        temperature: True temperature (N,) of each taxel in degC, which a model of heat sets; None without one.
+        cast: Taxels, summed over the steps, for which a ray was cast.
+        skipped: Taxels for which none was.
+
+    Raises:
+        RobotError: If the model lacks a link of the skin.
+        SceneError: If an obstacle is of a kind that cannot be felt.
+    """
+
+    def __init__(
+        self,
+        model: Any,
+        skin: BodySkin,
+        settings: SkinSensing,
+        seed: int,
+        obstacles: Sequence[int] | None = None,
+    ) -> None:
+        self.skin, self.settings = skin, settings
+        self._bodies = [_body(model, link) for link in skin.links]
+        self._patches = [_ready(model, skin, i, self._bodies) for i in range(len(skin.patches))]
+        geoms = np.flatnonzero(model.geom_group == OBSTACLE_GROUP).tolist() if obstacles is None else list(obstacles)
+        self._obstacles = [Obstacle(model, g) for g in geoms]
+        _separate(model, self._bodies, [o.geom for o in self._obstacles])
+        self._broad = _BroadPhase(model, self._patches, geoms)
+        self._touched = sorted({*self._bodies, *(o.body for o in self._obstacles)} - {0})
+        self.force, self.distance = np.zeros(len(skin)), np.full(len(skin), np.inf)
+        self.wrenches = np.zeros((len(skin.links), 6))
+        self.on_obstacles = {o.name: np.zeros(6) for o in self._obstacles}
+        self.temperature: NDArray[np.float64] | None = None
+        self.cast = self.skipped = 0
+        self._time = -np.inf
+        self._period = 0.0
+        self._geoms = np.array(geoms, dtype=np.int64)
+        self._before = self._now = (np.zeros((len(geoms), 3)), np.zeros((len(geoms), 9)))
+        self._dirty = True
+        self._electronics = SkinElectronics(skin, settings, seed)
+
+    def apply(self, data: Any) -> None:
+        """Feel the obstacles and press back: once a physics step, after `mj_step1` (or `mj_forward`).
+
+        It sets `data.xfrc_applied` of every skinned link and every obstacle; who else pushes these uses
+        `data.qfrc_applied`.
+
+        Args:
+            data: The MjData.
+        """
+        period = float(data.time) - self._time
+        self._time = float(data.time)
+        self._period = period if 0.0 < period < _LONGEST_STEP else 0.0
+        self._before, self._now = self._now, (data.geom_xpos[self._geoms], data.geom_xmat[self._geoms])
+        if self._dirty:
+            self._clear(data)
+        near = self._broad.everything if self.settings.everything else self._broad.near(data)
+        looked = 0
+        for i, ks in near:
+            looked += len(self._patches[i].areas)
+            self._feel(data, self._patches[i], ks)
+        self._dirty = bool(near)
+        self.cast += looked
+        self.skipped += len(self.skin) - looked
+
+    def read(self, data: Any) -> SkinReading:
+        """What the skin says now, of the last `apply`.
+
+        Args:
+            data: The MjData.
+        """
+        return self._electronics.read(float(data.time), self.force, self.distance, self.temperature)
+
+    def patch_force(self, patch: str) -> float:
+        """Sum of the true normal forces on a patch in N."""
+        return float(self.force[self.skin.slices[patch]].sum())
+
+    def _clear(self, data: Any) -> None:
+        self.force[:], self.distance[:], self.wrenches[:] = 0.0, np.inf, 0.0
+        for wrench in self.on_obstacles.values():
+            wrench[:] = 0.0
+        data.xfrc_applied[self._touched] = 0.0
+
+    def _feel(self, data: Any, patch: _Patch, obstacles: list[int]) -> None:
+        """Cast the rays of a patch against some obstacles, and press where they have sunk in."""
+        rotation = data.xmat[patch.body].reshape(3, 3)
+        starts = patch.starts @ rotation.T + data.xpos[patch.body]
+        ways = patch.ways @ rotation.T
+        nearest = self.distance[patch.taxels]
+        for k in obstacles:
+            lengths = self._obstacles[k].lengths(data, starts, ways, patch.reach)
+            distance = np.where((lengths >= 0.0) & (lengths <= patch.reach), lengths - LIFT, np.inf)
+            np.minimum(nearest, distance, out=nearest)
+            pressed = np.flatnonzero(distance < 0.0)
+            if len(pressed):
+                points = starts[pressed] + lengths[pressed, None] * ways[pressed]
+                self._press(data, patch, k, pressed, (points, -ways[pressed], -distance[pressed]))
+
+    def _press(
+        self,
+        data: Any,
+        patch: _Patch,
+        index: int,
+        pressed: NDArray[np.int64],
+        contact: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
+    ) -> None:
+        """Normal force and friction at contact points (m, 3) with inward normals (m, 3) and depths (m,)."""
+        points, normals, depths = contact
+        obstacle = self._obstacles[index]
+        now, before = (tuple(part[index] for part in where) for where in (self._now, self._before))
+        s, body = self.settings, patch.body
+        spin, drift = data.cvel[body, :3], data.cvel[body, 3:]
+        middle = data.subtree_com[patch.root]
+        sliding = obstacle.velocity(points, now, before, self._period) - drift - np.cross(spin, points - middle)
+        rates = np.einsum("ij,ij->i", sliding, normals)
+        forces = np.maximum(patch.areas[pressed] * (s.stiffness * depths + s.damping * rates), 0.0)
+        sliding -= rates[:, None] * normals
+        speeds = np.sqrt(np.einsum("ij,ij->i", sliding, sliding) + s.slip_speed**2)
+        pushes = forces[:, None] * (normals + (s.friction / speeds)[:, None] * sliding)
+        self.force[patch.taxels.start + pressed] += forces
+        total = pushes.sum(0)
+        about_origin = np.cross(points, pushes).sum(0)
+        self.wrenches[patch.link, :3] += total
+        self.wrenches[patch.link, 3:] += about_origin - np.cross(data.xpos[body], total)
+        for target, sign in ((body, 1.0), (obstacle.body, -1.0)):
+            data.xfrc_applied[target, :3] += sign * total
+            data.xfrc_applied[target, 3:] += sign * (about_origin - np.cross(data.xipos[target], total))
+        reaction = self.on_obstacles[obstacle.name]
+        reaction[:3] -= total
+        reaction[3:] -= about_origin - np.cross(data.geom_xpos[obstacle.geom], total)
+
+
+class _BroadPhase:
+    """Which patches are near to which obstacles: the sphere about a patch's rays against the box about an obstacle, and
+    where these meet, the box about the rays against the sphere about the obstacle.
+
+    Args:
+        model: The MjModel.
+        patches: The patches.
+        geoms: The obstacles' geoms.
+    """
+
+    def __init__(self, model: Any, patches: list[_Patch], geoms: list[int]) -> None:
+        self.everything = [(i, list(range(len(geoms)))) for i in range(len(patches))]
+        self._geoms = np.array(geoms, dtype=np.int64)
+        self._bodies = np.array([p.body for p in patches])
+        self._rows = np.arange(len(patches))
+        middles = np.array([0.5 * (p.starts.min(0) + p.starts.max(0)) for p in patches])
+        spans = [np.linalg.norm(p.starts - m, axis=1).max() + p.reach for p, m in zip(patches, middles, strict=True)]
+        self._middles = np.ascontiguousarray(middles[:, :, None])
+        self._squares = np.square(spans)
+        boxes = model.geom_aabb[self._geoms].reshape(-1, 6)
+        self._centres, self._halves = boxes[:, None, :3].copy(), boxes[:, None, 3:].copy()
+        lows = [p.starts.min(0) - p.reach for p in patches]
+        highs = [p.starts.max(0) + p.reach for p in patches]
+        self._lows, self._highs = np.array(lows), np.array(highs)
+        bounds = model.geom_rbound[self._geoms].copy()
+        bounds[bounds == 0.0] = np.inf  # a plane has none
+        self._bounds = np.square(bounds)
+
+    def near(self, data: Any) -> list[tuple[int, list[int]]]:
+        """Patches and, for each, the obstacles near to it, by their places in the lists."""
+        if not len(self._geoms):
+            return []
+        turned = data.xmat[self._bodies].reshape(-1, 3, 3) @ self._middles
+        middles = data.xpos[self._bodies] + turned[:, :, 0]
+        apart = middles - data.geom_xpos[self._geoms][:, None]
+        local = apart @ data.geom_xmat[self._geoms].reshape(-1, 3, 3)
+        outside = np.maximum(np.abs(local - self._centres) - self._halves, 0.0)
+        close = np.einsum("kpi,kpi->pk", outside, outside) <= self._squares[:, None]
+        rows, columns = close.nonzero()
+        if not len(rows):
+            return []
+        turns = data.xmat[self._bodies[rows]].reshape(-1, 3, 3)
+        apart = data.geom_xpos[self._geoms[columns]] - data.xpos[self._bodies[rows]]
+        local = np.einsum("kji,kj->ki", turns, apart)
+        outside = np.maximum(np.maximum(self._lows[rows] - local, local - self._highs[rows]), 0.0)
+        met = np.einsum("ki,ki->k", outside, outside) <= self._bounds[columns]
+        found: dict[int, list[int]] = {}
+        for i, k in zip(rows[met].tolist(), columns[met].tolist(), strict=True):
+            found.setdefault(i, []).append(k)
+        return list(found.items())
+
+
+def _ready(model: Any, skin: BodySkin, index: int, bodies: list[int]) -> _Patch:
+    patch = skin.patches[index]
+    inward = np.ascontiguousarray(patch.rotations[:, :, 2])
+    link = skin.links.index(patch.link)
+    return _Patch(
+        taxels=skin.slices[patch.name],
+        link=link,
+        body=bodies[link],
+        root=int(model.body_rootid[bodies[link]]),
+        starts=patch.positions + LIFT * inward,
+        ways=-inward,
+        areas=patch.areas,
+        reach=LIFT + patch.proximity_range,
+    )
+
+
+def _body(model: Any, link: str) -> int:
+    body = int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, link))
+    if body < 0:
+        raise RobotError(f"the world has no link '{link}', which carries skin")
+    return body
+
+
+def _separate(model: Any, skinned: list[int], obstacles: list[int]) -> None:
+    """Let obstacles touch each other and everything else as before, but not links with skin."""
+    touchable = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    solid = [g for g in obstacles if touchable[g]]
+    others = touchable & ~np.isin(model.geom_bodyid, skinned)
+    model.geom_conaffinity[others] |= _CONTACT_BIT
+    model.geom_contype[solid] = model.geom_conaffinity[solid] = _CONTACT_BIT
+    for g in range(model.ngeom):
+        body = model.geom_bodyid[g]
+        model.body_contype[body] |= model.geom_contype[g]
+        model.body_conaffinity[body] |= model.geom_conaffinity[g]

@@ -1,0 +1,117 @@
+"""Skin around the upper body of a robot that walks: a box of taxels about all that moves with its base.
+
+A walking robot's upper body is welded to its base (`plantar.sim.robots`), so one link carries the skin. The box stands
+in for the surface: a force on a face acts along its normal, wherever along it the surface is, so a wrench does not
+change by it. Taxels are as large as the 691 mm^2 cells of A and T are on H1, and as many on any robot of its shape.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError
+from plantar.layouts.hex_lattice import HexLattice
+from plantar.sensing.link_skin import BodySkin, SkinPatch
+
+__all__ = ["FACES", "upper_body_skin"]
+
+FACES = {"front": (1.0, 0.0), "back": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
+"""Patches of the box and their outward normals, forward and to the left."""
+
+_CELL = 691e-6 / 0.6**2  # leg^2: area of a taxel
+_RANGE = 1 / 12  # leg: how far a taxel sees, as those of a sole do
+_THRESHOLD = 0.15 / 843.0  # weight: force from which a taxel is active, 0.15 N for H1
+_SIGNS = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+_SMALLEST = 0.05  # leg: least edge of the box
+
+
+def upper_body_skin(model: Any, base: int, *, leg: float, weight: float) -> BodySkin:
+    """Lay skin around all that is welded to the base.
+
+    Args:
+        model: The MjModel of the robot alone.
+        base: Id of the body that floats.
+        leg: Length of the robot's legs in m.
+        weight: Its weight in N.
+
+    Returns:
+        The skin: a patch of each name of `FACES`, all on the base, in its frame.
+
+    Raises:
+        RobotError: If what is welded to the base has no extent.
+    """
+    low, high = _extent(model, base)
+    if (high - low < _SMALLEST * leg).any():
+        size = " x ".join(f"{edge:.3f}" for edge in (high - low).tolist())
+        raise RobotError(
+            f"the upper body on '{model.body(base).name}' measures {size} m, which carries no skin; "
+            f"allowed: shapes of {_SMALLEST * leg:.3f} m and more in each direction"
+        )
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    lattice = HexLattice(_CELL * leg * leg)
+    patches = []
+    for name, (forward, left) in FACES.items():
+        inward = -np.array([forward, left, 0.0])
+        across = np.array([-left, forward, 0.0])
+        up = np.array([0.0, 0.0, 1.0])
+        wide, tall = float(np.abs(across) @ half), float(half[2])
+        cells = lattice.centres(lattice.cells_near(np.array([-wide, -tall]), np.array([wide, tall])))
+        cells = cells[(np.abs(cells[:, 0]) <= wide) & (np.abs(cells[:, 1]) <= tall)]
+        positions = middle - inward * (np.abs(inward) @ half) + cells[:, :1] * across + cells[:, 1:] * up
+        turn = np.column_stack([np.cross(up, inward), up, inward])
+        patches.append(
+            SkinPatch(
+                name=name,
+                link=model.body(base).name,
+                positions=positions,
+                rotations=np.tile(turn, (len(cells), 1, 1)),
+                areas=np.full(len(cells), lattice.area),
+                force_threshold=_THRESHOLD * weight,
+                proximity_range=_RANGE * leg,
+            )
+        )
+    return BodySkin(patches)
+
+
+def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lowest and highest coordinates (3,) in the base frame of all shapes that are welded to the base.
+
+    A model without shapes there, as those that `plantar robot` keeps of a robot's file, counts with the boxes that have
+    the links' masses and inertias.
+    """
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    turn, origin = data.xmat[base].reshape(3, 3), data.xpos[base]
+    welded = model.body_weldid[model.geom_bodyid] == model.body_weldid[base]
+    points = [_corners(model, data, g) for g in np.flatnonzero(welded).tolist()]
+    if not points:
+        links = np.flatnonzero((model.body_weldid == model.body_weldid[base]) & (model.body_mass > 0.0))
+        points = [_inertial_box(model, data, b) for b in links.tolist()]
+    if not points:
+        raise RobotError(f"the upper body on '{model.body(base).name}' has neither shapes nor mass to carry skin")
+    local = (np.vstack(points) - origin) @ turn
+    return local.min(axis=0), local.max(axis=0)
+
+
+def _corners(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
+    """Points (n, 3) in the world whose box is a shape's: a mesh's vertices, else what a primitive reaches."""
+    rotation, place = data.geom_xmat[geom].reshape(3, 3), data.geom_xpos[geom]
+    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
+        mesh = int(model.geom_dataid[geom])
+        first = int(model.mesh_vertadr[mesh])
+        local = model.mesh_vert[first : first + int(model.mesh_vertnum[mesh])].astype(float)
+    else:
+        box = model.geom_aabb[geom]
+        local = box[:3] + _SIGNS * box[3:]
+    return np.asarray(local @ rotation.T + place)
+
+
+def _inertial_box(model: Any, data: Any, body: int) -> NDArray[np.float64]:
+    """Corners (8, 3) in the world of the solid box with the mass and inertia of a link."""
+    inertia, mass = model.body_inertia[body], float(model.body_mass[body])
+    half = np.sqrt(np.maximum(1.5 / mass * (inertia.sum() - 2.0 * inertia), 0.0))
+    return np.asarray(_SIGNS * half @ data.ximat[body].reshape(3, 3).T + data.xipos[body])

@@ -1,0 +1,77 @@
+"""What moves the joints: motors that take torques, or servos that take what a torque resolver makes of these."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.experiment import World
+from plantar.sim.companion.machine import ServoTable
+from plantar.wholebody.torque_resolver import SetPoint, TorqueResolver
+
+__all__ = ["Drives"]
+
+_FASTEST = 1e3  # rad/s or m/s of a joint without a speed limit
+
+
+class Drives:
+    """The machine's drives.
+
+    Args:
+        world: The world.
+        servo: What they take, and how stiff they are.
+        period: Control period in s.
+    """
+
+    def __init__(self, world: World, servo: ServoTable, period: float) -> None:
+        machine = world.machine
+        self._world, self._servo, self._period = world, servo, period
+        self._efforts = machine.efforts
+        limits = np.where(np.isfinite(machine.velocities), machine.velocities, _FASTEST)
+        self._gain = servo.velocity_gain * np.where(np.isfinite(self._efforts), self._efforts, 0.0) / limits
+        self._resolver = None if servo.kind == "torque" else TorqueResolver(limits)
+        self._torque = np.zeros(len(limits))
+        self._bias = np.zeros(len(limits))
+        self._goal: SetPoint | None = None
+        if self._resolver is not None:
+            self._hold_speeds_implicitly()
+
+    def _hold_speeds_implicitly(self) -> None:
+        """Let MuJoCo take the speed's part of the servos' torques at the end of each step.
+
+        Taken at its beginning it shakes a light wrist: gain times step has to stay below twice a joint's inertia.
+        """
+        model, motors = self._world.model, self._world.motors
+        model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+        model.actuator_biastype[motors] = mujoco.mjtBias.mjBIAS_AFFINE
+        model.actuator_biasprm[motors, 2] = -self._gain
+        model.actuator_ctrllimited[motors] = False
+        model.actuator_forcelimited[motors] = True
+        model.actuator_forcerange[motors] = np.column_stack([-self._efforts, self._efforts])
+
+    def command(self, robot: MujocoDynamics, torque: NDArray[np.float64]) -> None:
+        """Take a torque (k,) of each joint in N m or N, bias included, for the next control period.
+
+        Args:
+            robot: The machine as measured.
+            torque: The torques.
+        """
+        if self._resolver is None:
+            self._torque = torque
+        else:
+            self._goal = self._resolver.step(robot, torque, self._period)
+            self._bias = robot.bias[robot.joints]
+
+    def drive(self) -> None:
+        """Set the motors' torques for a physics step; servos know their own joint's motion as it is."""
+        world = self._world
+        if self._goal is not None:
+            wanted = self._goal.velocity
+            if self._servo.kind == "position":
+                measured = world.data.qpos[world.positions[-len(wanted) :]]
+                wanted = wanted + self._servo.position_gain * (self._goal.position - measured)
+            world.data.ctrl[world.motors] = self._bias + self._gain * wanted
+        else:
+            world.data.ctrl[world.motors] = np.clip(self._torque, -self._efforts, self._efforts)

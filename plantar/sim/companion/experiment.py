@@ -1,0 +1,267 @@
+"""What an experiment of the companion is: what surrounds a machine, who acts on it, and what counts as done.
+
+An experiment is one file in `sim/companion/experiments` with one class. Its controller gets what the machine's sensors
+say; what it is judged by is the true state, which the controller never sees.
+"""
+
+from __future__ import annotations
+
+import math
+import pkgutil
+from collections.abc import Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from importlib import import_module
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import SceneError
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import Settings, choice, number
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.companion.machine import Machine
+from plantar.sim.figures.render import View
+from plantar.wholebody.dynamics import RobotDynamics
+
+__all__ = [
+    "CompanionControl",
+    "Controller",
+    "Experiment",
+    "LidarController",
+    "Verdict",
+    "World",
+    "experiment_class",
+    "experiment_names",
+    "failed",
+]
+
+
+class CompanionControl(Settings):
+    """How the machine is controlled, and how well it knows its own motion.
+
+    Attributes:
+        period: Control period.
+        servo: What the drives take; "machine" for what the machine's file says.
+        encoder_noise: Standard deviation of joint positions, in rad or m.
+        velocity_noise: Standard deviation of joint speeds, in rad/s or m/s.
+        attitude_noise: Standard deviation of a floating base's orientation.
+        gyro_noise: Standard deviation of its angular velocity.
+        model_error: Standard deviation by which mass and inertia of each link are misjudged, as a share of them; the
+            seed draws it once.
+    """
+
+    period: float = number(0.002, "s", 0.001, 0.1)
+    servo: str = choice("machine", "torque", "velocity", "position")
+    encoder_noise: float = number(2e-5, "rad", 0, 0.1)
+    velocity_noise: float = number(1e-3, "rad/s", 0, 1)
+    attitude_noise: float = number(2e-4, "rad", 0, 0.1)
+    gyro_noise: float = number(2e-3, "rad/s", 0, 1)
+    model_error: float = number(0.0, "1", 0, 0.3)
+
+
+class Controller(Protocol):
+    """What drives the machine."""
+
+    def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
+        """Torque (k,) of each joint in N m or N for the next control period.
+
+        Args:
+            robot: Kinematics and dynamics at the measured state.
+            reading: What the skin says.
+
+        Returns:
+            Torques or forces, gravity included, in the order of `robot.joints`.
+        """
+
+
+class LidarController(Controller, Protocol):
+    """A controller of an experiment with distance sensors in the base."""
+
+    def scan(self, points: NDArray[np.float64]) -> None:
+        """Take a new scan.
+
+        Args:
+            points: Nearest point (m, 2) of each thing that the sensors see, in the base's frame in m.
+        """
+
+
+class Verdict(NamedTuple):
+    """What an experiment came to.
+
+    Attributes:
+        reasons: Every criterion that failed, as `failed` makes them; empty where all is done.
+        figures: The experiment's own figures by name; JSON values.
+    """
+
+    reasons: list[dict[str, Any]]
+    figures: dict[str, Any]
+
+
+def failed(criterion: str, value: float, limit: float, text: str) -> dict[str, Any]:
+    """A criterion that failed, as summaries have it.
+
+    Args:
+        criterion: Its name, words joined by underscores.
+        value: What was found; not finite becomes None.
+        limit: What is allowed.
+        text: Both in words.
+
+    Returns:
+        The criterion.
+    """
+    found = round(float(value), 6) if math.isfinite(value) else None
+    return {"criterion": criterion, "value": found, "limit": limit, "text": text}
+
+
+@dataclass(frozen=True)
+class World:
+    """The simulated machine and what is around it.
+
+    Attributes:
+        machine: The machine.
+        model: The MjModel of everything.
+        data: Its MjData: the truth.
+        positions: Places (nq of the machine alone,) of its coordinates in `data.qpos`, in its own model's order.
+        speeds: Places of its velocities in `data.qvel`.
+        motors: Places (k,) of its motors in `data.ctrl`.
+        joints: Places (k,) of the motors' joints in `data.qvel`.
+    """
+
+    machine: Machine
+    model: Any
+    data: Any
+    positions: NDArray[np.int64]
+    speeds: NDArray[np.int64]
+    motors: NDArray[np.int64]
+    joints: NDArray[np.int64]
+
+    def pose(self, body: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """True origin (3,) of a body in m and its rotation (3, 3) to the world."""
+        found = self.data.body(body)
+        return found.xpos.copy(), found.xmat.reshape(3, 3).copy()
+
+    def velocity(self, body: str) -> NDArray[np.float64]:
+        """True velocity (6,) of a body's origin in the world: linear in m/s, then angular in rad/s."""
+        found = np.zeros(6)
+        number = self.model.body(body).id
+        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_XBODY, number, found, 0)
+        return np.concatenate([found[3:], found[:3]])
+
+
+class Experiment:
+    """Base of all experiments; what one does not need, it leaves as it is.
+
+    Args:
+        machine: The machine.
+        settings: The scene's `[experiment]`.
+        control: The scene's `[control]`.
+        seed: Seed of places, times, forces and directions.
+
+    Attributes:
+        duration: Simulated time in s.
+        fell: Whether the machine fell; the run ends then.
+        done: Whether there is nothing left to see; the run ends then.
+        rng: Random numbers of the seed, for what the experiment leaves to chance.
+    """
+
+    settings_type: ClassVar[type[Settings]] = Settings
+    """Class of the scene's table `[experiment]`."""
+    control_type: ClassVar[type[CompanionControl]] = CompanionControl
+    """Class of the scene's table `[control]`: the controller's gains and switches."""
+    columns: ClassVar[tuple[str, ...]] = ()
+    """Names of those figures that a sweep writes into columns."""
+    uses_lidar: ClassVar[bool] = False
+    """Whether the base has distance sensors; then the controller is a `LidarController`."""
+    view: ClassVar[tuple[str, View]] = ("", View())
+    """Body that a video follows (the base where empty), and from where."""
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        self.machine, self.settings, self.control, self.seed = machine, settings, control, seed
+        self.duration = 5.0
+        self.fell = self.done = False
+        self.rng = np.random.default_rng([seed, 0xE])
+
+    def add_to(self, spec: Any) -> None:
+        """Add obstacles and probes to the machine's `mujoco.MjSpec`; what skin shall feel is of `OBSTACLE_GROUP`."""
+
+    def start(self, world: World) -> None:
+        """Put everything where it is at first. The machine stands in its posture already."""
+
+    def controller(self, machine: Machine, skin: BodySkin) -> Controller:
+        """What drives the machine; made once, before the first step.
+
+        Args:
+            machine: The machine.
+            skin: Its skin.
+
+        Returns:
+            The controller.
+        """
+        raise NotImplementedError
+
+    def act(self, world: World, time: float) -> None:
+        """Move actors, before every physics step; forces of theirs go into `data.qfrc_applied`, not `xfrc_applied`.
+
+        Args:
+            world: The world.
+            time: Time in s.
+        """
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        """Look at the true state, at every physics step.
+
+        Args:
+            world: The world.
+            sensor: The skin, with the true forces on it.
+            time: Time in s.
+        """
+
+    def verdict(self) -> Verdict:
+        """What it came to, after the run."""
+        return Verdict([], {})
+
+    def plot(self, folder: Path) -> Sequence[Path]:
+        """Draw what happened into a folder, by `plantar.plotting`.
+
+        Returns:
+            The files.
+        """
+        return ()
+
+
+def experiment_names() -> tuple[str, ...]:
+    """Names of all experiments."""
+    package = Path(__file__).parent / "experiments"
+    return tuple(sorted(found.name.replace("_", "-") for found in pkgutil.iter_modules([str(package)])))
+
+
+def experiment_class(name: str) -> type[Experiment]:
+    """The class of an experiment.
+
+    Args:
+        name: Its name: that of its file, with hyphens.
+
+    Returns:
+        The class.
+
+    Raises:
+        SceneError: If there is none of that name.
+    """
+    known = experiment_names()
+    if name not in known:
+        near = ", ".join(get_close_matches(name, known))
+        hint = f"nearest: {near}; " if near else ""
+        raise SceneError(f"unknown experiment '{name}'; {hint}allowed: {', '.join(known)}")
+    module = import_module(f"plantar.sim.companion.experiments.{name.replace('-', '_')}")
+    own = [
+        kind
+        for kind in vars(module).values()
+        if isinstance(kind, type) and issubclass(kind, Experiment) and kind.__module__ == module.__name__
+    ]
+    if len(own) != 1:
+        raise TypeError(f"{module.__name__} has {len(own)} experiments; it needs one")
+    return own[0]

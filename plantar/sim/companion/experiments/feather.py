@@ -1,0 +1,168 @@
+"""A hand, and then an object without mass, come near the robot's hand: it is repelled and never touched (T 3.3.1.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, ClassVar
+
+import mujoco
+import numpy as np
+
+from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin
+from plantar.settings.schema import Settings, number, switch
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.body_skin.surface import skin_from_tables
+from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.machine import Machine
+from plantar.sim.companion.standing.controller import StandingControl, StandingController
+from plantar.sim.companion.standing.standing import StandingExperiment
+from plantar.sim.companion.standing.visitor import Visitor
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.proximity import ProximityInteraction
+from plantar.wholebody.tasks.task import Task
+
+__all__ = ["Feather", "FeatherControl", "FeatherSettings"]
+
+_LOOK_EVERY = 5  # physics steps between two looks at the distance
+_FARTHEST = 0.2  # m: beyond it no distance is looked for
+
+
+class FeatherSettings(Settings):
+    """How visitors come.
+
+    Attributes:
+        speed: Mean speed with which they come; each seed has its own.
+        beyond: How far they go beyond where the hand was.
+        moved: How far the hand has to be repelled at least.
+        early: How far the hand may have moved before a visitor is within the range.
+    """
+
+    speed: float = number(0.05, "m/s", 0.001, 1.0)
+    beyond: float = number(0.06, "m", 0.0, 0.5)
+    moved: float = number(0.04, "m", 0.0, 0.5)
+    early: float = number(0.005, "m", 0.0, 0.5)
+
+
+class FeatherControl(StandingControl):
+    """How the machine is repelled.
+
+    Attributes:
+        proximity: Whether what is near repels it.
+        range: Distance from which it does.
+        stiffness: Virtual force of one taxel a metre of range that is used up.
+        repelled_damping: Damping of a repelled link.
+    """
+
+    proximity: bool = switch(True)
+    range: float = number(0.02, "m", 0.001, 0.05)
+    stiffness: float = number(300.0, "N/m", 0.0, 1e5)
+    repelled_damping: float = number(40.0, "N s/m", 0.1, 1e5)
+
+
+class Feather(StandingExperiment):
+    """Two visitors of one of the hands, each towards a taxel of palm or back of the seed. The order is T 3.3.1.1's."""
+
+    settings_type: ClassVar = FeatherSettings
+    control_type: ClassVar = FeatherControl
+    columns: ClassVar = ("distance_min_mm", "moved_mm", "cop_margin_min_mm")
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        box, sphere = mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_SPHERE
+        self.visitors = [
+            Visitor("visiting hand", box, (0.03, 0.045, 0.015), 0.015),
+            Visitor("feather", sphere, (0.015, 0.0, 0.0), 0.015),
+        ]
+        skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
+        self.side = str(self.rng.choice(["left", "right"]))
+        end = 0.5
+        for visitor in self.visitors:
+            patch = skin.patch(f"{self.side}_hand_{self.rng.choice(['palm', 'back'])}")
+            taxel = int(self.rng.choice(patch.from_middle[:4]))
+            origin, rotation = self.robot.pose(patch.link)
+            way = rotation @ patch.rotations[taxel, :, 2] + self.rng.normal(0.0, 0.06, 3)
+            speed = settings.speed * self.rng.uniform(0.6, 1.4)
+            target = origin + rotation @ patch.positions[taxel]
+            end = visitor.plan(target, way, end, speed, 0.06, settings.beyond) + 1.0
+        self.duration = end
+        self._link = f"{self.side}_hand"
+        self._rest, self._turn = self.robot.pose(self._link)
+        self._closest = {v.name: _FARTHEST for v in self.visitors}
+        self._moved = {v.name: 0.0 for v in self.visitors}
+        self._early = 0.0
+        self._felt = 0.0
+        self._trace: list[tuple[float, float, float]] = []
+
+    def add_to(self, spec: Any) -> None:
+        super().add_to(spec)
+        for visitor in self.visitors:
+            visitor.add_to(spec)
+
+    def controller(self, machine: Machine, skin: BodySkin) -> Controller:
+        c = self.control
+        near = ProximityInteraction(skin, c.stiffness, c.range)
+        near.damping = (c.repelled_damping, 0.02 * c.repelled_damping)
+        touch = DirectInteraction(skin, c.gain)
+        reacting: list[Task] = [touch, near] if c.proximity else [touch]
+        apart: list[Task] = [self.self_collision_task(), self.joint_range_task()]
+        levels: list[list[Task]] = [self.balance_tasks(), apart, reacting, [self.posture_task()]]
+        return StandingController(self.stance, levels, self.balance, skin, c)
+
+    def act(self, world: World, time: float) -> None:
+        for visitor in self.visitors:
+            visitor.act(world, time)
+        super().act(world, time)
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        super().judge(world, sensor, time)
+        self._felt = max(self._felt, float(sensor.force.max()))
+        if self._steps % _LOOK_EVERY:
+            return
+        hand = int(world.model.body(self._link).geomadr[0])
+        moved = float(np.linalg.norm(world.pose(self._link)[0] - self._rest))
+        nearest = _FARTHEST
+        for visitor in self.visitors:
+            geom = world.model.geom(visitor.name).id
+            apart = float(mujoco.mj_geomDistance(world.model, world.data, hand, geom, _FARTHEST, None))
+            nearest = min(nearest, apart)
+            if apart < self._closest[visitor.name]:
+                self._closest[visitor.name] = apart
+            if apart < 1.5 * self.control.range:
+                self._moved[visitor.name] = max(self._moved[visitor.name], moved)
+            elif min(self._closest.values()) >= 1.5 * self.control.range:
+                self._early = max(self._early, moved)
+        self._trace.append((time, nearest, moved))
+
+    def verdict(self) -> Verdict:
+        reasons = self.balance_reasons()
+        closest, s = min(self._closest.values()), self.settings
+        if closest <= 0.0 or self._felt > 0.0:
+            text = f"the hand was touched: nearest distance {1e3 * closest:.1f} mm, force {self._felt:.2f} N"
+            reasons.append(failed("touched", closest, 0.0, text))
+        for name, moved in self._moved.items():
+            if moved < s.moved:
+                text = f"{name} repelled the hand by {1e3 * moved:.0f} mm; wanted: {1e3 * s.moved:.0f}"
+                reasons.append(failed("repelled", moved, s.moved, text))
+        if self._early > s.early:
+            text = f"the hand moved by {1e3 * self._early:.1f} mm before anything was near"
+            reasons.append(failed("early", self._early, s.early, text))
+        figures = {
+            **self.balance_figures(),
+            "distance_min_mm": round(1e3 * closest, 2),
+            "distances_min_mm": {name: round(1e3 * d, 2) for name, d in self._closest.items()},
+            "moved_mm": round(1e3 * min(self._moved.values()), 1),
+            "force_max_N": round(self._felt, 3),
+        }
+        return Verdict(reasons, figures)
+
+    def plot(self, folder: Path) -> Sequence[Path]:
+        time, near, moved = np.array(self._trace).T
+        figure, (upper, lower) = new_figure(8.0, 5.0, rows=2, sharex=True)
+        upper.plot(time, 1e3 * near, color=COLOURS["truth"])
+        upper.axhline(1e3 * self.control.range, color=COLOURS["reference"], linestyle="--")
+        upper.set(ylabel="distance of hand and visitor [mm]", ylim=(0.0, 80.0))
+        lower.plot(time, 1e3 * moved, color=COLOURS["left"])
+        lower.set(xlabel="time [s]", ylabel="hand moved [mm]")
+        return [save_figure(figure, folder / "feather.png")]

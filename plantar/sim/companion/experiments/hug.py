@@ -1,0 +1,24 @@
+"""Many hands press on a standing robot, and hug it: it yields to each and keeps its balance (T 3.2.3.1)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from plantar.sim.companion.machine import Machine
+from plantar.sim.companion.standing.pressed import PressedExperiment
+
+__all__ = ["Hug"]
+
+_HANDS = ("hand palm", "hand back")
+
+
+class Hug(PressedExperiment):
+    """Pads press on all ten instances, one after the other; then those on torso, hips and arms press together.
+
+    The order of T 3.2.3.1: support and balance, self-collision, and last skin and posture together.
+    """
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        self.press_each()
+        self.press_together([name for name in self.instances if not name.endswith(_HANDS)])

@@ -1,0 +1,167 @@
+"""Intentional contact (T 3.4.2): the tip of an arm reaches its goal among things that it may push, gently."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, ClassVar
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sensing.link_skin import BodySkin
+from plantar.settings.schema import Settings, choice, number, tables, text
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.companion.experiment import Experiment, Verdict, World, failed
+from plantar.sim.companion.machine import Machine
+from plantar.sim.companion.reaching.layout import KINDS, random_layout
+from plantar.sim.companion.reaching.reach_controller import ReachControl, ReachController
+from plantar.sim.companion.reaching.reach_record import ReachRecord
+from plantar.sim.figures.render import View
+from plantar.sim.model.contact_truth import feet_contacts
+
+__all__ = ["IntentionalContactExperiment", "ReachSettings"]
+
+_EVERY = 0.02  # s between two records
+_MARGIN = 1.1  # of the tolerable force: what a run may have at most
+
+
+class ReachSettings(Settings):
+    """What has to be reached, and what stands around.
+
+    Attributes:
+        duration: Longest simulated time.
+        tip_link: Link of the tip.
+        tip: The tip in its frame in m.
+        layout: Kind of layout; "any" takes them in turn by the seed.
+        force_limit: epsilon_c of T Table 1: the tolerable force on what is touched.
+        near: Least distance of the goal.
+        far: Largest.
+        least_angle: Least direction to the goal from the tip, counter-clockwise from x.
+        largest_angle: Largest.
+        least_friction: Least force that it takes to push what can be moved.
+        largest_friction: Largest.
+        half_height: Half of the height of what stands around, whose middle is at the tip's height.
+        tolerance: Distance from the goal at which it is reached.
+    """
+
+    duration: float = number(40.0, "s", 1.0, 600.0)
+    tip_link: str = text("link7")
+    tip: tuple[float, ...] = tables("a list of 3 numbers")
+    layout: str = choice("any", *KINDS)
+    force_limit: float = number(15.0, "N", 0.1, 1e3)
+    near: float = number(0.4, "m", 0.05, 5.0)
+    far: float = number(0.6, "m", 0.05, 5.0)
+    least_angle: float = number(0.0, "deg", -360.0, 360.0)
+    largest_angle: float = number(90.0, "deg", -360.0, 360.0)
+    least_friction: float = number(2.0, "N", 0.1, 1e3)
+    largest_friction: float = number(5.0, "N", 0.1, 1e3)
+    half_height: float = number(0.12, "m", 0.01, 1.0)
+    tolerance: float = number(0.015, "m", 1e-3, 1.0)
+
+
+class IntentionalContactExperiment(Experiment):
+    """A layout drawn by the seed; done when the tip has stayed at the goal for half a second."""
+
+    settings_type = ReachSettings
+    control_type = ReachControl
+    view = ("", View(3.5, 90.0, -60.0))
+    columns: ClassVar[tuple[str, ...]] = ("layout", "reached_s", "error_mm", "force_max_N", "contacts", "retreats")
+
+    def __init__(self, machine: Machine, settings: ReachSettings, control: ReachControl, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        s = self.settings
+        self.duration = s.duration
+        point = np.array(s.tip if len(s.tip) else (0.0, 0.0, 0.0), dtype=float)
+        self._tip = (s.tip_link, point)
+        model = machine.spec().compile()
+        data = mujoco.MjData(model)
+        data.qpos[-len(machine.posture) :] = machine.posture
+        mujoco.mj_kinematics(model, data)
+        body = data.body(s.tip_link)
+        start = body.xpos + body.xmat.reshape(3, 3) @ point
+        self._height = float(start[2])
+        kind = s.layout if s.layout != "any" else KINDS[seed % len(KINDS)]
+        angles = (math.radians(s.least_angle), math.radians(s.largest_angle))
+        friction = (s.least_friction, s.largest_friction)
+        self.layout = random_layout(self.rng, kind, start[:2], ((s.near, s.far), angles), friction)
+        self._goal = np.array([*self.layout.goal, self._height])
+        self.record = ReachRecord(machine, self.layout, s.force_limit)
+        self._highest = 0.0
+        self._since = self._reached = math.inf
+        self._error = math.inf
+        self._due = 0.0
+        self._pressed: dict[str, NDArray[np.float64]] = {}
+        self._posts: dict[str, int] = {}
+        self._hand: ReachController
+
+    def add_to(self, spec: Any) -> None:
+        spec.worldbody.add_light(pos=[0.5, 0.3, 4.0])
+        for post in self.layout.posts:
+            post.add_to(spec, self._height, self.settings.half_height)
+        mark = spec.worldbody.add_site(name="goal", pos=self._goal, size=[0.02, 0.02, 0.02])
+        mark.rgba = [0.2, 0.7, 0.3, 1.0]
+
+    def start(self, world: World) -> None:
+        self._posts = {post.name: world.model.geom(post.name).id for post in self.layout.posts}
+
+    def controller(self, machine: Machine, skin: BodySkin) -> ReachController:
+        self._hand = ReachController(machine, skin, self.control, self._tip, self.settings.force_limit)
+        self._hand.goal.target_position = self._goal
+        return self._hand
+
+    def act(self, world: World, time: float) -> None:
+        """Take note of what parts without skin press on the posts: MuJoCo's contacts are whole until the next step.
+
+        Args:
+            world: The world.
+            time: Time in s.
+        """
+        posts = list(self._posts.values())
+        found = feet_contacts(world.model, world.data, [{geom} for geom in posts])
+        for name, contacts in zip(self._posts, found, strict=True):
+            others = ~np.isin(contacts.other_geoms, posts)  # posts lean on each other too
+            self._pressed[name] = contacts.forces[others].sum(axis=0)
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        origin, rotation = world.pose(self._tip[0])
+        tip = origin + rotation @ self._tip[1]
+        pushes = (w[:3] + self._pressed[name] for name, w in sensor.on_obstacles.items())
+        force = max(float(np.sqrt(push @ push)) for push in pushes)
+        self._highest = max(self._highest, force)
+        self._error = float(np.linalg.norm(tip - self._goal))
+        if self._error > self.settings.tolerance:
+            self._since = math.inf
+        elif math.isinf(self._since):
+            self._since = time
+        if time - self._since >= 0.5 and math.isinf(self._reached):
+            self._reached = self._since
+        if time >= self._due:
+            self._due += _EVERY
+            self.record.add(world, time, tip, force, self._hand)
+        self.done = math.isfinite(self._reached)
+
+    def verdict(self) -> Verdict:
+        s, why = self.settings, []
+        if math.isinf(self._reached):
+            why.append(failed("goal", self._error, s.tolerance, f"{1e3 * self._error:.0f} mm from the goal at the end"))
+        limit = _MARGIN * s.force_limit
+        if self._highest > limit:
+            why.append(
+                failed("force", self._highest, limit, f"{self._highest:.1f} N on an obstacle; limit {limit:g} N")
+            )
+        changes = self.record.changes()
+        figures = {
+            "layout": self.layout.kind,
+            "reached_s": round(self._reached, 3) if math.isfinite(self._reached) else None,
+            "error_mm": round(1e3 * self._error, 2),
+            "force_max_N": round(self._highest, 3),
+            "contacts": changes.count("approach"),
+            "retreats": changes.count("retreat"),
+        }
+        return Verdict(why, figures)
+
+    def plot(self, folder: Path) -> Sequence[Path]:
+        return [self.record.plot(folder / "reach.png", f"{self.layout.kind}, seed {self.seed}")]

@@ -1,0 +1,195 @@
+"""A robot leans on a table with one forearm and reaches out farther than its feet can hold, one of them on an edge.
+
+The forearm is lowered until its skin feels the table. Then it is a contact as the feet are: what the skin says of where
+it touches goes into the support and into how the load is shared. What of a sole stands on the ground its taxels see.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, ClassVar
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin
+from plantar.settings.schema import Settings, number
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP
+from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.machine import Machine
+from plantar.sim.companion.standing.lean_controller import HAND, PATCH, LeanControl, LeanController
+from plantar.sim.companion.standing.standing import StandingExperiment
+from plantar.sim.model.contact_truth import feet_contacts
+
+__all__ = ["Lean", "LeanSettings"]
+
+_LOOK_EVERY = 5  # physics steps between two looks at the contacts
+_SEEN_LOWER = 0.008  # m below the ground where taxels see it: skin that would carry has no stiction
+_OUTSIDE = 0.01  # m: by which the centre of mass has to be outside the polygon of the feet
+
+
+class LeanSettings(Settings):
+    """What is leant on, and how far.
+
+    Attributes:
+        table_height: Height of the table's top that the robot expects.
+        height_error: Largest difference of the true height from it, either way; the seed draws it.
+        table_edge: Distance of the table's edge from the middle of the feet; the seed moves it by up to 2 cm.
+        sole_share: Share of the right sole that stands on ground; the seed draws which side of it.
+        beyond: Distance by which the centre of mass goes beyond the front of the ground that the soles see.
+        reach: Distance of the left hand's target from the middle of the feet, forward.
+    """
+
+    table_height: float = number(1.05, "m", 0.5, 1.5)
+    height_error: float = number(0.03, "m", 0.0, 0.2)
+    table_edge: float = number(0.32, "m", 0.1, 1.0)
+    sole_share: float = number(0.3, "1", 0.1, 1.0)
+    beyond: float = number(0.06, "m", -0.2, 0.2)
+    reach: float = number(0.55, "m", 0.3, 1.5)
+
+    @property
+    def hand_target(self) -> NDArray[np.float64]:
+        """Where (3,) the left hand reaches, from the middle of the feet in m."""
+        return np.array([self.reach, 0.42, 1.15])
+
+
+class Lean(StandingExperiment):
+    """A table, ground under one sole and under 30 % of the other, and the load's way to the ground."""
+
+    settings_type: ClassVar = LeanSettings
+    control_type: ClassVar = LeanControl
+    columns: ClassVar = ("beyond_mm", "forearm_N", "reach_error_mm", "tilt_max_deg", "sole_part")
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        self.duration = 13.0
+        s = self.settings
+        self.part = str(self.rng.choice(["front", "rear", "inner", "outer"]))
+        self.height = s.table_height + self.rng.uniform(-1.0, 1.0) * s.height_error
+        self.edge = s.table_edge + self.rng.uniform(-0.02, 0.02)
+        self._controller: LeanController | None = None
+        self._carried = (0.0, 0.0)
+        self._trace: list[tuple[float, ...]] = []
+
+    def _first_posture(self) -> NDArray[np.float64]:
+        """The right forearm is held up, so that it comes down on the table from above."""
+        qpos = super()._first_posture()
+        names = list(self.machine.joints)
+        for joint, angle in (("right_shoulder_pitch", -20.0), ("right_elbow", 130.0)):
+            qpos[7 + names.index(joint)] = np.radians(angle)
+        self.robot.update(qpos, np.zeros(self.robot.model.nv), 0.0)
+        over = self.robot.com()[0] * [0.0, 0.0, 1.0] + self._middle()
+        return self.stance.solve(self.robot, over, (self.machine.base.link, np.eye(3)), {})
+
+    def _middle(self) -> NDArray[np.float64]:
+        return np.asarray(np.mean(list(self.stance.places.values()), axis=0))
+
+    def add_to(self, spec: Any) -> None:
+        # As where robots walk: a sole with a load to the side would creep off its edge by 2 mm a second.
+        spec.option.cone, spec.option.impratio = mujoco.mjtCone.mjCONE_ELLIPTIC, 10.0
+        box = mujoco.mjtGeom.mjGEOM_BOX
+        for side, (low, high) in self._ground().items():
+            middle, half = 0.5 * (low + high), 0.5 * (high - low)
+            ground = spec.worldbody.add_geom(name=f"{side}_ground", type=box, size=[*half, 0.05])
+            ground.pos, ground.rgba = [*middle, -0.05], [0.72, 0.74, 0.72, 1.0]
+            ground.contype, ground.conaffinity, ground.friction = 2, 1, [0.8, 0.005, 0.0001]
+            seen = spec.worldbody.add_geom(name=f"{side}_seen", type=box, size=[*half, 0.01], group=OBSTACLE_GROUP)
+            seen.pos, seen.rgba = [*middle, -0.01 - _SEEN_LOWER], [0.72, 0.74, 0.72, 0.0]
+            seen.contype = seen.conaffinity = 0
+        middle = self.stance.places["left_foot"][0]
+        table = spec.worldbody.add_geom(name="table", type=box, size=[0.3, 0.3, 0.02], group=OBSTACLE_GROUP)
+        table.pos, table.rgba = [middle + self.edge + 0.3, -0.42, self.height - 0.02], [0.66, 0.5, 0.36, 1.0]
+        table.contype = table.conaffinity = 0
+
+    def _ground(self) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Corners (2,) of the ground under each sole in the world."""
+        found = {}
+        for side in ("left", "right"):
+            place = self.stance.places[f"{side}_foot"][:2]
+            half = self.robot.model.geom(f"{side}_sole_box").size[:2]
+            low, high = place - half, place + half
+            if side == "right":
+                share = self.settings.sole_share
+                axis = 0 if self.part in ("front", "rear") else 1
+                cut = 2.0 * half[axis] * (1.0 - share)
+                if self.part in ("front", "inner"):
+                    low[axis] += cut
+                else:
+                    high[axis] -= cut
+            found[side] = (low, high)
+        return found
+
+    def controller(self, machine: Machine, skin: BodySkin) -> Controller:
+        self._controller = LeanController(self, skin)
+        return self._controller
+
+    def act(self, world: World, time: float) -> None:
+        if self._steps % _LOOK_EVERY == 0:  # forces of contacts belong to the contacts that there are until the step
+            self._carried = self._loads(world)
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        self._steps += 1
+        if self._steps % _LOOK_EVERY:
+            return
+        self.look_at_trunk(world)
+        com = world.data.subtree_com[world.data.body(self.machine.base.link).id].copy()
+        corners = [
+            [x, y] for low, high in self._ground().values() for x in (low[0], high[0]) for y in (low[1], high[1])
+        ]
+        beyond = -signed_margin(convex_hull(corners), com[:2])
+        hand = world.pose("left_hand")
+        reached = float(np.linalg.norm(hand[0] + hand[1] @ HAND - self._target()))
+        self._trace.append((time, beyond, *self._carried, sensor.patch_force(PATCH), reached, *com))
+
+    def _target(self) -> NDArray[np.float64]:
+        return np.asarray(self._middle() + self.settings.hand_target)
+
+    def _loads(self, world: World) -> tuple[float, float]:
+        """True vertical force in N on the ground under the left and the right sole."""
+        grounds = [{world.model.geom(name).id} for name in ("left_ground", "right_ground")]
+        left, right = (-float(found.forces[:, 2].sum()) for found in feet_contacts(world.model, world.data, grounds))
+        return left, right
+
+    def verdict(self) -> Verdict:
+        trace = np.array(self._trace)
+        held = trace[trace[:, 0] > self.duration - 3.0]
+        reasons = self.balance_reasons()
+        if not len(held):
+            held = trace[-1:]
+        beyond, force, error = held[:, 1].min(), held[:, 4].min(), held[:, 5].max()
+        wanted = _OUTSIDE
+        if not reasons and beyond < wanted:
+            reasons.append(failed("beyond", beyond, wanted, f"centre of mass {1e3 * beyond:.0f} mm beyond the feet"))
+        if not reasons and force <= 0.0:
+            reasons.append(failed("forearm", force, 0.0, "the forearm lost the table"))
+        if not reasons and error > 0.03:
+            reasons.append(failed("reach", error, 0.03, f"the hand stays {1e3 * error:.0f} mm off its target"))
+        figures = {
+            "tilt_max_deg": round(self.tilt_max, 2),
+            "sole_part": self.part,
+            "table_off_mm": round(1e3 * (self.height - self.settings.table_height), 1),
+            "beyond_mm": round(1e3 * float(beyond), 1),
+            "forearm_N": [round(float(v), 1) for v in (force, held[:, 4].max())],
+            "foot_loads_N": [round(float(v), 1) for v in held[:, 2:4].mean(axis=0)],
+            "reach_error_mm": round(1e3 * float(error), 1),
+        }
+        return Verdict(reasons, figures)
+
+    def plot(self, folder: Path) -> Sequence[Path]:
+        trace = np.array(self._trace)
+        figure, (upper, lower) = new_figure(8.0, 6.5, rows=2)
+        names = ("left foot", "right foot, on 30 % of its sole", "forearm")
+        for i, (name, colour) in enumerate(zip(names, ("left", "right", "polygon"), strict=True)):
+            upper.plot(trace[:, 0], trace[:, 2 + i], color=COLOURS.get(colour), label=name)
+        upper.set(xlabel="time [s]", ylabel="true load [N]")
+        upper.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+        lower.plot(trace[:, 0], 1e3 * trace[:, 1], label="beyond the feet's polygon")
+        lower.axhline(0.0, linewidth=0.8, color="0.5")
+        lower.set(xlabel="time [s]", ylabel="true centre of mass [mm]")
+        lower.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+        return [save_figure(figure, folder / "lean.png")]

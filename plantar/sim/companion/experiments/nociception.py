@@ -1,0 +1,207 @@
+"""A pressure that hurts makes the robot give up its hand's pose: a seventh of the area needs a seventh of the force.
+
+T 3.4.1.1: support; the right hand's position; its orientation; pressure-driven compliance; posture. Above 10 N of
+virtual force both tasks of the hand are dropped until it is calm again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import Settings, number, switch
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.body_skin.surface import skin_from_tables
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.machine import Machine
+from plantar.sim.companion.standing.controller import StandingControl, StandingController
+from plantar.sim.companion.standing.pad import Pad
+from plantar.sim.companion.standing.standing import StandingExperiment
+from plantar.wholebody.behaviours.nociceptive_reflex import NociceptiveReflex, ReflexSettings
+from plantar.wholebody.fusion.priority_transition import PriorityTransition
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose
+from plantar.wholebody.tasks.pressure import PressureInteraction
+from plantar.wholebody.tasks.task import Task
+
+__all__ = ["Nociception", "NociceptionControl", "NociceptionSettings"]
+
+_PATCH, _LINK = "right_hand_back", "right_hand"
+_FACES = {"one": 0.010, "seven": 0.035}  # m: radius; seven taxels are one and the six about it
+_CHANGING = 0.1  # s after a change of priorities in which torques are looked at
+_RATE = 6.0  # N/s: how fast a probe presses harder, times its taxels
+_PHASE, _HOLD, _REST = 5.0, 0.6, 2.0  # s: a probe's time, how long it goes on once the hand gives way, and a pause
+
+
+class NociceptionSettings(Settings):
+    """What is asked of the reflex.
+
+    Attributes:
+        tolerance: Deviation of the ratio of threshold forces from that of the areas that is allowed.
+        jump: Largest change of any joint's torque in one control period while priorities change, as a share of its
+            limit; noise of the sensors alone makes 8 %.
+        retreat: How far the hand has to give way.
+    """
+
+    tolerance: float = number(0.1, "1", 0.0, 1.0)
+    jump: float = number(0.06, "1", 0.0, 1.0)
+    retreat: float = number(0.03, "m", 0.0, 1.0)
+
+
+class NociceptionControl(StandingControl):
+    """How the reflex acts.
+
+    Attributes:
+        reflex: Whether there is a reflex.
+        smooth: Whether priorities change smoothly.
+        threshold: Virtual force that hurts.
+        sensitivity_taxels: xi of T 3.27 in areas of a taxel.
+        yield_damping: Damping of the hand while it yields.
+    """
+
+    reflex: bool = switch(True)
+    smooth: bool = switch(True)
+    threshold: float = number(10.0, "N", 0.1, 1000.0)
+    sensitivity_taxels: float = number(3.0, "1", 0.1, 1000.0)
+    yield_damping: float = number(60.0, "N s/m", 1.0, 1e5)
+    filter: float = number(0.02, "s", 0.0, 1.0)
+
+
+@dataclass
+class _Probe:
+    """One probe, and at which true force the reflex came."""
+
+    pad: Pad
+    taxels: int
+    begin: float
+    triggered: float = float("nan")
+    since: float = float("inf")
+    moved: float = 0.0
+
+
+class Nociception(StandingExperiment):
+    """Two probes, in an order of the seed, press harder and harder on the back of the right hand until it gives way."""
+
+    settings_type: ClassVar = NociceptionSettings
+    control_type: ClassVar = NociceptionControl
+    columns: ClassVar = ("threshold_ratio", "torque_jump", "moved_mm", "cop_margin_min_mm")
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
+        patch = skin.patch(_PATCH)
+        middle = int(patch.from_middle[0])
+        self.rate = _RATE * self.rng.uniform(0.7, 1.3)
+        self.probes: dict[str, _Probe] = {}
+        for i, name in enumerate(list(_FACES)[:: int(self.rng.choice([-1, 1]))]):
+            count = 1 if name == "one" else 7
+            pad = Pad(name, patch, middle, _FACES[name], 7e3 * count)
+            self.pads.append(pad)
+            self.probes[name] = _Probe(pad, count, 0.5 + i * (_PHASE + _REST) + self.rng.uniform(0.0, 0.3))
+        self.duration = 0.5 + 2 * (_PHASE + _REST)
+        self._rest = self.robot.pose(_LINK)[0]
+        self._control: StandingController | None = None
+        self._virtual = 0.0
+        self._last: Any = None
+        self._jump, self._changed = 0.0, -np.inf
+        self._trace: list[tuple[float, ...]] = []
+        self.reflex = NociceptiveReflex([], [])
+        self.transition = PriorityTransition()
+
+    def controller(self, machine: Machine, skin: BodySkin) -> Controller:
+        c = self.control
+        self._pressure = PressureInteraction(skin, c.sensitivity_taxels * float(skin.areas[0]))
+        self._pressure.damping = (c.yield_damping, 0.02 * c.yield_damping)
+        position, orientation = (CartesianPose(_LINK, rows=rows) for rows in ("position", "orientation"))
+        base: list[Task] = self.balance_tasks()
+        default: list[list[Task]] = [base, [position], [orientation], [self._pressure], [self.posture_task()]]
+        settings = ReflexSettings(threshold=c.threshold)
+        self.reflex = NociceptiveReflex(default, [base, default[3], default[4]], settings)
+        self._control = StandingController(self.stance, default, self.balance, skin, c, self._before)
+        self._control.after = self._after
+        return self._control
+
+    def _before(self, robot: MujocoDynamics, felt: SkinReading) -> None:
+        """Let the reflex choose the tasks that count."""
+        control = self._control
+        assert control is not None
+        strongest = [float(np.linalg.norm(w.wrench[:3])) for w in self._pressure.wrenches(felt)]
+        before, self._virtual = self._virtual, max(strongest, default=0.0)
+        if self.control.reflex and self.reflex.update(self._virtual, robot.time):
+            control.stack.levels = [list(level) for level in self.reflex.levels]
+        elif (before > 0.0) == (self._virtual > 0.0):
+            return
+        self._changed = robot.time
+        self.transition.begin(robot.time)
+
+    def _after(self, torque: Any, time: float) -> Any:
+        """Let torques change smoothly with the priorities."""
+        found = self.transition.blend(torque, time) if self.control.smooth else torque
+        if self._last is not None and time - self._changed < _CHANGING:
+            self._jump = max(self._jump, float((np.abs(found - self._last) / self.machine.efforts).max()))
+        self._last = found
+        return found
+
+    def act(self, world: World, time: float) -> None:
+        for probe in self.probes.values():
+            pressing = probe.begin <= time < min(probe.begin + _PHASE, probe.since + _HOLD)
+            rising = max(0.0, min(time, probe.since) - probe.begin - 0.8)
+            probe.pad.wanted = 0.5 * probe.taxels + self.rate * rising * probe.taxels / 4.0 if pressing else 0.0
+        super().act(world, time)
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        super().judge(world, sensor, time)
+        moved = float(np.linalg.norm(world.pose(_LINK)[0] - self._rest))
+        for probe in self.probes.values():
+            if probe.begin <= time < probe.begin + _PHASE + 0.5:
+                probe.moved = max(probe.moved, moved)
+                if self.reflex.active and not np.isfinite(probe.triggered):
+                    probe.triggered, probe.since = self.pressing(probe.pad), time
+        if self._steps % 10 == 0:
+            force = sum(self.pressing(p.pad) for p in self.probes.values())
+            self._trace.append((time, force, self._virtual, 1e3 * moved, float(self.reflex.active)))
+
+    def verdict(self) -> Verdict:
+        reasons, s = self.balance_reasons(), self.settings
+        one, seven = self.probes["one"], self.probes["seven"]
+        ratio = seven.triggered / one.triggered
+        off = abs(ratio / 7.0 - 1.0) if np.isfinite(ratio) else 1.0
+        if not off <= s.tolerance:
+            text = f"threshold forces differ by {ratio:.2f}, areas by 7; allowed: {s.tolerance:.0%} apart"
+            reasons.append(failed("threshold_ratio", off, s.tolerance, text))
+        if self._jump > s.jump:
+            text = f"a torque jumped by {self._jump:.1%} of its limit in one period; allowed: {s.jump:.1%}"
+            reasons.append(failed("torque_jump", self._jump, s.jump, text))
+        moved = min(p.moved for p in self.probes.values())
+        if moved < s.retreat:
+            text = f"the hand gave way by {1e3 * moved:.0f} mm; wanted: {1e3 * s.retreat:.0f}"
+            reasons.append(failed("retreat", moved, s.retreat, text))
+        figures = {
+            **self.balance_figures(),
+            "threshold_ratio": round(ratio, 3) if np.isfinite(ratio) else None,
+            "threshold_forces_N": {
+                name: round(p.triggered, 2) if np.isfinite(p.triggered) else None for name, p in self.probes.items()
+            },
+            "torque_jump": round(self._jump, 4),
+            "moved_mm": round(1e3 * moved, 1),
+        }
+        return Verdict(reasons, figures)
+
+    def plot(self, folder: Path) -> Sequence[Path]:
+        time, force, virtual, moved, active = np.array(self._trace).T
+        figure, (upper, lower) = new_figure(8.0, 5.0, rows=2, sharex=True)
+        upper.plot(time, force, color=COLOURS["truth"], label="probe")
+        upper.plot(time, virtual, color=COLOURS["active"], label="virtual force")
+        upper.axhline(self.control.threshold, color=COLOURS["reference"], linestyle="--")
+        upper.fill_between(time, 0.0, 1.1 * max(force.max(), virtual.max()) * active, alpha=0.15, label="reflex")
+        upper.set(ylabel="force [N]")
+        upper.legend()
+        lower.plot(time, moved, color=COLOURS["left"])
+        lower.set(xlabel="time [s]", ylabel="hand moved [mm]")
+        return [save_figure(figure, folder / "nociception.png")]

@@ -1,0 +1,190 @@
+"""A hand that works over a hot plate draws back when its skin gets warm (T 3.3.2.1).
+
+The order is T's: support; temperature-driven compliance; the right hand's pose; posture. A hand that heat repels has no
+row left for its pose, and skin cools slowly: with nothing else to hold it the hand would drift as far as it can. So the
+posture acts beside heat, and draws the hand back to where it came from.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, ClassVar
+
+import mujoco
+import numpy as np
+
+from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import number, switch
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.machine import Machine
+from plantar.sim.companion.standing.controller import StandingControl, StandingController
+from plantar.sim.companion.standing.heat import HotPlate, PlateSettings
+from plantar.sim.companion.standing.standing import StandingExperiment
+from plantar.wholebody.fusion.priority_transition import PriorityTransition
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from plantar.wholebody.tasks.task import Task
+from plantar.wholebody.tasks.temperature import TemperatureInteraction
+
+__all__ = ["Stove", "StoveControl", "StoveSettings"]
+
+_LINK, _PATCHES = "right_hand", ("right_hand_palm", "right_hand_back")
+_WARM_EVERY = 10  # physics steps
+_BEGIN, _WAY = 1.0, 2.0  # s: when the hand sets out for the plate, and how long it takes
+_CIRCLE = 4.0  # s
+
+
+class StoveSettings(PlateSettings):
+    """The plate, and what is asked of the hand.
+
+    Attributes:
+        limit: Temperature that no taxel may reach.
+        height: Mean height at which the palm works over the plate; each seed has its own.
+        retreat: How far above its work the hand has to draw back.
+        duration: Simulated time.
+    """
+
+    limit: float = number(45.0, "degC", 0.0, 1000.0)
+    height: float = number(0.07, "m", 0.02, 0.5)
+    retreat: float = number(0.04, "m", 0.0, 1.0)
+    duration: float = number(20.0, "s", 1.0, 1000.0)
+
+
+class StoveControl(StandingControl):
+    """How the machine shuns heat.
+
+    Attributes:
+        temperature: Whether heat repels it.
+        threshold: kappa_0 of T 3.34: temperature from which it does.
+        repulsion: Force of one taxel a kelvin above the threshold.
+        repelled_damping: Damping of the hand while it is repelled.
+    """
+
+    temperature: bool = switch(True)
+    threshold: float = number(31.0, "degC", -50.0, 1000.0)
+    repulsion: float = number(2.0, "N/K", 0.0, 1000.0)
+    repelled_damping: float = number(80.0, "N s/m", 0.1, 1e5)
+
+
+class Stove(StandingExperiment):
+    """The right palm circles over the plate at a height, a radius and from a side of the seed."""
+
+    settings_type: ClassVar = StoveSettings
+    control_type: ClassVar = StoveControl
+    columns: ClassVar = ("temperature_max", "retreat_mm", "cop_margin_min_mm")
+    posture: ClassVar = {"right_wrist_yaw": -90.0, "right_shoulder_pitch": 20.0, "right_elbow": 70.0}
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        self.duration = settings.duration
+        skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
+        self._taxels = np.concatenate([np.arange(len(skin))[skin.slices[name]] for name in _PATCHES])
+        self._points, self._normals = skin.positions[self._taxels], skin.normals[self._taxels]
+        origin, rotation = self.robot.pose(_LINK)
+        palm = np.arange(len(skin.positions))[skin.slices["right_hand_palm"]]
+        self._palm = skin.positions[palm].mean(0)
+        place = origin + rotation @ self._palm
+        self.height = settings.height * self.rng.uniform(0.8, 1.2)
+        self._radius = self.rng.uniform(0.0, 0.04)
+        self._phase = self.rng.uniform(0.0, 2.0 * math.pi)
+        away = np.array([0.10, -0.16, 0.0]) * self.rng.uniform(0.8, 1.0)
+        self.middle = place + away - [0.0, 0.0, self.height]
+        self.plate = HotPlate(self.middle, settings, len(self._taxels))
+        self._warmth = np.full(len(skin), settings.room)
+        self._start = place
+        self._hottest = settings.room
+        self._first = float("inf")
+        self._retreat = 0.0
+        self._height_max = 0.0
+        self._arrived = False
+        self._trace: list[tuple[float, ...]] = []
+        self._hand = CartesianPose(_LINK, self._palm, PoseGains(speed=0.2))
+        self._transition = PriorityTransition()
+        self._silent = True
+        self._control: StandingController
+
+    def add_to(self, spec: Any) -> None:
+        super().add_to(spec)
+        body = spec.worldbody.add_body(name="plate", pos=(self.middle - [0.0, 0.0, 0.01]).tolist())
+        plate = body.add_geom(name="plate", type=mujoco.mjtGeom.mjGEOM_CYLINDER, rgba=[0.5, 0.1, 0.05, 1.0])
+        plate.size, plate.group = [self.settings.radius, 0.01, 0.0], OBSTACLE_GROUP
+
+    def controller(self, machine: Machine, skin: BodySkin) -> Controller:
+        c = self.control
+        self._heat = TemperatureInteraction(skin, c.repulsion, c.threshold, _PATCHES)
+        self._heat.damping = (c.repelled_damping, 0.02 * c.repelled_damping)
+        base, posture = self.balance_tasks(), self.posture_task()
+        self._working: list[list[Task]] = [base, [self._hand], [posture]]
+        self._shunning: list[list[Task]] = [base, [self._heat, posture]]
+        self._control = StandingController(self.stance, self._working, self.balance, skin, c, self._before)
+        self._control.after = self._transition.blend
+        return self._control
+
+    def _before(self, robot: MujocoDynamics, felt: SkinReading) -> None:
+        """Move the hand's target, and change the tasks smoothly when heat begins or ends."""
+        self._hand.target_position = self._target(robot.time)
+        silent = not self.control.temperature or not self._heat.wrenches(felt)
+        if silent != self._silent:
+            self._transition.begin(robot.time)
+            self._control.stack.levels = self._working if silent else self._shunning
+        self._silent = silent
+
+    def _target(self, time: float) -> Any:
+        """Where the palm (3,) shall be at a time in s: on its way to the plate, then on a circle above it."""
+        share = min(1.0, max(0.0, (time - _BEGIN) / _WAY))
+        angle = self._phase + 2.0 * math.pi * time / _CIRCLE
+        circle = np.array([self._radius * math.cos(angle), self._radius * math.sin(angle), self.height])
+        return (1.0 - share) * self._start + share * (self.middle + circle)
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        super().judge(world, sensor, time)
+        if sensor.temperature is None:
+            sensor.temperature = self._warmth
+        if self._steps % _WARM_EVERY:
+            return
+        origin, rotation = world.pose(_LINK)
+        period = _WARM_EVERY * world.model.opt.timestep
+        warmth = self.plate.step(self._points @ rotation.T + origin, -self._normals @ rotation.T, period)
+        self._warmth[self._taxels] = warmth
+        hottest = float(warmth.max())
+        self._hottest = max(self._hottest, hottest)
+        palm = origin + rotation @ self._palm
+        work = float(np.linalg.norm(palm - self._target(time)))
+        self._arrived = self._arrived or (time > _BEGIN + _WAY and work < 0.02)
+        if self._arrived:
+            self._retreat = max(self._retreat, work)
+        self._trace.append((time, hottest, float(warmth.mean()), 1e3 * float(palm[2] - self.middle[2])))
+
+    def verdict(self) -> Verdict:
+        reasons, s = self.balance_reasons(), self.settings
+        if not self._arrived:
+            reasons.append(failed("arrived", 0.0, 1.0, "the hand never came to its work over the plate"))
+        if self._hottest >= s.limit:
+            text = f"a taxel reached {self._hottest:.1f} degC; allowed: below {s.limit:g}"
+            reasons.append(failed("temperature", self._hottest, s.limit, text))
+        if self._retreat < s.retreat:
+            text = f"the hand drew back by {1e3 * self._retreat:.0f} mm; wanted: {1e3 * s.retreat:.0f}"
+            reasons.append(failed("retreat", self._retreat, s.retreat, text))
+        figures = {
+            **self.balance_figures(),
+            "temperature_max": round(self._hottest, 2),
+            "retreat_mm": round(1e3 * self._retreat, 1),
+        }
+        return Verdict(reasons, figures)
+
+    def plot(self, folder: Path) -> Sequence[Path]:
+        time, hottest, mean, height = np.array(self._trace).T
+        figure, (upper, lower) = new_figure(8.0, 5.0, rows=2, sharex=True)
+        upper.plot(time, hottest, color=COLOURS["right"], label="hottest taxel")
+        upper.plot(time, mean, color=COLOURS["left"], label="mean of the hand")
+        upper.axhline(self.control.threshold, color=COLOURS["reference"], linestyle="--")
+        upper.set(ylabel="temperature [degC]")
+        upper.legend()
+        lower.plot(time, height, color=COLOURS["truth"])
+        lower.set(xlabel="time [s]", ylabel="palm above the plate [mm]")
+        return [save_figure(figure, folder / "stove.png")]

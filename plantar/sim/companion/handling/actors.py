@@ -1,0 +1,184 @@
+"""Who acts on a machine: hands that push its links with a force, and a person who walks up to its base."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.mechanics.easing import minimum_jerk
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP
+from plantar.sim.companion.experiment import World
+
+__all__ = ["FIST", "PERSON", "Fist", "Push", "Visit", "Visitor", "come_and_go"]
+
+FIST = 0.03
+"""Radius in m of the hand that pushes."""
+
+PERSON = 0.2
+"""Radius in m of the person."""
+
+_AWAY = 0.05  # m above the surface where the hand waits
+_YIELD = 4e-3  # m/(N s): how fast the pushing hand goes on where force is missing, 30 1/s on one taxel
+_RAMP = 0.4  # s in which a push comes and goes
+
+
+def come_and_go(time: float, start: float, end: float, ramp: float) -> float:
+    """A share that goes from 0 to 1 after a start, and is back at 0 at an end, along minimum-jerk blends.
+
+    Args:
+        time: Time in s.
+        start: When it begins to grow in s.
+        end: When it is back at 0 in s.
+        ramp: How long it takes to come, and to go, in s.
+
+    Returns:
+        The share, 0 to 1.
+
+    Example:
+        >>> [come_and_go(t, 1.0, 5.0, 2.0) for t in (0.0, 2.0, 3.0, 4.0, 6.0)]
+        [0.0, 0.5, 1.0, 0.5, 0.0]
+    """
+    return minimum_jerk((time - start) / ramp)[0] * minimum_jerk((end - time) / ramp)[0]
+
+
+@dataclass(frozen=True)
+class Push:
+    """One push on a link.
+
+    Attributes:
+        start: When it begins in s.
+        end: When it ends in s.
+        link: Body that is pushed.
+        along: Place in m along the link's z axis.
+        angle: Direction about it from which the push comes, in rad from the link's x axis.
+        radius: Distance of the surface from the axis in m.
+        force: Force in N.
+    """
+
+    start: float
+    end: float
+    link: str
+    along: float
+    angle: float
+    radius: float
+    force: float
+
+    def wanted(self, time: float) -> float:
+        """Force in N at a time in s."""
+        return self.force * come_and_go(time, self.start, self.end, _RAMP)
+
+
+class Fist:
+    """A person's hand, which pushes with a force and follows what it pushes.
+
+    Args:
+        pushes: One after the other.
+    """
+
+    def __init__(self, pushes: list[Push]) -> None:
+        self.pushes = pushes
+        self._depth = -_AWAY
+        self._number = 0
+
+    def add_to(self, spec: Any) -> None:
+        """Put it into a world, far away."""
+        body = spec.worldbody.add_body(name="fist", pos=[0.0, 0.0, 5.0], mocap=True)
+        shape = body.add_geom(name="fist", size=[FIST, 0.0, 0.0], group=OBSTACLE_GROUP, rgba=[0.9, 0.7, 0.55, 1.0])
+        shape.contype = shape.conaffinity = 0  # it pushes skin alone
+
+    def act(self, world: World, time: float, felt: float) -> None:
+        """Move for a physics step.
+
+        Args:
+            world: The world.
+            time: Time in s.
+            felt: Force in N that it feels itself.
+        """
+        push = next((p for p in self.pushes if p.start <= time < p.end), None)
+        place = world.model.body("fist").mocapid[0]
+        if push is None:
+            self._depth = -_AWAY
+            world.data.mocap_pos[place] = [0.0, 0.0, 5.0]
+            return
+        period, wanted = float(world.model.opt.timestep), push.wanted(time)
+        if felt == 0.0 and time > 0.5 * (push.start + push.end):
+            self._depth -= 0.3 * period
+        elif felt == 0.0:  # it comes near, and touches slowly
+            self._depth += period * (0.3 if self._depth < -0.005 else 0.03)
+        else:
+            self._depth += period * _YIELD * (wanted - felt)
+        origin, rotation = world.pose(push.link)
+        away = push.radius + FIST - self._depth
+        offset = np.array([away * math.cos(push.angle), away * math.sin(push.angle), push.along])
+        world.data.mocap_pos[place] = origin + rotation @ offset
+
+
+@dataclass(frozen=True)
+class Visit:
+    """One visit of a person.
+
+    Attributes:
+        start: When it begins in s.
+        end: When the person is gone in s.
+        goal: Where (2,) in m the person stops, in the frame that the base has when the visit begins.
+        far: Where (2,) the person comes from, likewise.
+        speed: Walking speed in m/s.
+    """
+
+    start: float
+    end: float
+    goal: NDArray[np.float64]
+    far: NDArray[np.float64]
+    speed: float
+
+    def place(self, time: float) -> NDArray[np.float64]:
+        """Where (2,) in m the person is at a time in s, in that frame."""
+        way = float(np.linalg.norm(self.goal - self.far)) / self.speed
+        near = come_and_go(time, self.start, self.end, way)
+        return self.far + near * (self.goal - self.far)
+
+
+class Visitor:
+    """A person who walks up to the base, stops there and leaves: an upright cylinder that the distance sensors see.
+
+    Args:
+        visits: One after the other.
+    """
+
+    def __init__(self, visits: list[Visit]) -> None:
+        self.visits = visits
+        self._frame: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
+
+    def add_to(self, spec: Any) -> None:
+        """Put the person into a world, far away."""
+        body = spec.worldbody.add_body(name="person", pos=[-9.0, 0.0, 0.85], mocap=True)
+        body.add_geom(
+            name="person",
+            type=mujoco.mjtGeom.mjGEOM_CYLINDER,
+            size=[PERSON, 0.85, 0.0],
+            contype=0,
+            conaffinity=0,
+            rgba=[0.85, 0.5, 0.3, 1.0],
+        )
+
+    def act(self, world: World, time: float) -> None:
+        """Move to where the person is.
+
+        Args:
+            world: The world.
+            time: Time in s.
+        """
+        visit = next((v for v in self.visits if v.start <= time < v.end), None)
+        place = np.array([-9.0, 0.0])
+        if visit is None:
+            self._frame = None
+        else:
+            self._frame = self._frame or world.pose(world.machine.base.link)
+            origin, rotation = self._frame
+            place = origin[:2] + rotation[:2, :2] @ visit.place(time)
+        world.data.mocap_pos[world.model.body("person").mocapid[0], :2] = place

@@ -1,0 +1,259 @@
+"""The hierarchy of A (Table 1) for a hand with skin on a mobile base, in its two phases."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import choice, number, switch
+from plantar.sim.companion.experiment import CompanionControl
+from plantar.sim.companion.machine import Machine
+from plantar.wholebody.behaviours.contact_phases import ContactPhases, PhaseSettings
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.fusion.hierarchy import fuse
+from plantar.wholebody.fusion.null_space import weighted_sum
+from plantar.wholebody.fusion.priority_transition import PriorityTransition
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.base_avoidance import AvoidanceField, BaseAvoidance
+from plantar.wholebody.tasks.body_compliance import BodyCompliance
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from plantar.wholebody.tasks.compliant_wrist import CompliantWrist, WristGains
+from plantar.wholebody.tasks.contact_force import ContactForce, ContactGains
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.tactile_guidance import GuidanceGains, TactileGuidance
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["HandControl", "HandController"]
+
+_ARM = ("upper_arm", "forearm", "wrist1")  # links from the shoulder to the wrist
+_TOUCHED = 0.3  # N on the hand from which it is in contact
+_TAKEN_OVER = 0.3  # s in which the wanted force is taken over into the joints after touching
+
+
+class HandControl(CompanionControl):
+    """Gains and switches of the hierarchy.
+
+    The skin of the hand is a spring of some 90 kN/m. With an acceleration of `force_gain` for a newton, a mass m of
+    some 4 kg along the normal, and the wanted force fed forward, what an unknown force changes is taken back at the
+    rate m force_gain `force_integral`, here 20 1/s: two thirds of what a delay of two periods and the spring allow.
+
+    Attributes:
+        force_gain: K_1 / Lambda_1 of A 9: acceleration for a newton that is missing.
+        approach_speed: Speed at which the hand comes near to the surface.
+        landing_speed: Speed at which it comes to the surface in the contact phase, until it feels it.
+        force_damping: D_1 / Lambda_1.
+        free_damping: D_1 / Lambda_1 while the hand feels nothing.
+        force_integral: Rate at which a lasting error is taken back, as a share of the proportional part.
+        distance_rate: Rate at which an error of the distance decays.
+        wrist_gain: K_2 / Lambda_2 of A 10: angular acceleration for a newton metre.
+        wrist_damping: D_2 / Lambda_2.
+        wrist_stiffness: Force that counts for a metre by which a taxel is nearer than it sees.
+        hand_stiffness: Stiffness with which the hand keeps its place in contact, for a unit mass.
+        guidance_mass: Lambda_3 of A 12.
+        guidance_damping: D_3.
+        guidance_stiffness: Stiffness with which the hand keeps its place before contact while the arm feels nothing:
+            critical, D_3^2 / (4 Lambda_3); 0 lets it drift with what is misjudged of the arm's weight.
+        guidance_ends: Whether guidance ends where the arm becomes straight (ablation).
+        arm_stiffness: K_c of A 18 of each joint of the arm.
+        arm_damping: D_c of each joint of the arm.
+        elbow_least: Bend of the elbow in degrees below which it resists: stretched, an arm cannot hold its hand still
+            while the base goes on.
+        elbow_most: Bend from which it resists likewise.
+        elbow_stiffness: How stiffly.
+        base_stiffness: K_c of the base along x and y, and in N m/rad about z.
+        base_damping: D_c of the base likewise.
+        avoidance_force: f_max of A 16.
+        avoidance_decay: alpha of A 16.
+        sigmoid: Time in which w of A 6 goes from distance to force.
+        wrist: Whether the wrist complies (ablation).
+        avoidance: Whether the base avoids obstacles (ablation).
+        feed_forward: Whether the wanted force and what the arm's skin feels are taken over into the joints (ablation);
+            never where drives take no torques.
+        priority: "strict", or "sum": torques of all tasks added (ablation).
+    """
+
+    force_gain: float = number(0.1, "m/(s^2 N)", 0, 100)
+    approach_speed: float = number(0.1, "m/s", 1e-3, 10)
+    landing_speed: float = number(0.01, "m/s", 1e-3, 10)
+    force_damping: float = number(12.0, "1/s", 0, 1e4)
+    free_damping: float = number(100.0, "1/s", 0, 1e4)
+    force_integral: float = number(50.0, "1/s", 0, 1e3)
+    distance_rate: float = number(6.0, "1/s", 0, 100)
+    wrist_gain: float = number(50.0, "1/(kg m^2)", 0, 1e4)
+    wrist_damping: float = number(40.0, "1/s", 0, 1e4)
+    wrist_stiffness: float = number(300.0, "N/m", 0, 1e5)
+    hand_stiffness: float = number(400.0, "1/s^2", 0, 1e5)
+    guidance_mass: float = number(5.0, "kg", 0.01, 1e3)
+    guidance_damping: float = number(60.0, "N s/m", 0, 1e5)
+    guidance_stiffness: float = number(180.0, "N/m", 0, 1e6)
+    guidance_ends: bool = switch(True)
+    arm_stiffness: float = number(30.0, "N m/rad", 0, 1e5)
+    arm_damping: float = number(15.0, "N m s/rad", 0, 1e5)
+    elbow_least: float = number(40.0, "deg", 0, 180)
+    elbow_most: float = number(145.0, "deg", 0, 180)
+    elbow_stiffness: float = number(150.0, "N m/rad", 0, 1e5)
+    base_stiffness: float = number(0.0, "N/m", 0, 1e6)
+    base_damping: float = number(150.0, "N s/m", 0, 1e6)
+    avoidance_force: float = number(300.0, "N", 0, 1e5)
+    avoidance_decay: float = number(0.2, "m", 1e-3, 10)
+    sigmoid: float = number(2.0, "s", 0, 60)
+    wrist: bool = switch(True)
+    avoidance: bool = switch(True)
+    feed_forward: bool = switch(True)
+    priority: str = choice("strict", "sum")
+
+
+class HandController:
+    """Controls distance or force of the hand, turns it to the surface, lets it be guided or keeps its place, and lets
+    body and base give way in what is left.
+
+    Args:
+        machine: The machine: a mobile base, and patches "hand" on the hand's link and others on the arm.
+        skin: Its skin.
+        settings: Gains and switches.
+
+    Attributes:
+        force: First task: force or distance.
+        wrist: Second task.
+        posture: Posture of the lowest level; its target and target velocity may be changed.
+        wanted_force: f_d in N.
+        phases: Which arrangement of tasks counts.
+    """
+
+    def __init__(self, machine: Machine, skin: BodySkin, settings: HandControl) -> None:
+        s = self.settings = settings
+        taxels = next(p for p in skin.patches if p.name == "hand").positions
+        middle, normal = taxels.mean(axis=0), np.array([0.0, 0.0, 1.0])  # level with a surface all feel it alike
+        arm_skin = [p.name for p in skin.patches if p.name != "hand"]
+        self._touch = DirectInteraction(skin, patches=arm_skin)
+        gains = ContactGains(
+            1.0, s.force_damping, s.force_gain, s.force_integral, self._distance_stiffness(), s.free_damping
+        )
+        self.force = ContactForce(skin, "hand", middle, normal, gains)
+        self.wrist = CompliantWrist(
+            skin, "hand", middle, WristGains(1.0, s.wrist_damping, s.wrist_gain, s.wrist_stiffness)
+        )
+        held = PoseGains(stiffness=s.hand_stiffness, damping=2.0 * float(np.sqrt(s.hand_stiffness)))
+        self._place = CartesianPose("hand", middle, held, rows="position")
+        guidance = GuidanceGains(s.guidance_mass, s.guidance_damping, stiffness=s.guidance_stiffness)
+        straight = _ARM if s.guidance_ends else None
+        arm = len(machine.joints) - 3
+        self.posture = Posture(
+            machine.posture,
+            np.array([s.base_stiffness] * 3 + [s.arm_stiffness] * arm),
+            np.array([s.base_damping] * 3 + [s.arm_damping] * arm),
+            torques=True,
+        )
+        half = np.abs(np.array(machine.base.footprint, dtype=float)).max(axis=0)
+        self._keep_clear = BaseAvoidance(
+            machine.base.link, (float(half[0]), float(half[1])), AvoidanceField(s.avoidance_force, s.avoidance_decay)
+        )
+        away: list[Task] = [_BentElbow(list(machine.joints).index("elbow"), s)]
+        away += [self._keep_clear] if s.avoidance else []
+        first: list[list[Task]] = [[self.force], [self.wrist] if s.wrist else [_Still(self.wrist)]]
+        self.phases = ContactPhases(
+            [
+                *first,
+                [TactileGuidance(skin, arm_skin, "hand", middle, guidance, straight)],
+                [BodyCompliance(self.posture, *away)],
+            ],
+            [*first, [self._place], [BodyCompliance(self.posture, self._touch, *away)]],
+            PhaseSettings(s.sigmoid),
+        )
+        self._stack = TaskStack(self.phases.levels, fusion=weighted_sum if s.priority == "sum" else fuse)
+        self._change = PriorityTransition()
+        servo = machine.servo.kind if s.servo == "machine" else s.servo
+        self._feeds_forward = s.feed_forward and servo == "torque"  # a resolver's virtual robot is pushed by nothing
+        self._taken = 0.0
+        self.wanted_force = 0.0
+
+    def _distance_stiffness(self) -> float:
+        """Newtons for a metre, so that the distance's error decays at its rate against the damping."""
+        s = self.settings
+        return s.distance_rate * s.force_damping / s.force_gain
+
+    def enter_contact(self, time: float) -> None:
+        """The user activates the contact phase at a time in s (A 4.2.2)."""
+        if self.phases.enter(True, time):
+            self._stack.levels = [list(level) for level in self.phases.levels]
+            self._place.target_position = None
+            self._change.begin(time)
+
+    def scan(self, points: NDArray[np.float64]) -> None:
+        """Take the nearest points (m, 2) of obstacles in the base's frame in m."""
+        self._keep_clear.obstacles = points
+
+    def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
+        """Torque (k,) of each joint for the next control period.
+
+        Args:
+            robot: The machine as measured.
+            reading: What its skin says.
+
+        Returns:
+            Torques in N m and forces in N.
+        """
+        self.force.weight = self.wrist.weight = self.phases.weight(robot.time)
+        self.force.target_force = self.wanted_force
+        s = self.settings
+        self.force.approach_speed = s.landing_speed if self.phases.in_contact else s.approach_speed
+        torque = self._stack.step(robot, reading, self._known(robot, reading)).torque
+        return self._change.blend(torque, robot.time)
+
+    def _known(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64] | None:
+        """Generalized force (n,) that is known to act: the wanted one on the hand, and what the arm's skin feels."""
+        if not self._feeds_forward:
+            return None
+        step = self.settings.period / _TAKEN_OVER
+        touching = self.phases.in_contact and self.force.force > _TOUCHED
+        self._taken = min(max(self._taken + (step if touching else -step), 0.0), 1.0)
+        outward = robot.pose("hand")[1][:, 2]
+        pressed = self._taken * self.force.weight * self.wanted_force
+        known = -pressed * outward @ robot.jacobian("hand")[:3]
+        touch = self._touch.demand(robot, reading)
+        if touch is not None and touch.force is not None:
+            known += touch.force @ touch.jacobian
+        return np.asarray(known)
+
+
+class _BentElbow(Task):
+    """A torque that keeps the elbow off the ends of its range, damped critically for an inertia of 1 kg m^2.
+
+    Args:
+        joint: The elbow's place among the joints.
+        settings: Range and stiffness.
+    """
+
+    def __init__(self, joint: int, settings: HandControl) -> None:
+        self._joint = joint
+        self._low, self._high = np.radians([settings.elbow_least, settings.elbow_most]).tolist()
+        self._stiffness = settings.elbow_stiffness
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        bend = float(robot.joint_positions[self._joint])
+        missing = min(max(bend, self._low), self._high) - bend
+        if missing == 0.0:
+            return None
+        place = robot.joints[self._joint]
+        row = np.zeros((1, len(robot.velocity)))
+        row[0, place] = 1.0
+        damping = 2.0 * float(np.sqrt(self._stiffness)) * robot.velocity[place]
+        return Demand(row, force=np.array([self._stiffness * missing - damping]))
+
+
+class _Still(Task):
+    """A wrist that only keeps its orientation: what a robot without the compliant task would do.
+
+    Args:
+        wrist: The compliant task, which goes on telling the moment.
+    """
+
+    def __init__(self, wrist: CompliantWrist) -> None:
+        self._wrist = wrist
+        self._pose = CartesianPose("hand", np.zeros(3), rows="orientation")
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        self._wrist.demand(robot, skin)
+        return self._pose.demand(robot, skin)

@@ -1,0 +1,326 @@
+"""Machines with skin: an arm, an arm on wheels or a whole body, from an MJCF and a TOML beside it.
+
+The TOML says what the MJCF does not: which kind of base carries the joints, what each joint can do, the posture, how
+the joints are commanded, and where the skin is. Any MJCF arm becomes a machine by such a file alone.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError
+from plantar.files.input_file import is_file
+from plantar.files.model_files import check_model, named_file
+from plantar.files.structured_text import read_toml
+from plantar.mechanics.lip import GRAVITY
+from plantar.settings.schema import Settings, choice, number, tables, text
+from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP
+
+__all__ = ["BaseTable", "JointTable", "Machine", "ServoTable", "builtin_machines", "load_machine"]
+
+_FOLDER = Path(__file__).parent / "machines"
+_KEYS = ("name", "description", "model", "base", "servo", "joint_defaults", "joints", "patch")
+_UNSEEN = 4  # geom group that pictures leave out
+_ONE_DOF = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
+
+
+class BaseTable(Settings):
+    """What carries the joints. Lengths in m.
+
+    Attributes:
+        kind: "fixed"; "mobile", whose first three joints move it on the ground along x, along y and about z; or
+            "floating", which has a free joint.
+        link: Link that is the base; empty takes the first.
+        footprint: Corners [x, y] in the base link's frame of what it covers of the ground, counter-clockwise: obstacles
+            are kept away from it.
+    """
+
+    kind: str = choice("fixed", "mobile", "floating")
+    link: str = text("")
+    footprint: tuple[tuple[float, float], ...] = tables("a list of corners [x, y] in m")
+
+
+class ServoTable(Settings):
+    """How joints are commanded.
+
+    Attributes:
+        kind: What a joint's drive takes.
+        velocity_gain: Gain of a velocity servo as a share of the joint's effort limit for an error of its speed limit.
+        position_gain: Gain of a position servo.
+    """
+
+    kind: str = choice("torque", "velocity", "position")
+    velocity_gain: float = number(20.0, "1", 0.1, 1000)
+    position_gain: float = number(60.0, "1/s", 0.1, 1000)
+
+
+class JointTable(Settings):
+    """What a joint can do, and where it is in the posture.
+
+    Attributes:
+        effort: Largest torque in N m, or force in N of a joint that slides; 0 where there is no limit.
+        velocity: Largest speed in rad/s or m/s; 0 where there is no limit.
+        posture: Position in degrees, or in m of a joint that slides.
+    """
+
+    effort: float = number(0.0, "N m")
+    velocity: float = number(0.0, "rad/s")
+    posture: float = number(0.0, "deg", -1080, 1080)
+
+
+@dataclass(frozen=True)
+class Machine:
+    """A machine. Joints are in the model's order, which is that of its coordinates.
+
+    Attributes:
+        name: Name.
+        description: One line for people.
+        path: Its TOML.
+        model_file: Its MJCF.
+        base: What carries the joints.
+        servo: How joints are commanded.
+        joints: What each joint with one degree of freedom can do, by its name.
+        patches: The `[[patch]]` tables, unread: `plantar.sim.body_skin.surface` makes skin of them.
+    """
+
+    name: str
+    description: str
+    path: Path
+    model_file: Path
+    base: BaseTable
+    servo: ServoTable
+    joints: Mapping[str, JointTable]
+    patches: tuple[Mapping[str, Any], ...] = field(default=())
+
+    @property
+    def efforts(self) -> NDArray[np.float64]:
+        """Largest torque (k,) of each joint in N m or N; infinite where there is no limit."""
+        return np.array([joint.effort or math.inf for joint in self.joints.values()])
+
+    @property
+    def velocities(self) -> NDArray[np.float64]:
+        """Largest speed (k,) of each joint in rad/s or m/s; infinite where there is no limit."""
+        return np.array([joint.velocity or math.inf for joint in self.joints.values()])
+
+    @property
+    def posture(self) -> NDArray[np.float64]:
+        """Position (k,) of each joint in the posture in rad or m."""
+        slides = {j.name for j in self.spec().joints if j.type == mujoco.mjtJoint.mjJNT_SLIDE}
+        return np.array([t.posture if n in slides else math.radians(t.posture) for n, t in self.joints.items()])
+
+    def spec(self) -> Any:
+        """The machine alone as a new `mujoco.MjSpec`: a motor a joint, named as it, and none of the file's own
+        surroundings, actuators and sensors. Its geoms touch obstacles, not each other.
+
+        Raises:
+            RobotError: If the model cannot be read.
+        """
+        spec = _parsed(self.model_file, f"machine '{self.name}'")
+        for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
+            for element in list(getattr(spec, part)):
+                spec.delete(element)
+        for geom in list(spec.worldbody.geoms):
+            spec.delete(geom)
+        spec.option.gravity = [0.0, 0.0, -GRAVITY]
+        spec.option.density = spec.option.viscosity = 0.0
+        spec.option.timestep = 0.001
+        for geom in spec.geoms:
+            if geom.group == OBSTACLE_GROUP:
+                geom.group = _UNSEEN  # many models keep their collision shapes in the group of obstacles
+            if geom.contype or geom.conaffinity:
+                geom.contype, geom.conaffinity = 1, 2
+        for name, joint in self.joints.items():
+            motor = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+            motor.gainprm[0] = 1.0
+            motor.ctrllimited = joint.effort > 0.0
+            motor.ctrlrange = [-joint.effort, joint.effort]
+        return spec
+
+    def ranges(self, model: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where the joints have their stops.
+
+        Args:
+            model: An MjModel that the machine is in.
+
+        Returns:
+            Lowest and highest position (k,) of each joint in rad or m; infinite where it has no stop.
+        """
+        joints = [model.joint(name) for name in self.joints]
+        held = np.array([bool(joint.limited[0]) for joint in joints])
+        low, high = np.array([joint.range for joint in joints]).T
+        return np.where(held, low, -np.inf), np.where(held, high, np.inf)
+
+
+def builtin_machines() -> tuple[str, ...]:
+    """Names of the built-in machines."""
+    return tuple(sorted(p.parent.name for p in _FOLDER.glob("*/machine.toml")))
+
+
+def load_machine(name: str | os.PathLike[str]) -> Machine:
+    """Load a machine by its built-in name or from a TOML file.
+
+    Args:
+        name: A built-in name (`builtin_machines()`) or the path of a machine TOML.
+
+    Returns:
+        The machine.
+
+    Raises:
+        RobotError: If the name is unknown, or the file or the model that it names is not valid; the message names the
+            field.
+
+    Example:
+        >>> load_machine("planar-arm").base.kind
+        'fixed'
+    """
+    path = Path(name)
+    if path.suffix == ".toml":
+        if not os.path.exists(path):
+            raise RobotError(f"machine file {path} does not exist")
+        where = str(path)
+    else:
+        path = _FOLDER / str(name) / "machine.toml"
+        if os.sep in str(name) or not is_file(path):
+            known = ", ".join(builtin_machines())
+            raise RobotError(f"unknown machine '{name}'; allowed: {known}, or a machine .toml file")
+        where = f"machine '{name}'"
+    source = read_toml(path, RobotError, f"machine file {path}")
+    refuse_unknown_keys(source, _KEYS, where, RobotError)
+    for key in ("name", "description"):
+        if not isinstance(source.get(key, ""), str):
+            raise RobotError(f"{where}: '{key}' is not a text")
+    model_file = _model_file(source, path, where)
+    spec = _parsed(model_file, where)
+    base = BaseTable.from_table(source.get("base", {}), f"{where}: [base]", RobotError)
+    machine = Machine(
+        name=source.get("name", path.parent.name if path.stem == "machine" else path.stem),
+        description=source.get("description", ""),
+        path=path,
+        model_file=model_file,
+        base=_checked_base(base, spec, where),
+        servo=ServoTable.from_table(source.get("servo", {}), f"{where}: [servo]", RobotError),
+        joints=_joints(source, spec, where),
+        patches=_patches(source, spec, where),
+    )
+    _compiled(machine, where)
+    return machine
+
+
+def _model_file(source: Mapping[str, Any], path: Path, where: str) -> Path:
+    """The MJCF that the TOML names."""
+    table = source.get("model")
+    if not isinstance(table, Mapping):
+        raise RobotError(f'{where}: table [model] is missing; it needs file = "..."')
+    refuse_unknown_keys(table, ("file",), f"{where}: [model]", RobotError)
+    file = table.get("file")
+    if not isinstance(file, str) or not file:
+        raise RobotError(f"{where}: [model]: 'file' is missing or not a text")
+    return named_file(path.parent / file, (path.parent,), RobotError, f"{where}: [model]")
+
+
+def _parsed(file: Path, where: str) -> Any:
+    """A model file as an editable `mujoco.MjSpec`."""
+    if not is_file(file):
+        raise RobotError(f"{where}: model file {file} does not exist")
+    check_model(file, RobotError)  # MuJoCo would follow whatever it names
+    try:
+        spec = mujoco.MjSpec.from_file(str(file))
+    except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
+        raise RobotError(f"{where}: model file {file} cannot be read: {' '.join(str(error).split())}") from None
+    spec.compiler.fusestatic = False
+    return spec
+
+
+def _compiled(machine: Machine, where: str) -> None:
+    """Compile a machine once, so that what is wrong with it is said when it is loaded."""
+    try:
+        machine.spec().compile()
+    except ValueError as error:
+        raise RobotError(f"{where}: the model cannot be simulated: {' '.join(str(error).split())}") from None
+
+
+def _checked_base(base: BaseTable, spec: Any, where: str) -> BaseTable:
+    """Refuse a base that the model does not have."""
+    where = f"{where}: [base]"
+    bodies = [b.name for b in spec.bodies if b.name and b.name != "world"]
+    if base.link and base.link not in bodies:
+        raise RobotError(f"{where} link: {_unknown('link', base.link, bodies)}")
+    floats = any(j.type == mujoco.mjtJoint.mjJNT_FREE for j in spec.joints)
+    if floats != (base.kind == "floating"):
+        has = "a free joint" if floats else "no free joint"
+        raise RobotError(f"{where} kind is '{base.kind}' but the model has {has}; allowed with one: floating")
+    if base.kind == "mobile":
+        first = [(j.type, tuple(np.round(j.axis, 6))) for j in spec.joints[:3]]
+        wanted = [(kind, axis) for kind, axis in zip(_MOBILE, np.eye(3).tolist(), strict=True)]
+        if first != [(kind, tuple(axis)) for kind, axis in wanted]:
+            raise RobotError(
+                f"{where} kind is 'mobile'; the model's first joints must slide along x, y and turn about z"
+            )
+    corners = np.array(base.footprint, dtype=object)
+    good = not len(corners) or (
+        corners.ndim == 2
+        and corners.shape[0] >= 3
+        and corners.shape[1] == 2
+        and all(isinstance(v, int | float) and math.isfinite(v) for v in corners.ravel())
+    )
+    if not good:
+        raise RobotError(f"{where} footprint is not valid; allowed: three or more corners [x, y] in m")
+    return base if base.link or not bodies else BaseTable(base.kind, bodies[0], base.footprint)
+
+
+_MOBILE = (mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE)
+
+
+def _joints(source: Mapping[str, Any], spec: Any, where: str) -> dict[str, JointTable]:
+    """The joints' tables, in the model's order."""
+    given, defaults = source.get("joints", {}), source.get("joint_defaults", {})
+    JointTable.from_table(defaults, f"{where}: [joint_defaults]", RobotError)
+    if not isinstance(given, Mapping):
+        raise RobotError(f"{where}: [joints] is not a table of tables, one a joint")
+    found = {}
+    for joint in spec.joints:
+        if joint.type == mujoco.mjtJoint.mjJNT_FREE:
+            continue
+        if joint.type not in _ONE_DOF or not joint.name:
+            raise RobotError(
+                f"{where}: joint '{joint.name}' is a ball joint or has no name; allowed: named hinge, slide"
+            )
+        table = given.get(joint.name, {})
+        if not isinstance(table, Mapping):
+            raise RobotError(f"{where}: [joints.{joint.name}] is not a table")
+        found[joint.name] = JointTable.from_table({**defaults, **table}, f"{where}: [joints.{joint.name}]", RobotError)
+    if not found:
+        raise RobotError(f"{where}: the model has no joints")
+    for name in given:
+        if name not in found:
+            raise RobotError(f"{where}: [joints]: {_unknown('joint', name, list(found))}")
+    return found
+
+
+def _patches(source: Mapping[str, Any], spec: Any, where: str) -> tuple[Mapping[str, Any], ...]:
+    """The patches' tables; only their links are looked at here."""
+    patches = source.get("patch", [])
+    bodies = [b.name for b in spec.bodies if b.name and b.name != "world"]
+    if not isinstance(patches, list) or not all(isinstance(p, Mapping) for p in patches):
+        raise RobotError(f"{where}: 'patch' is not a list of tables; allowed: [[patch]]")
+    for table in patches:
+        name, link = table.get("name", "?"), table.get("link")
+        if link not in bodies:
+            raise RobotError(f"{where}: patch '{name}': {_unknown('link', link, bodies)}")
+    return tuple(patches)
+
+
+def _unknown(what: str, name: Any, known: list[str]) -> str:
+    near = ", ".join(get_close_matches(str(name), known))
+    return f"the model has no {what} '{name}'; {f'nearest: {near}; ' if near else ''}it has {', '.join(known)}"

@@ -1,0 +1,163 @@
+"""A tip that goes to its goal among unknown things: avoided, touched on purpose, or both added up (T 3.4.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import choice, number, switch
+from plantar.sim.companion.experiment import CompanionControl
+from plantar.sim.companion.machine import Machine
+from plantar.wholebody.behaviours.intentional_contact import ContactSettings, ContactSigns, IntentionalContact
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
+from plantar.wholebody.fusion.null_space import weighted_sum
+from plantar.wholebody.fusion.priority_transition import PriorityTransition, TransitionSettings
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.along_force import AlongForce
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.proximity import ProximityInteraction
+from plantar.wholebody.tasks.task import Task
+
+__all__ = ["ReachControl", "ReachController"]
+
+_SMOOTHED = 0.5  # s: time constant of what is smoothed
+_SEEN = 0.01  # N of virtual force from which something is near
+_ARRIVED = 0.01  # m from the goal
+_OFF_STOPS = 0.02  # share of a joint's range that it keeps off each of its stops
+_DEEPEST = 1e-3  # m of sensing range that is left where the policy wants none
+
+
+class ReachControl(CompanionControl):
+    """Gains and switches of reaching.
+
+    Attributes:
+        policy: "intentional" for T Table 1; "avoid" for its first arrangement alone; "fields" for attraction and
+            repulsion added up, as in plain potential fields.
+        speed: V_max of T 3.44 while it avoids.
+        push_speed: V_max while it approaches what is in the way.
+        push_damping: k_v of T 3.43 then: what is stuck is pushed by k_v V_max times the tip's effective mass.
+        range: Sensing range that is used, d_range of T 3.30.
+        proximity: k_prox of T 3.30 of a taxel.
+        brake: Damping of motion along what repels, towards it and away from it.
+        yielding: Gain on contact forces, tau_c of T 3.41.
+        limit_share: Share of the tolerable force from which it retreats: what is left is for the time it takes.
+        slow: epsilon_v of T Table 1.
+        stuck: Time for which it has to be slow before it approaches.
+        transition: Time in which priorities change.
+        acceleration: Largest acceleration of a joint: what is seen on two sides leaves the goal almost no direction.
+        joint_speed: Largest speed of a joint, so that no link strikes what it does not see in time.
+        upright: Whether the tip's orientation is held, below everything that is touched or seen.
+    """
+
+    policy: str = choice("intentional", "avoid", "fields")
+    speed: float = number(0.2, "m/s", 0.01, 2.0)
+    push_speed: float = number(0.05, "m/s", 0.001, 1.0)
+    push_damping: float = number(150.0, "1/s", 1.0, 1e3)
+    range: float = number(0.04, "m", 0.002, 0.2)
+    proximity: float = number(25.0, "N/m", 0.0, 1e4)
+    brake: float = number(40.0, "N s/m", 0.0, 1e4)
+    yielding: float = number(0.5, "1", 0.0, 20.0)
+    limit_share: float = number(0.75, "1", 0.1, 1.0)
+    slow: float = number(0.02, "m/s", 0.0, 1.0)
+    stuck: float = number(0.3, "s", 0.0, 10.0)
+    transition: float = number(0.05, "s", 0.0, 2.0)
+    acceleration: float = number(40.0, "rad/s^2", 1.0, 1e6)
+    joint_speed: float = number(0.8, "rad/s", 0.01, 100.0)
+    upright: bool = switch(False)
+
+
+class ReachController:
+    """Tasks, policy and transitions.
+
+    Args:
+        machine: The machine; the joints of a mobile base are held.
+        skin: Its skin.
+        settings: Gains and switches.
+        tip: Link of the tip, and the tip (3,) in its frame in m.
+        force_limit: Tolerable force in N.
+
+    Attributes:
+        goal: The task of the tip's position.
+        policy: Which arrangement counts.
+        signs: What it was chosen by.
+    """
+
+    def __init__(
+        self,
+        machine: Machine,
+        skin: BodySkin,
+        settings: ReachControl,
+        tip: tuple[str, NDArray[np.float64]],
+        force_limit: float,
+    ) -> None:
+        self.settings = s = settings
+        self._free = PoseGains(stiffness=60.0, damping=20.0, speed=s.speed)
+        self._pushing = PoseGains(stiffness=4.0 * s.push_damping, damping=s.push_damping, speed=s.push_speed)
+        self.goal = CartesianPose(*tip, gains=self._free, rows="position")
+        self._near = ProximityInteraction(skin, s.proximity, s.range)
+        self._watch = ProximityInteraction(skin, s.proximity, s.range)  # sees the whole range always
+        touch = DirectInteraction(skin)
+        self._felt = touch
+        self._yielding = DirectInteraction(skin, s.yielding)
+        base = 3 if machine.base.kind == "mobile" else 0
+        joints = len(machine.posture)
+        self._held: list[list[Task]] = [[Posture(machine.posture, 400.0, joints=range(base))]] if base else []
+        upright: list[Task] = [CartesianPose(*tip, rows="orientation")] if s.upright else []
+        relaxed: list[Task] = [Posture(machine.posture, 6.0, 12.0, joints=range(base, joints))]
+        self._rest: list[list[Task]] = [upright, relaxed]
+        limits = ContactSettings(slow=s.slow, force_limit=s.limit_share * force_limit, stuck=s.stuck)
+        avoidance = AlongForce(self._near, s.brake)
+        contact = AlongForce(self._yielding, s.brake)
+        self.policy = IntentionalContact([self.goal], [contact], [avoidance], limits)
+        self.signs = ContactSigns(np.inf, 0.0, 0.0)
+        self._velocity, self._seen, self._time = np.zeros(3), 0.0, np.inf
+        self._blend = PriorityTransition(TransitionSettings(duration=s.transition))
+        speeds = np.minimum(machine.velocities, s.joint_speed)
+        low, high = machine.ranges(machine.spec().compile())
+        inside = np.where(np.isfinite(high - low), _OFF_STOPS * (high - low), 0.0)
+        limits_of_joints = 0.98 * machine.efforts, speeds, low + inside, high - inside
+        within = HierarchicalQP(JointLimits(*limits_of_joints, acceleration=s.acceleration))
+        self._stack = TaskStack([], fusion=weighted_sum if s.policy == "fields" else within)
+
+    def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
+        """Torques for the next control period.
+
+        Args:
+            robot: Kinematics and dynamics at the measured state.
+            reading: What the skin says.
+
+        Returns:
+            Torques or forces (k,), gravity included.
+        """
+        self.signs = self._look(robot, reading)
+        if self.settings.policy == "intentional" and self.policy.update(self.signs, robot.time):
+            self._blend.begin(robot.time)
+        avoiding = self.policy.arrangement == "avoid"
+        self.goal.gains = self._free if avoiding else self._pushing
+        self._near.sensing_range = max(_DEEPEST, self.settings.range * self.policy.range_share)
+        levels: list[Sequence[Task]] = [*self._held, *self.policy.levels, *self._rest]
+        self._stack.levels = [list(level) for level in levels]
+        return self._blend.blend(self._stack.step(robot, reading).torque, robot.time)
+
+    def _look(self, robot: RobotDynamics, reading: SkinReading) -> ContactSigns:
+        """What skin and tip say (T Table 1).
+
+        Speed and nearness are smoothed: at the end of its range the tip trembles, and what it sees comes and goes.
+        """
+        period = robot.time - self._time if np.isfinite(self._time) else 0.0
+        self._time = robot.time
+        share = period / (_SMOOTHED + period)
+        velocity = robot.jacobian(self.goal.link, self.goal.point)[:3] @ robot.velocity
+        near = sum(float(np.linalg.norm(w.wrench[:3])) for w in self._watch.wrenches(reading))
+        self._velocity += share * (velocity - self._velocity)
+        self._seen += share * (near - self._seen)
+        felt = max((float(np.linalg.norm(w.wrench[:3])) for w in self._felt.wrenches(reading)), default=0.0)
+        arrived = float(np.linalg.norm(self.goal.position_error(robot))) < _ARRIVED
+        seen = self._seen if self._seen > _SEEN else 0.0
+        return ContactSigns(float(np.linalg.norm(self._velocity)), seen, felt, arrived)

@@ -1,0 +1,162 @@
+"""The controller of a machine that stands: it finds its base, filters its skin, and runs a stack of tasks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.mechanics.lip import GRAVITY
+from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
+from plantar.settings.schema import number, switch
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.experiment import CompanionControl
+from plantar.sim.companion.standing.stance import Stance
+from plantar.wholebody.stack import TaskStack
+from plantar.wholebody.tasks.center_of_mass import CenterOfMass
+from plantar.wholebody.tasks.task import Task
+
+__all__ = ["StandingControl", "StandingController"]
+
+_WARMING = 0.2  # s: time constant of the filter of temperatures
+
+
+class StandingControl(CompanionControl):
+    """How a standing machine is controlled.
+
+    Attributes:
+        skin: Whether the skin's tasks are in the stack and contact forces are accounted for.
+        gain: Factor on contact forces with which the robot yields to them; 1 as if it had neither friction nor gears.
+        lean: Share of the moment of all contacts about the feet that the centre of mass is shifted against.
+        lean_filter: Time constant in s of that shift.
+        lean_limit: Largest shift in m.
+        filter: Time constant in s of the low-pass filter of each taxel's force.
+        balance: Stiffness of the centre of mass over the feet.
+        posture: Stiffness of the posture in N m/rad for a joint of 75 N m; others by their torque.
+        posture_damping: Damping of the posture likewise, in N m s/rad.
+    """
+
+    skin: bool = switch(True)
+    gain: float = number(3.0, "1", 0.0, 100.0)
+    lean: float = number(0.7, "1", 0.0, 1.5)
+    lean_filter: float = number(0.15, "s", 0.0, 10.0)
+    lean_limit: float = number(0.035, "m", 0.0, 0.5)
+    filter: float = number(0.04, "s", 0.0, 1.0)
+    balance: float = number(60.0, "1/s^2", 1.0, 1000.0)
+    posture: float = number(120.0, "N m/rad", 0.0, 5000.0)
+    posture_damping: float = number(12.0, "N m s/rad", 0.0, 500.0)
+
+
+class StandingController:
+    """Runs a stack on a stance.
+
+    Args:
+        stance: The feet that stand; they are taken to be where they are at the first step.
+        levels: Tasks by priority, below the support.
+        balance: The task among them that holds the centre of mass, and leans against contacts; None for none.
+        skin: The machine's skin.
+        settings: Its settings.
+        before: Called with the machine and the filtered reading before each step, to change targets or levels.
+
+    Attributes:
+        stack: The stack.
+        active: Instances that were active at each step.
+        took: How long each step took in us.
+        torque: Torque (k,) of the last step in N m.
+    """
+
+    def __init__(
+        self,
+        stance: Stance,
+        levels: Sequence[Sequence[Task]],
+        balance: CenterOfMass | None,
+        skin: BodySkin,
+        settings: StandingControl,
+        before: Callable[[MujocoDynamics, SkinReading], None] | None = None,
+    ) -> None:
+        self.stance, self.skin, self.settings = stance, skin, settings
+        self.stack = TaskStack(levels, stance.support())
+        self.before = before
+        self.active: list[int] = []
+        self.took: list[float] = []
+        self.torque: NDArray[np.float64] = np.zeros(0)
+        self.after: Callable[[NDArray[np.float64], float], NDArray[np.float64]] | None = None
+        self._force: NDArray[np.float64] | None = None
+        self._warmth: NDArray[np.float64] | None = None
+        self._balance = balance
+        self._upright = np.zeros(3) if balance is None else balance.target.copy()
+        self._middle = self._upright * [1.0, 1.0, 0.0]
+        self._shift = np.zeros(2)
+        self._weight = GRAVITY * float(stance.model.body_subtreemass[0])
+
+    def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
+        """Torques for the next period.
+
+        Args:
+            robot: The machine as measured; its base is put where the feet say.
+            reading: What the skin says.
+
+        Returns:
+            Torque (k,) of each joint in N m.
+        """
+        began = perf_counter()
+        self.stance.locate(robot)
+        external = None
+        felt: SkinReading | None = None
+        if self.settings.skin:
+            felt = self._filtered(reading)
+            external, moment = self._external(robot, felt)
+            if self._balance is not None:
+                self._lean(self._balance, moment)
+        if self.before is not None:
+            self.before(robot, felt if felt is not None else reading)
+        self.torque = self.stack.step(robot, felt, external).torque
+        if self.after is not None:
+            self.torque = self.after(self.torque, robot.time)
+        self.took.append(1e6 * (perf_counter() - began))
+        return self.torque
+
+    def _filtered(self, reading: SkinReading) -> SkinReading:
+        """The reading with forces low-pass filtered, so that yielding does not beat against the skin's stiffness."""
+        force = reading.force
+        if np.isnan(force.sum()):
+            force = np.nan_to_num(force)
+        share = self.settings.period / (self.settings.period + self.settings.filter)
+        self._force = force.copy() if self._force is None else self._force + share * (force - self._force)
+        warmth = reading.temperature
+        if warmth is not None:
+            slow = self.settings.period / (self.settings.period + _WARMING)
+            self._warmth = warmth.copy() if self._warmth is None else self._warmth + slow * (warmth - self._warmth)
+        return SkinReading(reading.time, self._force, reading.distance, self._warmth)
+
+    def _external(
+        self, robot: MujocoDynamics, felt: SkinReading
+    ) -> tuple[NDArray[np.float64] | None, NDArray[np.float64]]:
+        """Generalized force (n,) of what the skin feels, None for nothing, and its moments (2,) about x and y at
+        the feet."""
+        wrenches = link_wrenches(self.skin, felt.force, felt.force >= self.skin.thresholds)
+        self.active.append(len(wrenches))
+        if not wrenches:
+            return None, np.zeros(2)
+        total = np.zeros(len(robot.velocity))
+        mx = my = 0.0
+        for link, wrench, _taxels in wrenches:
+            origin, rotation = robot.pose(link)
+            turned = (wrench.reshape(2, 3) @ rotation.T).ravel()
+            total += turned @ robot.jacobian(link)
+            fx, fy, fz, tx, ty, _tz = turned.tolist()
+            x, y, z = (origin - self._middle).tolist()
+            mx += y * fz - z * fy + tx
+            my += z * fx - x * fz + ty
+        return total, np.array([mx, my])
+
+    def _lean(self, balance: CenterOfMass, moment: NDArray[np.float64]) -> None:
+        """Shift the centre of mass until its weight holds against moments (2,) about the feet (K 9 corrected)."""
+        s = self.settings
+        wanted = s.lean / self._weight * np.array([-moment[1], moment[0]])
+        wanted *= min(1.0, s.lean_limit / max(float(np.hypot(*wanted)), 1e-9))
+        self._shift += s.period / (s.period + s.lean_filter) * (wanted - self._shift)
+        balance.target[:2] = self._upright[:2] + self._shift

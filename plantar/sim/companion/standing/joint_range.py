@@ -1,0 +1,44 @@
+"""Joints keep off the ends of their range: a repulsive field at each end, silent while all are far from it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.sensing.link_skin import SkinReading
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["JointRange"]
+
+
+class JointRange(Task):
+    """Pushes joints back that are near an end of their range, one row each.
+
+    Args:
+        low: Lower ends (k,) in rad or m, in the order of `RobotDynamics.joints`; -inf for none.
+        high: Upper ends (k,).
+        margin: Distance to an end in rad or m from which on a joint is pushed back.
+        stiffness: Torque in N m a rad of margin that is used up, one or (k,).
+        damping: Torque in N m a rad/s towards the end, one or (k,).
+    """
+
+    def __init__(
+        self, low: ArrayLike, high: ArrayLike, margin: float, stiffness: ArrayLike, damping: ArrayLike = 0.0
+    ) -> None:
+        self.low, self.high = np.asarray(low, dtype=float) + margin, np.asarray(high, dtype=float) - margin
+        self.stiffness = np.broadcast_to(np.asarray(stiffness, dtype=float), self.low.shape)
+        self.damping = np.broadcast_to(np.asarray(damping, dtype=float), self.low.shape)
+        self._rows: NDArray[np.float64] | None = None
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        positions = robot.joint_positions
+        used = np.maximum(self.low - positions, 0.0) - np.maximum(positions - self.high, 0.0)
+        near = np.flatnonzero(used)
+        if not len(near):
+            return None
+        if self._rows is None:
+            self._rows = np.eye(len(robot.velocity))[robot.joints]
+        speed = robot.velocity[robot.joints][near]
+        closing = np.where(speed * used[near] < 0.0, speed, 0.0)
+        return Demand(self._rows[near], force=self.stiffness[near] * used[near] - self.damping[near] * closing)

@@ -1,0 +1,270 @@
+"""The controller of a robot that leans on a table with one forearm (see `plantar.sim.companion.experiments.lean`)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.geometry.polygon import convex_hull
+from plantar.mechanics.easing import minimum_jerk
+from plantar.mechanics.wrench_cone import Rectangle
+from plantar.mechanics.wrench_distribution import DistributionWeights
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import number
+from plantar.sim.companion.standing.controller import StandingControl
+from plantar.sim.companion.standing.standing import StandingExperiment
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.fusion.contact_forces import ContactForces
+from plantar.wholebody.fusion.hierarchy import fuse
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from plantar.wholebody.tasks.center_of_mass import CenterOfMass
+from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.support import Standing
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["HAND", "PATCH", "Aim", "LeanControl", "LeanController"]
+
+ARM = "right_lower_arm"
+PATCH = "right_lower_arm"
+"""Patch whose skin feels the table."""
+UNDERSIDE = np.array([-0.045, 0.0, -0.12])
+LEVEL = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
+"""Rotation of a forearm that points forward, its underside down."""
+HAND = np.array([0.0, 0.0, -0.09])
+"""Point of the left hand that reaches, in its frame in m."""
+SHARES = {"left_foot": 0.55, "right_foot": 0.3, ARM: 0.15}
+"""How the load is shared where there is a choice: little on the foot that stands on an edge."""
+
+_NEAR = 0.02  # m: a taxel that sees ground nearer than this stands on it
+_CATCHING_UP = 1.0  # s in which what is aimed at makes up for what is missing: slower than a lean and its load
+_MOST_AHEAD = 0.04  # m
+_MARGIN = 0.004  # m by which what can carry is smaller than the middles of the taxels that see ground
+
+
+class LeanControl(StandingControl):
+    """How it leans.
+
+    Attributes:
+        touch: Force in N, as a share of body weight, from which the forearm is taken to lie on the table.
+        lowering: Speed in m/s of the forearm while it looks for the table.
+        pitch: Angle by which the trunk bends forward.
+        posture_rate: Stiffness of the posture.
+        press_gain: Gain on what the forearm presses less than it shall.
+    """
+
+    touch: float = number(0.01, "1", 1e-3, 0.2)
+    lowering: float = number(0.05, "m/s", 0.005, 0.5)
+    pitch: float = number(10.0, "deg", 0.0, 45.0)
+    posture_rate: float = number(30.0, "1/s^2", 0.0, 1e4)
+    press_gain: float = number(0.2, "1", 0.0, 10.0)
+
+
+class Aim:
+    """Aims beyond a target by what a soft task falls short of it.
+
+    What is felt and what is planned differ by some 20 N, to which a centre of mass yields by a centimetre.
+
+    Args:
+        axes: Factor (3,) of each axis; 0 for one that is aimed at as it is.
+
+    Attributes:
+        ahead: How far (3,) it aims beyond the target in m.
+    """
+
+    def __init__(self, axes: NDArray[np.float64]) -> None:
+        self._axes = axes
+        self.ahead = np.zeros(3)
+
+    def at(self, target: NDArray[np.float64], reached: NDArray[np.float64], period: float) -> NDArray[np.float64]:
+        """What (3,) to aim at.
+
+        Args:
+            target: What (3,) is to be reached in m.
+            reached: What (3,) is reached in m.
+            period: Time in s since the last call.
+
+        Returns:
+            The place in m.
+        """
+        self.ahead += period / _CATCHING_UP * (target - reached) * self._axes
+        self.ahead *= min(1.0, _MOST_AHEAD / max(float(np.linalg.norm(self.ahead)), _MOST_AHEAD))
+        return target + self.ahead
+
+
+class LeanController:
+    """Settle, bring the forearm over the table, lower it until it touches, lean, reach.
+
+    How the load shall be shared among feet and forearm is planned in their cones; the forearm presses with its share,
+    by what its skin feels, and the feet carry what is left. Without skin it can only hold the forearm where it expects
+    the table.
+
+    Args:
+        experiment: The experiment, for its stance and first posture; nothing of what is true of the table.
+        skin: The skin.
+
+    Attributes:
+        began: When each phase began in s by its name.
+        areas: What of each sole is seen to stand on the ground, about its middle.
+    """
+
+    def __init__(self, experiment: StandingExperiment, skin: BodySkin) -> None:
+        self.settings, self.control = experiment.settings, experiment.control
+        self.skin, self.stance = skin, experiment.stance
+        self.began: dict[str, float] = {}
+        self.areas: dict[str, Rectangle] = {}
+        base = experiment.machine.base.link
+        self._weight = experiment.weight
+        self._feet, self._all = self.stance.support(), self.stance.support()
+        # Feet that push each other sideways would cost the hips what they need for the trunk.
+        feet = DistributionWeights(ankle=0.1, pressure=1.0, friction=1.0)
+        self._carried = ContactForces(self._feet, base, self._weight, weights=feet)
+        self._carried.shares = {link: SHARES[link] for link in self.stance.feet}
+        # The forearm shall help by its share, not carry until each sole's centre of pressure is in its middle: it would
+        # relieve the foot on an edge, which then tilts.
+        leaning = DistributionWeights(ankle=0.03, pressure=3.0, friction=1.0)
+        self._planned = ContactForces(self._all, base, self._weight, weights=leaning)
+        self._com = CenterOfMass(experiment.com, self.control.balance)
+        # A forearm has five joints of its own: its orientation must not ask the trunk for a sixth.
+        self._arm = CartesianPose(ARM, UNDERSIDE, PoseGains(stiffness=80.0, damping=18.0), "position")
+        self._trunk = CartesianPose(base, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
+        self._turn = CartesianPose(ARM, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
+        self._hand = CartesianPose("left_hand", HAND, PoseGains(stiffness=40.0, damping=13.0), "position")
+        self._felt = self.wanted = 0.0
+        self._com_aim, self._hand_aim = Aim(np.array([1.0, 1.0, 0.0])), Aim(np.ones(3))
+        # Accelerations, not torques: what a level above releases must not let springs of the posture loose.
+        self._posture = Posture(experiment.first[7:], self.control.posture_rate)
+        self._waist = list(experiment.machine.joints).index("waist_pitch")
+        self._middle = np.mean(list(self.stance.places.values()), axis=0)
+        self._paths: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
+
+    def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
+        """See `plantar.sim.companion.experiment.Controller`.
+
+        Args:
+            robot: The machine at its measured state.
+            reading: What its skin says.
+
+        Returns:
+            Torques (k,) for the next period in N m.
+        """
+        self.stance.locate(robot)
+        self._see_ground(reading)
+        felt = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
+        self._move(robot, felt, robot.time)
+        leaning = "lean" in self.began and self.control.skin
+        tasks: list[Task] = [self._com, self._trunk, self._arm, self._hand, self._posture]
+        if not leaning:
+            tasks.insert(3, self._turn)
+        demands = [[task.demand(robot, reading)] for task in tasks]
+        self._felt += 0.1 * (felt - self._felt)
+        split = self._split if leaning else self._carried
+        return fuse(robot, demands, self._feet.demand(robot, reading), split=split).torque
+
+    def _split(
+        self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+        """Share what is to be done among the joints, the feet and the forearm, which presses as its skin says."""
+        torque, carried = self._planned(robot, force, self._all.demand(robot, None))
+        assert self._planned.last is not None
+        self.wanted = float(self._planned.last.wrenches[ARM][2])
+        missing = self.wanted - self._felt
+        inward = robot.pose(ARM)[1][:, 0]
+        more = self.control.press_gain * missing * inward @ robot.jacobian(ARM, UNDERSIDE)[:3]
+        return torque - more[robot.joints], carried
+
+    def _move(self, robot: Any, felt: float, time: float) -> None:
+        """Set the targets of this instant."""
+        s = self.settings
+        if "lean" not in self.began:
+            self._posture.target[self._waist] = np.radians(self.control.pitch) * min(1.0, time / 3.0)
+        if "lean" not in self.began and len(self.areas) == len(self.stance.feet):
+            over = self._between_feet()
+            self._paths.setdefault("over", (self._com.target, np.array([*over, self._com.target[2]])))
+            self._com.target = _along(*self._paths["over"], time / 1.5)
+        if "bring" not in self.began:
+            if time < 1.0:
+                return
+            self.began["bring"] = time
+            origin, rotation = robot.pose(ARM)
+            over = self._middle + np.array([s.table_edge + 0.08, -0.27, s.table_height + 0.10])
+            self._paths["arm"] = (origin + rotation @ UNDERSIDE, over)
+        if "lean" in self.began:
+            share = (time - self.began["lean"] - 0.5) / 3.0
+            planned = _along(*self._paths["com"], share)
+            self._com.target = self._com_aim.at(planned, robot.com()[0], self.control.period)
+            origin, rotation = robot.pose("left_hand")
+            planned = _along(*self._paths["hand"], share)
+            self._hand.target_position = self._hand_aim.at(planned, origin + rotation @ HAND, self.control.period)
+            return
+        since = time - self.began["bring"]
+        low = max(0.0, since - 2.2) * self.control.lowering
+        self._arm.target_position = _along(*self._paths["arm"], since / 2.0) - [0.0, 0.0, low]
+        if since > 1.0:
+            self._turn.target_rotation = LEVEL
+        if felt > self.control.touch * self._weight if self.control.skin else low >= 0.10:
+            self.began["lean"] = time
+            self._start_leaning(robot)
+
+    def _start_leaning(self, robot: Any) -> None:
+        """The forearm is a contact from now on, and stays where it is."""
+        s = self.settings
+        self._posture.target = robot.joint_positions.copy()  # nothing turns back now that the forearm's angle is free
+        origin, rotation = robot.pose(ARM)
+        self._arm.target_position = origin + rotation @ UNDERSIDE
+        frame = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # z into the forearm: its own x
+        self._all.contacts[ARM] = Standing(ARM, UNDERSIDE, flat=False, rotation=frame, friction=0.02)
+        self._planned.shares = SHARES
+        # What the forearm takes over pulls the centre of pressure under the feet to the other side: they keep theirs.
+        aside = (1.0 - SHARES[ARM]) * self._between_feet()[1] + SHARES[ARM] * self._arm.target_position[1]
+        front = _foremost(self._ground_seen(), aside)
+        com = robot.com()[0]
+        self._paths["com"] = (com, np.array([front + s.beyond, aside, com[2]]))
+        origin, rotation = robot.pose("left_hand")
+        self._paths["hand"] = (origin + rotation @ HAND, self._middle + self.settings.hand_target)
+
+    def _ground_seen(self) -> NDArray[np.float64]:
+        """Polygon (m, 2) of what the soles see of the ground that they stand on, in the world in m."""
+        corners = []
+        for link, area in self.areas.items():
+            x, y = self.stance.places[link][:2]
+            corners += [[x + dx, y + dy] for dx in (area.x_min, area.x_max) for dy in (area.y_min, area.y_max)]
+        return convex_hull(corners)
+
+    def _between_feet(self) -> NDArray[np.float64]:
+        """Where (2,) the weight is shared by the feet as `SHARES` has it."""
+        places, total = np.zeros(2), 0.0
+        for link, area in self.areas.items():
+            places += SHARES[link] * (self.stance.places[link][:2] + area.center)
+            total += SHARES[link]
+        return places / total
+
+    def _see_ground(self, reading: SkinReading) -> None:
+        """Find what of each sole stands on ground, and let no more of it carry; before anything was seen, all."""
+        for link, middle in self.stance.feet.items():
+            own = self.skin.slices[f"{link}_sole"]
+            places = self.skin.positions[own][reading.distance[own] < _NEAR] - middle
+            if len(places) < 2:
+                continue
+            low, high = places.min(axis=0) + _MARGIN, places.max(axis=0) - _MARGIN
+            low, high = np.minimum(low, 0.5 * (low + high)), np.maximum(high, 0.5 * (low + high))
+            area = Rectangle(float(low[0]), float(high[0]), float(low[1]), float(high[1]))
+            if self.areas.get(link) != area:
+                self.areas[link] = area
+                for support in (self._feet, self._all):
+                    support.contacts[link] = Standing(link, middle, area=area)
+
+
+def _foremost(polygon: NDArray[np.float64], y: float) -> float:
+    """Largest x of a convex polygon (m, 2) at some y; of all where y is beside it."""
+    found = []
+    for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+        if min(a[1], b[1]) <= y <= max(a[1], b[1]) and a[1] != b[1]:
+            found.append(float(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1])))
+    return max(found, default=float(polygon[:, 0].max()))
+
+
+def _along(start: NDArray[np.float64], end: NDArray[np.float64], share: float) -> NDArray[np.float64]:
+    """A place on the way from one to another, at rest at both ends."""
+    return start + minimum_jerk(share)[0] * (end - start)

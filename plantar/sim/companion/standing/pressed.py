@@ -1,0 +1,240 @@
+"""A standing machine that pads press on at many places: it yields to each and keeps its balance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin
+from plantar.settings.schema import Settings, number
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.body_skin.surface import skin_from_tables
+from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.machine import Machine
+from plantar.sim.companion.standing.contacts import PlannedContact, outer_taxel
+from plantar.sim.companion.standing.controller import StandingController
+from plantar.sim.companion.standing.pad import Pad
+from plantar.sim.companion.standing.standing import StandingExperiment, by_active
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.task import Task
+
+__all__ = ["UPPER_BODY", "PressedExperiment", "PressedSettings"]
+
+UPPER_BODY: Mapping[str, tuple[str, ...]] = {
+    **{
+        f"{side} {part.replace('_', ' ')}": (f"{side}_{part}",)
+        for side in ("left", "right")
+        for part in ("upper_arm", "lower_arm", "hand_palm", "hand_back")
+    },
+    "torso": ("torso_front", "torso_back", "torso_left", "torso_right"),
+    "hip": ("hip_front", "hip_back"),
+}
+"""The ten instances of T 3.2.3.1 and their patches."""
+
+_SHARES = {"upper_arm": 0.03, "lower_arm": 0.02, "hand": 0.012, "torso": 0.04, "hip": 0.04, "leg": 0.015, "foot": 0.015}
+_TRUNK = ("torso", "hip")
+_FACES = {"torso": 0.07, "hip": 0.06}  # m: radius; elsewhere _FACE
+_FACE = 0.04
+_FIRST, _APART, _EACH = 0.6, 1.0, 1.5  # s: when single contacts begin; each takes half a second to come near
+_TOGETHER, _SWELLING = 4.6, 1.5  # s: contacts that press together, and of that both to grow and to fade
+_STRONGEST = 4.0  # times the force of a single contact
+
+
+class PressedSettings(Settings):
+    """How hard it is pressed, and what counts as yielding.
+
+    Attributes:
+        strength: Factor on the force of single contacts; 1 presses with up to 3 % of body weight on an upper arm and
+            4 % on the torso.
+        moment: Moment of all contacts that press together about the middle of the feet, as the distance by which it
+            shifts the centre of pressure of a robot that does not lean against it.
+        yield_median: How many times as far as on the springs of the posture alone limbs yield in the median: half of
+            the gain with which the skin's forces act.
+        yield_least: How many times as far every limb yields at least.
+    """
+
+    strength: float = number(1.0, "1", 0.0, 10.0)
+    moment: float = number(0.13, "m", 0.0, 0.5)
+    yield_median: float = number(4.5, "1", 0.0, 100.0)
+    yield_least: float = number(2.0, "1", 0.0, 100.0)
+
+
+class PressedExperiment(StandingExperiment):
+    """Pads press on the instances of a skin task.
+
+    Attributes:
+        skin: The machine's skin.
+        contacts: What presses when.
+    """
+
+    settings_type: ClassVar = PressedSettings
+    columns: ClassVar = (
+        "tilt_max_deg",
+        "com_off_max_mm",
+        "cop_margin_min_mm",
+        "yield_least",
+        "yield_median",
+        "most_active",
+    )
+    instances: ClassVar[Mapping[str, tuple[str, ...]]] = UPPER_BODY
+    """Instances of direct interaction and their patches."""
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        self.skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
+        self.contacts: list[PlannedContact] = []
+        self._control: StandingController | None = None
+        self._trace: list[tuple[float, ...]] = []
+
+    def press_each(self) -> None:
+        """Plan a contact on each instance, one after the other: each moves links that others press on."""
+        for i, name in enumerate(self.rng.permutation(list(self.instances)).tolist()):
+            begin = _FIRST + i * _APART + self.rng.uniform(0.0, 0.1)
+            self._press(name, self.instances[name], begin, _EACH)
+
+    def _press(
+        self, name: str, patches: Sequence[str], begin: float, hold: float, swell: float = 0.3
+    ) -> PlannedContact:
+        """Plan a contact on one of some patches, with a force and at a taxel of the seed.
+
+        Patches at the sides of the trunk, inside of the arms, are left out.
+        """
+        free = [p for p in patches if p not in ("torso_left", "torso_right")]
+        patch = self.skin.patch(str(self.rng.choice(free)))
+        kind = next(k for k in _SHARES if k in patch.name)
+        force = _SHARES[kind] * self.weight * self.rng.uniform(0.6, 1.0) * self.settings.strength
+        face = _FACES.get(kind, _FACE)
+        taxel = outer_taxel(self.robot, patch, "torso", self.rng)
+        pad = Pad(name, patch, taxel, face, 2e5 if kind in _TRUNK else 6e4)
+        self.pads.append(pad)
+        self.contacts.append(PlannedContact(pad, begin, hold, force, swell, self._root(name)))
+        return self.contacts[-1]
+
+    def _root(self, name: str) -> str:
+        """Link from which an instance's limb hangs; empty for the trunk."""
+        if name in _TRUNK:
+            return ""
+        return "torso" if name in UPPER_BODY else self.machine.base.link
+
+    def press_together(self, names: Sequence[str]) -> None:
+        """Plan contacts that press together when the single ones are over, those on the trunk from front or back.
+
+        They grow slowly; torso and hips are pressed so hard that feet cannot hold the moment about them by the place of
+        their centre of pressure alone: the robot has to lean against it.
+
+        Args:
+            names: Of the instances.
+        """
+        over = max(c.begin + c.hold for c in self.contacts)
+        self.duration = over + _TOGETHER + 0.5
+        face = str(self.rng.choice(["front", "back"]))
+        together = []
+        for name in names:
+            patches = self.instances[name]
+            faced = [p for p in patches if p.endswith(face)] if name in _TRUNK else patches
+            begin = over + self.rng.uniform(0.0, 0.2)
+            together.append(self._press(f"together {name}", faced, begin, _TOGETHER, _SWELLING))
+        trunk = [c for c in together if c.pad.patch.name.startswith(_TRUNK)]
+        limbs = self._moment([c for c in together if c not in trunk])
+        factor = _reaching(limbs, self._moment(trunk), self.settings.moment)
+        for contact in trunk:
+            contact.force *= min(factor, _STRONGEST)
+
+    def _moment(self, contacts: Sequence[PlannedContact]) -> NDArray[np.float64]:
+        """Shift (2,) in m of the centre of pressure by contacts on the robot in its first posture."""
+        middle = np.mean(list(self.stance.places.values()), axis=0)
+        moment = np.zeros(3)
+        for contact in contacts:
+            place, inward = contact.pad.touching(self.robot)
+            moment += np.cross(place - middle, contact.force * inward)
+        return np.array([moment[1], -moment[0]]) / self.weight
+
+    def _on_springs(self, contact: PlannedContact) -> float:
+        """Compliance in mm/N along a pad's normal of the posture's springs between the limb's root and its link."""
+        robot, pad = self.robot, contact.pad
+        place = pad.touching(robot)[0]
+        origin, rotation = robot.pose(contact.against)
+        root = robot.jacobian(contact.against, rotation.T @ (place - origin))[:3]
+        own = robot.jacobian(pad.patch.link, pad.middle)[:3] - root
+        row = own.T @ robot.pose(pad.patch.link)[1] @ pad.inward
+        return 1e3 * float((row[robot.joints] ** 2 / self.posture_task().stiffness).sum())
+
+    def levels(self, skin: BodySkin) -> list[list[Task]]:
+        """Tasks by priority: balance, what keeps links and joints apart, and last skin and posture together."""
+        yielding = [DirectInteraction(skin, self.control.gain, patches) for patches in self.instances.values()]
+        apart: list[Task] = [self.self_collision_task(), self.joint_range_task()]
+        return [self.balance_tasks(), apart, [*yielding, self.posture_task()]]
+
+    def controller(self, machine: Machine, skin: BodySkin) -> Controller:
+        levels = self.levels(skin)
+        self._control = StandingController(self.stance, levels, self.balance, skin, self.control)
+        return self._control
+
+    def act(self, world: World, time: float) -> None:
+        for contact in self.contacts:
+            contact.act(time, self.pressing(contact.pad))
+        super().act(world, time)
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        super().judge(world, sensor, time)
+        forces = [self.pressing(c.pad) for c in self.contacts]
+        for contact, force in zip(self.contacts, forces, strict=True):
+            contact.judge(world, force)
+        if self._steps % 20 == 0:
+            self._trace.append((time, *forces))
+
+    def verdict(self) -> Verdict:
+        reasons = self.balance_reasons()
+        single = [c for c in self.contacts if "together" not in c.pad.name]
+        times = {c.pad.name: c.compliance / self._on_springs(c) for c in single if c.against}
+        name, least = min(times.items(), key=lambda item: item[1])
+        if least < self.settings.yield_least:
+            text = f"{name} yields {least:.2g} times as far as on springs; wanted: {self.settings.yield_least:g}"
+            reasons.append(failed("yields", least, self.settings.yield_least, text))
+        middle = float(np.median(list(times.values())))
+        if middle < self.settings.yield_median:
+            text = f"limbs yield {middle:.2g} times as far as on springs; wanted: {self.settings.yield_median:g}"
+            reasons.append(failed("yields_median", middle, self.settings.yield_median, text))
+        assert self._control is not None
+        figures = {
+            **self.balance_figures(),
+            "yield_least": round(least, 2),
+            "yield_median": round(middle, 2),
+            "compliance_mm_N": {c.pad.name: round(c.compliance, 3) for c in self.contacts},
+            "force_max_N": {c.pad.name: round(c.felt, 1) for c in self.contacts},
+            "most_active": max(self._control.active, default=0),
+            "control_us_by_active": dict(by_active(self._control.took, self._control.active)),
+        }
+        return Verdict(reasons, figures)
+
+    def plot(self, folder: Path) -> Sequence[Path]:
+        assert self._control is not None
+        trace = np.array(self._trace)
+        figure, (upper, lower) = new_figure(9.0, 7.0, rows=2)
+        for i, contact in enumerate(self.contacts):
+            upper.plot(trace[:, 0], trace[:, 1 + i], linewidth=1.0, label=contact.pad.name)
+        upper.set(xlabel="time [s]", ylabel="force of each pad [N]")
+        upper.legend(fontsize=5, ncols=2)
+        active, took = np.array(self._control.active), np.array(self._control.took[: len(self._control.active)])
+        if len(took):
+            apart = np.random.default_rng(0).uniform(-0.2, 0.2, len(active))
+            lower.plot(active + apart, took, ".", markersize=1.5, color=COLOURS["edge"])
+            medians = by_active(self._control.took, self._control.active)
+            lower.plot([int(n) for n in medians], list(medians.values()), "o-", color=COLOURS["right"], label="median")
+            lower.set(ylim=(0.0, 1.1 * float(np.percentile(took, 99))))
+            lower.legend()
+        lower.set(xlabel="links with active taxels", ylabel="control tick [us]")
+        name = type(self).__name__.lower()
+        return [save_figure(figure, folder / f"{name}.png")]
+
+
+def _reaching(fixed: NDArray[np.float64], scaled: NDArray[np.float64], length: float) -> float:
+    """Factor k of the second vector (2,) with which |fixed + k scaled| is a length; 0 where it is longer without."""
+    a, b, c = float(scaled @ scaled), float(fixed @ scaled), float(fixed @ fixed) - length**2
+    return max(0.0, (-b + math.sqrt(max(0.0, b * b - a * c))) / a)

@@ -1,0 +1,150 @@
+"""Feet that stand on the ground: what they support, and where the base is according to them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError
+from plantar.mechanics.rotation import rotation_error
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.wholebody.tasks.support import Standing, Support
+
+__all__ = ["Stance", "add_floor", "sole_point"]
+
+_LEVEL = np.eye(3)
+SOLE_SITE = "{side}_sole"
+"""Name of the site that is a foot's sole frame in a machine's MJCF."""
+
+
+def add_floor(spec: Any) -> None:
+    """Add a level ground z = 0, which carries soles; skin does not feel it."""
+    plane = mujoco.mjtGeom.mjGEOM_PLANE
+    floor = spec.worldbody.add_geom(name="floor", type=plane, size=[5.0, 5.0, 0.1], rgba=[0.75, 0.77, 0.75, 1.0])
+    floor.contype, floor.conaffinity = 2, 1
+    floor.friction = [0.8, 0.005, 0.0001]
+
+
+class Stance:
+    """Feet at known places on the ground.
+
+    Args:
+        model: The MjModel of the machine alone.
+        sides: Feet that stand: "left", "right" or both.
+
+    Attributes:
+        model: The model.
+        feet: Point (3,) in the middle of each standing sole by its link, in the link's frame in m.
+        places: Where (3,) that point is in the world in m.
+
+    Raises:
+        RobotError: If the machine has no such foot.
+    """
+
+    def __init__(self, model: Any, sides: Sequence[str]) -> None:
+        self.feet: dict[str, NDArray[np.float64]] = {}
+        self.places: dict[str, NDArray[np.float64]] = {}
+        self.model = model
+        for side in sides:
+            link, point = sole_point(model, side)
+            self.feet[link] = point
+
+    def place(self, robot: MujocoDynamics) -> None:
+        """Take the soles to be on the ground below where they are now."""
+        for link, point in self.feet.items():
+            origin, rotation = robot.pose(link)
+            self.places[link] = (origin + rotation @ point) * [1.0, 1.0, 0.0]
+
+    def support(self) -> Support:
+        """The task that keeps these feet where they are."""
+        return Support({link: Standing(link, point) for link, point in self.feet.items()})
+
+    def locate(self, robot: MujocoDynamics) -> None:
+        """Set the base's position and linear velocity so that the feet rest where they stand.
+
+        What was measured of both does not count: only the base's orientation and angular velocity, of the IMU, and the
+        joints.
+
+        Args:
+            robot: The machine as measured; it is updated.
+        """
+        qpos, qvel = robot.data.qpos.copy(), robot.data.qvel.copy()
+        off, slip = np.zeros(3), np.zeros(3)
+        for link, point in self.feet.items():
+            origin, rotation = robot.pose(link)
+            off += self.places[link] - origin - rotation @ point
+            slip += robot.jacobian(link, point)[:3] @ robot.velocity
+        qpos[:3] += off / len(self.feet)
+        qvel[:3] -= slip / len(self.feet)
+        robot.update(qpos, qvel, robot.time)
+
+    def solve(
+        self,
+        robot: MujocoDynamics,
+        com: NDArray[np.float64],
+        base: tuple[str, NDArray[np.float64]],
+        lifted: Mapping[str, NDArray[np.float64]],
+    ) -> NDArray[np.float64]:
+        """Posture with the feet level where they are placed, the centre of mass at a place, and the base turned.
+
+        Args:
+            robot: The machine in a posture that is near; it is updated.
+            com: Wanted centre of mass (3,) in m.
+            base: The base link and its wanted rotation (3, 3) to the world.
+            lifted: Wanted place (3,) in m of the origin of further links, which stay level.
+
+        Returns:
+            Positions (nq,).
+        """
+        qpos, rest = robot.data.qpos.copy(), robot.data.qpos.copy()
+        n = self.model.nv
+        for _ in range(60):
+            rows, errors = [], []
+            for link, point in self.feet.items():
+                origin, rotation = robot.pose(link)
+                rows.append(robot.jacobian(link, point))
+                errors += [self.places[link] - origin - rotation @ point, rotation_error(_LEVEL, rotation)]
+            for link, place in lifted.items():
+                origin, rotation = robot.pose(link)
+                rows.append(robot.jacobian(link))
+                errors += [place - origin, rotation_error(_LEVEL, rotation)]
+            rows.append(robot.jacobian(base[0])[3:])
+            errors.append(rotation_error(base[1], robot.pose(base[0])[1]))
+            position, jacobian, _drift = robot.com()
+            rows.append(jacobian)
+            errors.append(com - position)
+            stacked, missing = np.vstack(rows), np.concatenate(errors)
+            inverse = np.linalg.pinv(stacked, rcond=1e-6)
+            back = np.zeros(n)
+            mujoco.mj_differentiatePos(self.model, back, 1.0, qpos, rest)
+            step = inverse @ missing + 0.2 * (back - inverse @ (stacked @ back))
+            step *= min(1.0, 0.2 / float(np.abs(step).max(initial=1e-9)))
+            mujoco.mj_integratePos(self.model, qpos, step, 1.0)
+            robot.update(qpos, np.zeros(n), 0.0)
+        return np.asarray(qpos)
+
+
+def sole_point(model: Any, side: str) -> tuple[str, NDArray[np.float64]]:
+    """Link of a foot, and the middle (3,) of its sole in the link's frame in m.
+
+    Args:
+        model: The MjModel of the machine alone.
+        side: "left" or "right".
+
+    Returns:
+        Both.
+
+    Raises:
+        RobotError: If the machine has no such foot.
+    """
+    site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, SOLE_SITE.format(side=side))
+    geom = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, f"{side}_sole_box")
+    if site < 0 or geom < 0:
+        raise RobotError(f"the machine has no {side} sole; it needs a site '{side}_sole' and a geom '{side}_sole_box'")
+    point = model.geom_pos[geom].copy()
+    point[2] = model.site_pos[site, 2]
+    return model.body(int(model.site_bodyid[site])).name, point

@@ -1,0 +1,255 @@
+"""What all experiments of a standing machine share: its ground, its first posture, and whether it kept its balance."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.companion.dynamics import MujocoDynamics
+from plantar.sim.companion.experiment import Experiment, World, failed
+from plantar.sim.companion.machine import Machine
+from plantar.sim.companion.standing.controller import StandingControl
+from plantar.sim.companion.standing.joint_range import JointRange
+from plantar.sim.companion.standing.pad import Pad
+from plantar.sim.companion.standing.stance import Stance, add_floor
+from plantar.sim.model.contact_truth import foot_contacts
+from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from plantar.wholebody.tasks.center_of_mass import CenterOfMass
+from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.self_collision import SelfCollision, Sphere
+from plantar.wholebody.tasks.task import Task
+
+__all__ = ["StandingExperiment", "by_active"]
+
+_TILTED = math.cos(math.radians(35.0))  # of the base: it falls
+_SETTLING = 0.3  # s until the soles carry evenly
+_MARGIN = math.radians(5.0)
+_BASE_STIFFER = 6.0  # than the balance: soles give way at first
+_LOOK_EVERY = 5  # physics steps between two looks at the contacts of the soles
+_CARRIED = 4  # looks over which the centre of pressure is taken
+
+
+class StandingExperiment(Experiment):
+    """A machine on one foot or two. What it stands on and how it stands is judged by the true contacts.
+
+    Attributes:
+        weight: Weight of the machine in N.
+        pads: Pads that press on it.
+    """
+
+    control_type: ClassVar = StandingControl
+    sides: ClassVar[tuple[str, ...]] = ("left", "right")
+    """Feet that it stands on."""
+    com_height: ClassVar[float | None] = None
+    """Wanted height in m of the centre of mass above the feet; None for what the posture gives."""
+    roll: ClassVar[float] = 0.0
+    """Roll of the base in degrees; towards the only foot it stands on it relieves that hip."""
+    cop_margin_least: ClassVar[float] = 5.0
+    """Least distance in mm of the true centre of pressure to the edge of the soles."""
+    posture: ClassVar[Mapping[str, float]] = {}
+    """Joints in degrees that stand in another posture than the machine's."""
+    lift: ClassVar[float] = 0.06
+    """Height in m to which a foot that does not stand is lifted."""
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        alone = machine.spec().compile()
+        self.robot = MujocoDynamics(alone)
+        self.stance = Stance(alone, self.sides)
+        self.weight = GRAVITY * float(alone.body_subtreemass[0])
+        self.first = self._first_posture()
+        self.robot.update(self.first, np.zeros(alone.nv), 0.0)
+        self.com = self.robot.com()[0]
+        self.pads: list[Pad] = []
+        self.tilt_max = 0.0
+        self.com_off_max = 0.0
+        self.cop_margin_min = math.inf
+        self.touched_max = 0
+        self._steps = 0
+        self._borne: deque[tuple[float, ...]] = deque(maxlen=_CARRIED)
+        self._forces: dict[str, float] = {}
+
+    def _first_posture(self) -> NDArray[np.float64]:
+        """Positions (nq,) of the machine with its feet on the ground and its centre of mass over them."""
+        robot, model = self.robot, self.robot.model
+        qpos = model.qpos0.copy()
+        qpos[7:] = self.machine.posture
+        for name, degrees in self.posture.items():
+            qpos[model.joint(name).qposadr[0]] = math.radians(degrees)
+        robot.update(qpos, np.zeros(model.nv), 0.0)
+        link, point = next(iter(self.stance.feet.items()))
+        qpos[2] -= (robot.pose(link)[0] + robot.pose(link)[1] @ point)[2]
+        robot.update(qpos, np.zeros(model.nv), 0.0)
+        self.stance.place(robot)
+        middle = np.mean(list(self.stance.places.values()), axis=0)
+        height = robot.com()[0][2] if self.com_height is None else self.com_height
+        lifted = {}
+        for side in ("left", "right"):
+            foot = f"{side}_foot"
+            if foot not in self.stance.feet:
+                lifted[foot] = robot.pose(foot)[0] + [0.0, 0.02 if side == "left" else -0.02, self.lift]
+        turned = (self.machine.base.link, rotation_from_angles(0.0, roll=math.radians(self.roll)))
+        return self.stance.solve(robot, np.array([middle[0], middle[1], height]), turned, lifted)
+
+    def add_to(self, spec: Any) -> None:
+        add_floor(spec)
+        for pad in self.pads:
+            pad.add_to(spec)
+
+    def start(self, world: World) -> None:
+        world.data.qpos[world.positions] = self.first
+
+    def balance_tasks(self, axes: Sequence[int] = (0, 1, 2)) -> list[Task]:
+        """Keep the centre of mass in its place and the base upright.
+
+        Args:
+            axes: Which axes of the centre of mass are held.
+
+        Returns:
+            The tasks.
+        """
+        stiff = self.control.balance
+        gains = PoseGains(turn_stiffness=stiff, turn_damping=2.0 * math.sqrt(stiff))
+        upright = CartesianPose(self.machine.base.link, gains=gains, rows="orientation")
+        upright.target_rotation = rotation_from_angles(0.0, roll=math.radians(self.roll))
+        self.balance = CenterOfMass(self.com.copy(), stiff, axes=axes)
+        return [self.balance, upright]
+
+    def base_task(self) -> CartesianPose:
+        """Keeps the base where it is: what moves above it then moves by itself."""
+        stiff = _BASE_STIFFER * self.control.balance
+        damp = 2.0 * math.sqrt(stiff)
+        return CartesianPose(self.machine.base.link, gains=PoseGains(stiff, damp, stiff, damp))
+
+    def posture_task(self, share: float = 1.0, stiffness: float = 1.0) -> Posture:
+        """Springs and dampers of the joints towards the first posture, by what each joint's motor can do.
+
+        Args:
+            share: Of the settings' stiffness and damping.
+            stiffness: Share of the stiffness besides.
+
+        Returns:
+            The task.
+        """
+        strength = share * self.machine.efforts / 75.0
+        stiff, damp = self.control.posture * stiffness * strength, self.control.posture_damping * strength
+        return Posture(self.first[7:], stiff, damp, torques=True)
+
+    def joint_range_task(self) -> JointRange:
+        """Keeps joints 5 degrees off the ends of their range; half of a joint's effort holds it at the end."""
+        low, high = self.machine.ranges(self.robot.model)
+        stiff = 0.5 * self.machine.efforts / _MARGIN
+        return JointRange(low, high, _MARGIN, stiff, 0.1 * stiff)
+
+    def self_collision_task(self) -> SelfCollision:
+        """Keeps hands and forearms from the trunk, the legs and each other."""
+        trunk = [Sphere("torso", np.array([0.0, y, z]), 0.13) for y in (-0.07, 0.07) for z in (0.18, 0.32, 0.46)]
+        trunk.append(Sphere("base", np.array([0.0, 0.0, -0.06]), 0.14))
+        hands = [Sphere(f"{s}_hand", np.array([0.0, 0.0, -0.09]), 0.06) for s in ("left", "right")]
+        arms = [
+            Sphere(f"{s}_lower_arm", np.array([0.0, 0.0, z]), 0.05) for s in ("left", "right") for z in (-0.1, -0.2)
+        ]
+        pairs = [(limb, part) for limb in (*hands, *arms) for part in trunk]
+        pairs += [(a, b) for a in (hands[0], *arms[:2]) for b in (hands[1], *arms[2:])]
+        legs = [[Sphere(f"{s}_{k}", np.array([0.0, 0.0, z]), 0.05) for k, z in (("thigh", -0.25), ("shank", -0.25))]
+                for s in ("left", "right")]  # fmt: skip
+        pairs += [(a, b) for a in legs[0] for b in legs[1]]
+        return SelfCollision(pairs, margin=0.03, stiffness=2000.0, damping=60.0)
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        self._forces.clear()
+        for pad in self.pads:
+            if pad.parked:
+                continue
+            rotation = world.data.body(pad.patch.link).xmat.reshape(3, 3)
+            self._forces[pad.name] = pad.force(sensor.on_obstacles, rotation)
+        self._steps += 1
+        if self._steps % _LOOK_EVERY:
+            return
+        self.look_at_trunk(world)
+        if time < _SETTLING:
+            return
+        base = world.data.body(self.machine.base.link)
+        off = world.data.subtree_com[base.id][:2] - self.com[:2]
+        self.com_off_max = max(self.com_off_max, float(np.hypot(*off)))
+
+    def look_at_trunk(self, world: World) -> None:
+        """Whether it falls: its base tilts or sinks."""
+        base = world.data.body(self.machine.base.link)
+        up = float(base.xmat[8])
+        self.tilt_max = max(self.tilt_max, math.degrees(math.acos(min(1.0, up))))
+        self.fell = bool(self.fell or up < _TILTED or base.xpos[2] < 0.7 * self.first[2])
+
+    def pressing(self, pad: Pad) -> float:
+        """True force in N with which a pad presses at the last physics step."""
+        return self._forces.get(pad.name, 0.0)
+
+    def act(self, world: World, time: float) -> None:
+        if time > _SETTLING and self._steps % _LOOK_EVERY == 0:  # contact forces are those of the last whole step
+            self.cop_margin_min = min(self.cop_margin_min, self._cop_margin(world))
+        for pad in self.pads:
+            pad.act(world, self.pressing(pad), world.model.opt.timestep)
+
+    def _cop_margin(self, world: World) -> float:
+        """Distance in m of the true centre of pressure to the edge of the soles' common rectangle, negative outside.
+
+        It is that of the last 20 ms: what lands on the skin rings in the soles for a few steps. Both soles are level
+        and face forward, so the rectangle about them is their support polygon.
+        """
+        model, data = world.model, world.data
+        floor = model.geom("floor").id
+        pressed = foot_contacts(model, data, {floor})
+        loads = -pressed.forces[:, 2]
+        self._borne.append((float(loads.sum()), *(loads @ pressed.positions[:, :2]).tolist()))
+        total, *moment = np.sum(self._borne, axis=0)
+        if total < 0.2 * GRAVITY:
+            return -1.0
+        corners = []
+        for side in self.sides:
+            geom = model.geom(f"{side}_sole_box")
+            corners += [data.geom(geom.id).xpos[:2] + s * geom.size[:2] for s in (-1.0, 1.0)]
+        low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+        cop = np.array(moment) / total
+        return float(min((cop - low).min(), (high - cop).min()))
+
+    def balance_reasons(self) -> list[dict[str, Any]]:
+        """What failed of keeping the balance."""
+        if self.fell:
+            return [failed("balance", self.tilt_max, 35.0, f"it fell: tilted by {self.tilt_max:.0f} degrees")]
+        margin = 1e3 * self.cop_margin_min
+        if margin < self.cop_margin_least:
+            text = (
+                f"the centre of pressure was {margin:.1f} mm inside the soles' edge; wanted: {self.cop_margin_least:g}"
+            )
+            return [failed("cop_margin_mm", margin, self.cop_margin_least, text)]
+        return []
+
+    def balance_figures(self) -> dict[str, Any]:
+        """Figures of keeping the balance."""
+        return {
+            "tilt_max_deg": round(self.tilt_max, 2),
+            "com_off_max_mm": round(1e3 * self.com_off_max, 1),
+            "cop_margin_min_mm": round(1e3 * self.cop_margin_min, 1),
+        }
+
+
+def by_active(took: Sequence[float], active: Sequence[int]) -> dict[str, float]:
+    """How long ticks take by how much is active.
+
+    Args:
+        took: Time of each tick in us.
+        active: Number of active links at each.
+
+    Returns:
+        Median time in us by the number, which is a JSON key.
+    """
+    counts, times = np.array(active), np.array(took[: len(active)])
+    return {str(n): round(float(np.median(times[counts == n])), 1) for n in np.unique(counts).tolist()}

@@ -1,0 +1,84 @@
+"""A body that comes along a straight line towards a link and goes back: a hand, or an object without mass."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP
+
+__all__ = ["Visitor"]
+
+
+class Visitor:
+    """A moved body; it neither weighs anything nor collides, and only skin takes note of it.
+
+    Args:
+        name: Name of its body and geom.
+        kind: MuJoCo's kind of its geom.
+        size: Size (3,) of its geom in m.
+        face: Distance in m from its middle to what of it comes first.
+    """
+
+    def __init__(self, name: str, kind: Any, size: tuple[float, float, float], face: float) -> None:
+        self.name, self.face = name, face
+        self._kind, self._size = kind, size
+        self._target, self._way = np.zeros(3), np.array([0.0, 0.0, 1.0])
+        self._times = (np.inf, np.inf)
+        self._speed = self._far = self._beyond = 0.0
+
+    def add_to(self, spec: Any) -> None:
+        """Add it to a world."""
+        body = spec.worldbody.add_body(name=self.name, mocap=True, pos=[0.0, 0.0, 5.0])
+        geom = body.add_geom(name=self.name, type=self._kind, size=list(self._size), rgba=[0.85, 0.6, 0.45, 1.0])
+        geom.contype = geom.conaffinity = 0
+        geom.group = OBSTACLE_GROUP
+
+    def plan(
+        self,
+        target: NDArray[np.float64],
+        way: NDArray[np.float64],
+        begin: float,
+        speed: float,
+        far: float,
+        beyond: float,
+    ) -> float:
+        """Plan its visit.
+
+        Args:
+            target: Point (3,) in the world in m at which its face would arrive.
+            way: Direction (3,) in which it comes.
+            begin: Time in s at which it starts.
+            speed: Its speed in m/s.
+            far: Distance in m from which it comes.
+            beyond: How far in m beyond the point it goes.
+
+        Returns:
+            Time in s at which it is back.
+        """
+        self._target, self._way = target, way / np.linalg.norm(way)
+        self._speed, self._far, self._beyond = speed, far, beyond
+        self._times = (begin, begin + 2.0 * (far + beyond) / speed)
+        return self._times[1]
+
+    def act(self, world: Any, time: float) -> None:
+        """Move it.
+
+        Args:
+            world: The world.
+            time: Time in s.
+        """
+        begin, end = self._times
+        number = int(world.model.body(self.name).mocapid[0])
+        if not begin <= time < end:
+            world.data.mocap_pos[number] = [0.0, 0.0, 5.0]
+            return
+        path = self._far + self._beyond
+        gone = path - abs((time - begin) * self._speed - path)
+        world.data.mocap_pos[number] = self._target + (gone - self._far - self.face) * self._way
+        turn = np.zeros(4)
+        mujoco.mju_quatZ2Vec(turn, self._way)
+        world.data.mocap_quat[number] = turn

@@ -1,0 +1,363 @@
+"""Comparison of contact models on a test rig: a free body of 43 kg with one sole, pushed with known wrenches.
+
+The truth is MuJoCo's own contact wrench of the same step, summed over all contacts of the sole.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.geometry.polygon import area, convex_hull
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.lip import GRAVITY
+from plantar.sensing.force import center_of_pressure
+from plantar.sim.contact_models.candidate import CANDIDATES, Candidate, Contact
+from plantar.sim.contact_models.sole import Sole, build_sole
+from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
+
+__all__ = ["ContactRow", "Rig", "compare_contact_models", "full_stance", "on_beams", "run_times", "tip_over"]
+
+MASS = 43.0
+PLANE = '<geom name="ground" type="plane" size="2 2 0.1" {contact}/>'
+INNER = 0.7
+BEAMS = (0.12, 0.06)
+_TIPPED = math.radians(1.0)
+_TIPPING_LOAD = 600.0  # N
+BEAM_OFFSETS = (-0.031, -0.013, 0.0, 0.009, 0.027)
+
+
+@dataclass(frozen=True)
+class ContactRow:
+    """Figures of one contact model; mm, N, N m and us as the names say. inf: it toppled, or it did not tip over.
+
+    Attributes:
+        name: Name of the candidate.
+        contacts: Contacts in full-sole stance.
+        cop_median_mm: Centre of pressure of the taxels against the truth, full-sole stance, median over the loads.
+        cop_max_mm: The same, largest.
+        force_max_N: Largest error of the normal force.
+        moment_max_Nm: Largest error of (tx, ty).
+        edge_x_mm: True CoP at which the sole tips over forwards or backwards, less the true edge: negative tips early.
+        edge_y_mm: The same sideways.
+        seen_x_mm: CoP that the taxels show at that instant, less the true edge.
+        seen_y_mm: The same sideways.
+        beam_contact_ratio: Area of the hull of the contact points over the true contact area; mean over the beams.
+        beam_taxel_ratio: The same of the polygon of the active cells' corners.
+        beam_wrong_cells: Active cells that do not touch the beam, over all beams.
+        beam_silent_cells: Cells that lie on the beam with a quarter of their area or more and are not active.
+        step_us: Median time of a physics step in full-sole stance.
+        read_us: Median time of a taxel reading there.
+    """
+
+    name: str
+    contacts: int
+    cop_median_mm: float
+    cop_max_mm: float
+    force_max_N: float
+    moment_max_Nm: float
+    edge_x_mm: float
+    edge_y_mm: float
+    seen_x_mm: float
+    seen_y_mm: float
+    beam_contact_ratio: float
+    beam_taxel_ratio: float
+    beam_wrong_cells: int
+    beam_silent_cells: int
+    step_us: float
+    read_us: float
+
+    @property
+    def millisecond_us(self) -> float:
+        """Cost in us of a simulated ms: one physics step and a quarter of a reading (a skin of 250 Hz)."""
+        return self.step_us + 0.25 * self.read_us
+
+    def as_dict(self) -> dict[str, Any]:
+        """The row as plain numbers and text; None where the sole toppled or did not tip."""
+        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()}
+
+
+class Rig:
+    """A free sole that is pushed with a wrench.
+
+    Args:
+        sole: The compiled sole.
+        layout: Its layout.
+    """
+
+    def __init__(self, sole: Sole, layout: SoleLayout) -> None:
+        self.sole = sole
+        self.layout = layout
+        self.data = mujoco.MjData(sole.model)
+        self._body = sole.model.body("left_foot").id
+
+    def push(
+        self,
+        force: float,
+        point: NDArray[np.float64],
+        tangential: tuple[float, float] = (0.0, 0.0),
+        twist: float = 0.0,
+    ) -> None:
+        """Push so that a sole at rest has a given normal force and centre of pressure.
+
+        Args:
+            force: Normal force in N.
+            point: Where the ground carries it (2,) in the sole frame in m.
+            tangential: Horizontal push in N.
+            twist: Moment about z in N m.
+        """
+        data = self.data
+        at = data.site_xpos[self.sole.site]
+        com = data.xipos[self._body] - at
+        push = np.array([tangential[0], tangential[1], -force])
+        # The ground's wrench about the sole's origin is (.., force y, -force x, ..): the push has the opposite moment.
+        moment = np.array([-force * point[1], force * point[0], twist]) - np.cross(com, push)
+        push[2] += MASS * GRAVITY
+        data.xfrc_applied[self._body] = np.concatenate([push, moment])
+
+    def step(self, count: int = 1) -> None:
+        """Run the physics."""
+        for _ in range(count):
+            mujoco.mj_step(self.sole.model, self.data)
+
+    def wrench(self) -> NDArray[np.float64]:
+        """True wrench (6,) in the sole frame."""
+        contacts = foot_contacts(self.sole.model, self.data, self.sole.geoms)
+        site = self.sole.site
+        return contact_wrench_in_frame(contacts, self.data.site_xpos[site], self.data.site_xmat[site])
+
+    def tilt(self) -> float:
+        """Angle in rad between the sole's normal and the vertical."""
+        return math.acos(min(1.0, float(self.data.site_xmat[self.sole.site][8])))
+
+
+def compare_contact_models(
+    layout: SoleLayout,
+    *,
+    candidates: Iterable[Candidate] = CANDIDATES,
+    seeds: int = 2,
+    contact: Contact | None = None,
+    progress: Callable[[float, str], None] | None = None,
+) -> list[ContactRow]:
+    """Measure contact models against MuJoCo's exact contact wrench.
+
+    Args:
+        layout: The sole; its outline's bounding rectangle is the true edge.
+        candidates: What to compare.
+        seeds: Random load cases at each of the 25 centres of pressure in full-sole stance.
+        contact: Contact parameters.
+        progress: Called with the fraction done and a text.
+
+    Returns:
+        A row a candidate.
+    """
+    rows = []
+    candidates = tuple(candidates)
+    soles = [build_sole(candidate, layout, PLANE, mass=MASS, contact=contact) for candidate in candidates]
+    times = run_times(soles, layout)
+    for i, (candidate, sole) in enumerate(zip(candidates, soles, strict=True)):
+        if progress is not None:
+            progress(i / len(candidates), candidate.name)
+        rows.append(
+            ContactRow(
+                name=candidate.name,
+                **full_stance(sole, layout, seeds),
+                **tip_over(sole, layout),
+                **on_beams(candidate, layout, contact),
+                **times[i],
+            )
+        )
+    if progress is not None:
+        progress(1.0, "done")
+    return rows
+
+
+def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
+    """Errors in full-sole stance: the CoP over the inner 70 % of the sole, 200-844 N, tangential loads and twist.
+
+    Args:
+        sole: The sole on flat ground.
+        layout: Its layout.
+        seeds: Random load cases at each centre of pressure.
+
+    Returns:
+        The fields of `ContactRow` that it measures.
+    """
+    middle, half = _rectangle(layout)
+    targets = [middle + half * (x, y) for x in np.linspace(-INNER, INNER, 5) for y in np.linspace(-INNER, INNER, 5)]
+    errors, forces, moments = [], [], []
+    contacts = 0
+    for seed in range(seeds):
+        rng = np.random.default_rng(seed)
+        rig = _standing(sole, layout, MASS * GRAVITY)
+        contacts = int(rig.data.ncon)
+        for target in targets:
+            wrench = _loaded(rig, target, rng)
+            if wrench is None:
+                errors.append(math.inf)
+                rig = _standing(sole, layout, MASS * GRAVITY)
+                continue
+            taxels = layout.wrench_map @ sole.read(rig.data)
+            cop, true = _cop(taxels), _cop(wrench)
+            errors.append(float(np.hypot(*(cop - true))) * 1e3)
+            forces.append(abs(float(taxels[2] - wrench[2])))
+            moments.append(float(np.hypot(*(taxels - wrench)[3:5])))
+    return {
+        "contacts": contacts,
+        "cop_median_mm": float(np.median(errors)),
+        "cop_max_mm": max(errors),
+        "force_max_N": max(forces, default=math.inf),
+        "moment_max_Nm": max(moments, default=math.inf),
+    }
+
+
+def _standing(sole: Sole, layout: SoleLayout, load: float) -> Rig:
+    """A rig at rest with a load in N over the middle of its sole."""
+    rig = Rig(sole, layout)
+    rig.push(load, _rectangle(layout)[0])
+    rig.step(100)
+    return rig
+
+
+def _loaded(rig: Rig, target: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64] | None:
+    """True wrench (6,) under a random load with a given CoP (2,); None where the sole topples under it."""
+    load = float(rng.uniform(200.0, 844.0))
+    angle = float(rng.uniform(0.0, 2.0 * math.pi))
+    side = float(rng.uniform(0.0, 0.3)) * load
+    twist = float(rng.uniform(-5.0, 5.0)) * load / 844.0
+    for _ in range(8):  # the push is about the sole's place, which moves a little
+        rig.push(load, target, (side * math.cos(angle), side * math.sin(angle)), twist)
+        rig.step(15)
+    wrench = rig.wrench()
+    return None if rig.tilt() > 0.02 or wrench[2] < 0.5 * load else wrench
+
+
+def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
+    """Where the sole tips over: the load moves out at 40 mm/s until the foot tilts; the true CoP stops at the pivot.
+
+    Args:
+        sole: The sole on flat ground.
+        layout: Its layout.
+
+    Returns:
+        The fields of `ContactRow` that it measures.
+    """
+    out: dict[str, Any] = {}
+    for name, direction in (("x", np.array([1.0, 0.0])), ("y", np.array([0.0, 1.0]))):
+        edges, seen = zip(*(_edge(sole, layout, sign * direction) for sign in (-1.0, 1.0)), strict=True)
+        out[f"edge_{name}_mm"] = float(max(edges, key=abs))
+        out[f"seen_{name}_mm"] = float(max(seen, key=abs))
+    return out
+
+
+def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tuple[float, float]:
+    """How far beyond the true edge in mm the load gets in a direction before the sole tips, and the taxels show it."""
+    middle, half_sizes = _rectangle(layout)
+    half = float(half_sizes @ np.abs(direction))
+    rig = _standing(sole, layout, _TIPPING_LOAD)
+    pivot = shown = -math.inf
+    reach = 0.9 * half
+    while rig.tilt() < _TIPPED and reach < half + 0.03:
+        reach += 0.04 * sole.model.opt.timestep
+        rig.push(_TIPPING_LOAD, middle + reach * direction)
+        rig.step()
+        wrench = rig.wrench()
+        if wrench[2] > 100.0:
+            pivot = max(pivot, float((_cop(wrench) - middle) @ direction))
+            cop = center_of_pressure(layout, sole.read(rig.data))
+            shown = shown if cop is None else max(shown, float((cop - middle) @ direction))
+    return (pivot - half) * 1e3 if rig.tilt() >= _TIPPED else math.inf, (shown - half) * 1e3
+
+
+def on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) -> dict[str, Any]:
+    """What touches on beams of 12 and 6 cm across the sole, at several offsets, loaded over the beam's middle.
+
+    Args:
+        candidate: Contact model of the sole.
+        layout: The sole.
+        contact: Contact parameters.
+
+    Returns:
+        The fields of `ContactRow` that it measures.
+    """
+    import shapely
+
+    middle, half = _rectangle(layout)
+    contact_ratio, taxel_ratio = [], []
+    wrong = silent = 0
+    shapes = [shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))]
+    for width in BEAMS:
+        for offset in BEAM_OFFSETS:
+            ground = (
+                f'<geom name="beam" type="box" size="{0.5 * width} 1 0.05" pos="{middle[0] + offset} 0 -0.05" '
+                "{contact}/>"
+            )
+            rig = Rig(build_sole(candidate, layout, ground, mass=MASS, contact=contact), layout)
+            for _ in range(20):
+                rig.push(600.0, middle + np.array([offset, 0.0]))
+                rig.step(10)
+            low, high = middle[0] + offset - 0.5 * width, middle[0] + offset + 0.5 * width
+            true = width * 2.0 * half[1]
+            contacts = foot_contacts(rig.sole.model, rig.data, rig.sole.geoms)
+            contact_ratio.append(area(support_polygon_of_contacts([contacts])) / true)
+            active = rig.sole.read(rig.data) > layout.force_threshold
+            corners = [layout.cell_polygon(int(i)) for i in np.flatnonzero(active)]
+            taxel_ratio.append(area(convex_hull(np.concatenate(corners))) / true if corners else 0.0)
+            share = shapely.area(shapely.intersection(shapes, shapely.box(low, -1.0, high, 1.0))) / layout.areas
+            wrong += int((active & (share == 0.0)).sum())
+            silent += int((~active & (share >= 0.25)).sum())
+    return {
+        "beam_contact_ratio": float(np.mean(contact_ratio)),
+        "beam_taxel_ratio": float(np.mean(taxel_ratio)),
+        "beam_wrong_cells": wrong,
+        "beam_silent_cells": silent,
+    }
+
+
+def run_times(soles: Sequence[Sole], layout: SoleLayout, count: int = 300) -> list[dict[str, Any]]:
+    """Median times in us of a physics step and of a taxel reading in full-sole stance, taken in turns.
+
+    Args:
+        soles: The soles on flat ground; each takes a step before any takes the next, so that what else the machine
+            does meets all of them alike.
+        layout: Their layout.
+        count: Steps that each takes.
+
+    Returns:
+        The fields of `ContactRow` that it measures, for each sole.
+    """
+    middle, half = _rectangle(layout)
+    rigs = [Rig(sole, layout) for sole in soles]
+    for rig in rigs:
+        rig.push(MASS * GRAVITY, middle + 0.1 * half)
+        rig.step(100)
+    steps, reads = np.zeros((2, len(rigs), count))
+    for k in range(count):
+        for i, rig in enumerate(rigs):
+            start = time.perf_counter()
+            rig.step()
+            between = time.perf_counter()
+            rig.sole.read(rig.data)
+            reads[i, k] = time.perf_counter() - between
+            steps[i, k] = between - start
+    return [
+        {"step_us": float(step) * 1e6, "read_us": float(read) * 1e6}
+        for step, read in zip(np.median(steps, axis=1), np.median(reads, axis=1), strict=True)
+    ]
+
+
+def _rectangle(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Middle (2,) and half sizes (2,) in m of the outline's bounding rectangle: the box sole."""
+    low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
+    return 0.5 * (low + high), 0.5 * (high - low)
+
+
+def _cop(wrench: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(np.array([-wrench[4], wrench[3]]) / wrench[2])

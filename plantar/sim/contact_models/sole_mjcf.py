@@ -1,0 +1,138 @@
+"""MJCF of a sole whose outer face is the plane z = 0 of its body, for each kind of contact model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.layouts.layout import SoleLayout
+from plantar.sim.contact_models.candidate import Candidate
+
+__all__ = ["SPHERE_RADIUS", "SoleMjcf", "sole_mjcf", "support_points"]
+
+SOLE_THICKNESS = 0.02  # m
+_PRISM_DEPTH = 0.01  # m
+SPHERE_RADIUS = 0.004
+"""Radius in m of the spheres of a sole that stands on spheres."""
+
+
+class SoleMjcf(NamedTuple):
+    """MJCF of what stands under <asset>, in the foot's body, and under <sensor>."""
+
+    assets: str
+    geoms: str
+    sensors: str = ""
+
+
+def sole_mjcf(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
+    """MJCF of a sole.
+
+    Args:
+        candidate: Its contact model.
+        layout: The sole.
+        attributes: MJCF attributes of every geom that touches.
+
+    Returns:
+        The MJCF.
+
+    Raises:
+        InputError: If the candidate's kind or reading is unknown.
+    """
+    make = _MAKERS.get((candidate.kind, candidate.reading))
+    if make is None or (candidate.kind == "spheres" and candidate.count < 1):
+        raise InputError(f"contact model {candidate.name!r} has an unknown kind or reading; allowed: see CANDIDATES")
+    return make(candidate, layout, attributes)
+
+
+def _box(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
+    """One box: the bounding rectangle of the outline."""
+    low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
+    (cx, cy), (hx, hy), h = 0.5 * (low + high), 0.5 * (high - low), 0.5 * SOLE_THICKNESS
+    place = f'size="{hx} {hy} {h}" pos="{cx} {cy} {h}"'
+    return SoleMjcf("", f'<geom name="left_sole_box" type="box" {place} {attributes}/>')
+
+
+def _box_with_tactile_sensor(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
+    """One box, and MuJoCo's tactile sensor at the taxels' positions."""
+    points = _numbers(np.column_stack([layout.positions[:, :2], np.zeros(len(layout))]))
+    faces = " ".join(str(int(v)) for v in _triangles(layout.positions[:, :2]).ravel())
+    mesh = f'<mesh name="taxels" inertia="shell" vertex="{points}" face="{faces}"/>'
+    # The sensor takes the points in the frame of its geom: a geom of the same mesh puts them where they are.
+    skin = '<geom name="left_taxels" type="mesh" mesh="taxels" contype="0" conaffinity="0" mass="0"/>'
+    box = _box(candidate, layout, attributes).geoms
+    return SoleMjcf(mesh, box + skin, '<tactile name="left_taxels" geom="left_taxels" mesh="taxels"/>')
+
+
+def _spheres(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
+    """Spheres that support each cell."""
+    r = SPHERE_RADIUS
+    parts = [
+        f'<geom name="taxel{i}_{j}" type="sphere" size="{r}" pos="{x} {y} {r}" {attributes}/>'
+        for i in range(len(layout))
+        for j, (x, y) in enumerate(support_points(layout.cell_polygon(i), candidate.count))
+    ]
+    return SoleMjcf("", "".join(parts))
+
+
+def _prisms(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
+    """A prism over each cell's own polygon; of a candidate with a count, a square box of the cell's area."""
+    if candidate.count > 0:
+        return SoleMjcf("", "".join(_square(layout, i, attributes) for i in range(len(layout))))
+    rings = [layout.cell_polygon(i) for i in range(len(layout))]
+    corners = [np.vstack([np.column_stack([r, np.full(len(r), z)]) for z in (0.0, _PRISM_DEPTH)]) for r in rings]
+    meshes = [f'<mesh name="taxel{i}" vertex="{_numbers(c)}"/>' for i, c in enumerate(corners)]
+    parts = [f'<geom name="taxel{i}_0" type="mesh" mesh="taxel{i}" {attributes}/>' for i in range(len(layout))]
+    return SoleMjcf("".join(meshes), "".join(parts))
+
+
+def _square(layout: SoleLayout, i: int, attributes: str) -> str:
+    half, (x, y), depth = 0.5 * float(np.sqrt(layout.areas[i])), layout.positions[i, :2], 0.5 * _PRISM_DEPTH
+    return f'<geom name="taxel{i}_0" type="box" size="{half} {half} {depth}" pos="{x} {y} {depth}" {attributes}/>'
+
+
+_MAKERS: dict[tuple[str, str], Callable[[Candidate, SoleLayout, str], SoleMjcf]] = {
+    ("box", "patches"): _box,
+    ("box", "tactile"): _box_with_tactile_sensor,
+    ("spheres", "contacts"): _spheres,
+    ("prisms", "contacts"): _prisms,
+}
+"""What makes the MJCF of a candidate, by its kind and reading."""
+
+
+def support_points(ring: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """Points that support a cell: its middle, or points evenly along its edge moved inwards.
+
+    Args:
+        ring: Corners (k, 2) of the cell in m.
+        count: How many points, 1 or more.
+
+    Returns:
+        Points (count, 2) in m.
+    """
+    edge = np.roll(ring, -1, axis=0) - ring
+    length = np.hypot(edge[:, 0], edge[:, 1])
+    cross = ring[:, 0] * np.roll(ring[:, 1], -1) - np.roll(ring[:, 0], -1) * ring[:, 1]
+    middle = np.asarray((ring + np.roll(ring, -1, axis=0)).T @ cross / (3.0 * cross.sum()), dtype=np.float64)
+    around = count if count in (2, 3) else count - 1
+    if around <= 0:
+        return middle[None]
+    along = np.concatenate([[0.0], np.cumsum(length)])
+    wanted = along[-1] * np.arange(around) / around
+    closed = np.vstack([ring, ring[:1]])
+    on_edge = np.column_stack([np.interp(wanted, along, closed[:, k]) for k in range(2)])
+    points = middle + (0.75 if around == 3 else 0.9) * (on_edge - middle)
+    return points if around == count else np.vstack([middle, points])
+
+
+def _triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
+    from scipy.spatial import Delaunay  # only for the tactile sensor's mesh
+
+    return np.asarray(Delaunay(points).simplices, dtype=np.int64)
+
+
+def _numbers(array: NDArray[np.float64]) -> str:
+    return " ".join(f"{v:.9g}" for v in array.ravel())

@@ -1,0 +1,293 @@
+"""A run as a 3D viewer shows it: topics of Foxglove's schemas in its recording.
+
+They are drawn from what is there at a tick anyway: nothing is computed for them that could change the run.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.command import Command
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.plan_change import AppliedChange
+from plantar.gait.plan.walk_plan import PlanView
+from plantar.layouts.layout import SoleLayout
+from plantar.recordings.foxglove import (
+    arrow,
+    cylinder,
+    delete_all,
+    entity,
+    frame_transform,
+    line_loop,
+    log_message,
+    pose,
+    sphere,
+    words,
+)
+from plantar.recordings.protobuf import Part, Slot, Template
+from plantar.recordings.recorder import Recorder
+from plantar.sensing.reading import Reading
+from plantar.sides import SIDES, Side
+from plantar.sim.figures.drawn_shapes import body_entity, drawn_bodies, frame_name
+from plantar.sim.model.contact_truth import GroundTruth
+from plantar.sim.model.world import World
+
+__all__ = ["FULL_COLOUR", "DrawnRun", "change_text", "scale_colours"]
+
+_FRAMES = 0.02  # s between two messages of where bodies are
+_SOLES = 0.04  # s between two of what soles feel and of the balance
+_CORNERS = 12  # of a support polygon that is drawn; it seldom has more
+_CELL, _THICK = 0.92, 2e-3  # of a taxel's cell, and m: how wide and how thick it is drawn
+_ARROW = 0.5  # leg: length of an arrow that stands for the robot's weight
+_BEHIND, _AHEAD = 4, 12  # footsteps that are drawn before and after the current one
+_VIRIDIS = [[0.27, 0.0, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.14]]
+_SIDE_COLOURS = {"left": (0.12, 0.42, 0.75, 1.0), "right": (0.80, 0.33, 0.10, 1.0)}
+_FORCE, _ZMP, _COM, _POLYGON = (0.85, 0.1, 0.3, 1.0), (0.85, 0.1, 0.3), (0.95, 0.6, 0.1, 1.0), (0.1, 0.55, 0.3, 1.0)
+
+
+FULL_COLOUR = 0.1
+"""Share of the weight on a taxel that has the last colour: twice what it has of a foot that carries all."""
+
+
+def scale_colours(largest: float) -> NDArray[np.float64]:
+    """Colours of taxels: the scale viridis in 64 steps from no force to FULL_COLOUR.
+
+    Args:
+        largest: What stands for a full red, green or blue: 1, or 255 in a picture.
+
+    Returns:
+        Red, green and blue (64, 3) of each step.
+    """
+    shares, steps = np.linspace(0.0, 1.0, 64), np.linspace(0.0, 1.0, len(_VIRIDIS))
+    return largest * np.column_stack([np.interp(shares, steps, column) for column in zip(*_VIRIDIS, strict=True)])
+
+
+class DrawnRun:
+    """Writes a run's topics for viewers.
+
+    "/tf" says where the bodies, the soles ("sole_left", "sole_right") and the CoM ("center_of_mass") are,
+    "/scene/world" what they and the ground look like, "/scene/soles" what each sole feels, "/scene/balance" CoM, ZMP
+    and support polygon, "/scene/footsteps" the plan, and "/log" why it changed.
+
+    Args:
+        recorder: Where to write to.
+        world: The world.
+    """
+
+    def __init__(self, recorder: Recorder, world: World) -> None:
+        self._world = world
+        self._latest: Mapping[Side, Reading] = {}
+        self._bodies = drawn_bodies(world.model)
+        self._next_frame = self._next_soles = -math.inf
+        self._step: int | None = None
+        self._change: AppliedChange | None = None
+        self._layouts = world.robot.layouts
+        self._drawn_steps: dict[tuple[int, Footstep], Part] = {}
+        self._full, self._metres = FULL_COLOUR * world.body.weight, _ARROW * world.body.leg / world.body.weight
+        self._colours = scale_colours(1.0)
+        self._unit = 0.02 * world.body.leg  # diameter of a ball that stands for a point
+        frames = self._frames_template()
+        soles = Template(*(part for i, s in enumerate(SIDES) for part in self._sole(s, i)))
+        scene = "foxglove.SceneUpdate"
+        self._tf = recorder.template_channel("/tf", "foxglove.FrameTransforms", frames)
+        self._shapes = recorder.message_channel("/scene/world", scene)
+        self._soles = recorder.template_channel("/scene/soles", scene, soles, self._sole_values)
+        self._balance = recorder.template_channel("/scene/balance", scene, self._balance_template())
+        self._steps = recorder.message_channel("/scene/footsteps", scene)
+        self._log = recorder.message_channel("/log", "foxglove.Log")
+
+    def skin(self, readings: Mapping[Side, Reading]) -> None:
+        """Take the soles' latest readings."""
+        self._latest = readings
+
+    def tick(self, time: float, command: Command, plan: PlanView, truth: GroundTruth) -> None:
+        """Draw one control tick, as far as its time has come.
+
+        Args:
+            time: Time in s.
+            command: What the controller asked for.
+            plan: The plan of the walk.
+            truth: What the judge saw.
+        """
+        if self._next_frame == -math.inf:
+            self._draw_shapes(time)
+        if time >= self._next_frame:
+            self._next_frame = time + _FRAMES - 1e-6
+            self._tf.write(time, self._frame_values())
+        if time >= self._next_soles and self._latest:
+            self._next_soles = time + _SOLES - 1e-6
+            self._soles.write(time, np.concatenate([self._latest[side].force for side in SIDES]))
+            self._balance.write(time, self._balance_values(truth))
+        changed = plan.last is not self._change
+        if changed and plan.last is not None:
+            self._log.write(time, log_message(time, change_text(plan.last), name="plan"))
+        self._change = plan.last
+        if changed or command.phase.step != self._step:
+            self._step = command.phase.step
+            self._steps.write(time, self._footsteps(plan, self._step).filled(time))
+
+    def say(self, time: float, text: str, level: str = "info") -> None:
+        """Put a line into the log.
+
+        Args:
+            time: Time in s.
+            text: What happened.
+            level: "info", "warning" or "error".
+        """
+        self._log.write(time, log_message(time, text, level))
+
+    def _draw_shapes(self, time: float) -> None:
+        model = self._world.model
+        entities = [body_entity(model, body) for body in (0, *self._bodies)]
+        self._shapes.write(time, Template(*entities).filled(time))
+
+    def _frames_template(self) -> Template:
+        names = [frame_name(self._world.model, body) for body in self._bodies]
+        names += [*(f"sole_{side}" for side in SIDES), "center_of_mass"]
+        parts = []
+        for i, name in enumerate(names):
+            slots = [Slot(7 * i + j) for j in range(7)]
+            parts.append(frame_transform(name, slots[:3], slots[3:]))
+        return Template(*parts)
+
+    def _frame_values(self) -> NDArray[np.float64]:
+        """Position and quaternion (x, y, z, w) of each body, each sole and the CoM, whose frame stays level, flat."""
+        data, n = self._world.data, len(self._bodies)
+        out = np.zeros((n + 3, 7))
+        out[-1, :3], out[-1, 6] = data.subtree_com[self._world.torso], 1.0
+        out[:n, :3] = data.xpos[self._bodies]
+        out[:n, 3:] = data.xquat[self._bodies][:, [1, 2, 3, 0]]
+        quaternion = np.empty(4)
+        for i, side in enumerate(SIDES, n):
+            site = self._world.sole_sites[side]
+            mujoco.mju_mat2Quat(quaternion, data.site_xmat[site])
+            out[i, :3] = data.site_xpos[site]
+            out[i, 3:] = quaternion[[1, 2, 3, 0]]
+        return out.ravel()
+
+    def _sole(self, side: Side, number: int) -> list[Part]:
+        """Entities of a sole in its own frame: its taxels, and its CoP with the force there.
+
+        Slots are first three a taxel of the left sole, then of the right one, then four for each sole's force.
+        """
+        layout = self._layouts[side]
+        first = 3 * len(self._layouts["left"]) * number
+        last = 3 * sum(len(self._layouts[s]) for s in SIDES) + 4 * number
+        x, y, length, shown = (Slot(last + j) for j in range(4))
+        upwards = (0.0, -math.sqrt(0.5), 0.0, math.sqrt(0.5))  # turns the arrow's x axis to the sole's z axis
+        ball = (1.5 * self._unit,) * 3
+        force = arrow(pose((x, y, 0.0), upwards), length, 0.6 * self._unit, (*_FORCE[:3], shown))
+        cop = sphere(pose((x, y, 0.0)), ball, (*_FORCE[:3], shown))
+        frame = f"sole_{side}"
+        return [
+            entity(f"taxels {side}", frame, *_taxels(layout, first)),
+            entity(f"CoP {side}", frame, cop, force),
+        ]
+
+    def _sole_values(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The values (m, k) of the slots of `_sole` of the forces (m, n) of both soles in N."""
+        forces = np.nan_to_num(rows)
+        places = np.clip(forces / self._full * len(self._colours), 0, len(self._colours) - 1).astype(np.intp)
+        values = [self._colours[places].reshape(len(rows), -1)]
+        split = np.split(forces, [len(self._layouts["left"])], axis=1)
+        for side, force in zip(SIDES, split, strict=True):
+            total = force.sum(axis=1, keepdims=True).clip(min=0.0)
+            cop = force @ self._layouts[side].positions[:, :2] / np.where(total > 0.0, total, np.inf)
+            values.append(np.hstack([cop, total * self._metres, total > 0.0]))
+        return np.hstack(values)
+
+    def _balance_template(self) -> Template:
+        """CoM, ZMP and polygon: slots 0 to 2 the CoM, 3 to 6 the ZMP and its opacity, then the corners and theirs."""
+        com = sphere(pose([Slot(i) for i in range(3)]), (2.0 * self._unit,) * 3, _COM)
+        zmp = sphere(pose([Slot(i) for i in range(3, 6)]), (1.2 * self._unit,) * 3, (*_ZMP, Slot(6)))
+        corners = [[Slot(7 + 3 * i + j) for j in range(3)] for i in range(_CORNERS)]
+        ring = line_loop(corners, 0.3 * self._unit, (*_POLYGON[:3], Slot(7 + 3 * _CORNERS)))
+        return Template(
+            entity("CoM", "world", com, locked=False),
+            entity("ZMP", "world", zmp, locked=False),
+            entity("support polygon", "world", ring, locked=False),
+        )
+
+    def _balance_values(self, truth: GroundTruth) -> NDArray[np.float64]:
+        world = self._world
+        data = world.data
+        loads = {side: float(data.sensordata[world.touch[side]]) for side in SIDES}
+        ground = float(data.site_xpos[world.sole_sites[max(SIDES, key=lambda side: loads[side])], 2])
+        out = np.zeros(8 + 3 * _CORNERS)
+        out[:3] = data.subtree_com[world.torso]
+        if truth.zmp is not None:
+            out[3:7] = *truth.zmp, ground, 1.0
+        if len(truth.polygon) > 2:
+            corners = truth.polygon[np.linspace(0, len(truth.polygon) - 1, _CORNERS).round().astype(int)]
+            out[7:-1] = np.column_stack([corners, np.full(_CORNERS, ground)]).ravel()
+            out[-1] = 1.0
+        return out
+
+    def _footsteps(self, plan: PlanView, step: int) -> Template:
+        """The planned footsteps about the current one, with their numbers; those before are gone."""
+        last = plan.first + len(plan.steps)
+        chosen = range(max(plan.first, step - _BEHIND), min(last, step + _AHEAD + 1))
+        wanted = [(k, plan.foothold(k)) for k in chosen]
+        drawn = self._drawn_steps
+        self._drawn_steps = {step: drawn.get(step) or self._footstep(*step) for step in wanted}
+        return Template(delete_all(), *self._drawn_steps.values())
+
+    def _footstep(self, number: int, foot: Footstep) -> Part:
+        outline = self._layouts[foot.side].outline
+        flat = np.column_stack([outline, np.full(len(outline), 0.1 * self._unit)])
+        corners = flat @ foot.rotation_sole_to_world.T + foot.position
+        colour = _SIDE_COLOURS[foot.side]
+        label = words(pose(tuple(foot.position.tolist())), str(number), 1.5 * self._unit, colour)
+        ring = line_loop(corners.tolist(), 0.2 * self._unit, colour)
+        return entity(f"footstep {number}", "world", ring, label, locked=False)
+
+
+def _taxels(layout: SoleLayout, first: int) -> list[Part]:
+    """A flat cylinder for each taxel, as wide as its cell; a viewer draws many of them at once, unlike polygons.
+
+    Args:
+        layout: The sole.
+        first: Slot of the first taxel's red; three a taxel.
+    """
+    parts = []
+    for i, corners in enumerate(layout.corners):
+        cell = layout.vertices[list(corners), :2]
+        low, high = cell.min(axis=0), cell.max(axis=0)
+        x, y = (0.5 * (low + high)).tolist()
+        a, b = (_CELL * (high - low)).tolist()
+        colour = (*(Slot(first + 3 * i + j) for j in range(3)), 1.0)
+        parts.append(cylinder(pose((x, y, float(layout.positions[i, 2]))), (a, b, _THICK), colour))
+    return parts
+
+
+def change_text(applied: AppliedChange) -> str:
+    """A change of the plan in a line: which step, why, and what became other than planned.
+
+    Args:
+        applied: The change.
+    """
+    change = applied.change
+    said = [f"step {change.step}: {change.reason}"]
+    known = [moved for moved in applied.moved if moved.before is not None]
+    for moved in known[:1]:
+        assert moved.before is not None
+        by = 1e3 * (moved.x - moved.before.x), 1e3 * (moved.y - moved.before.y)
+        said.append(f"footstep {moved.step} moved by {by[0]:+.0f} mm forward and {by[1]:+.0f} mm to the left")
+    if len(known) > 1:
+        said.append(f"{len(known) - 1} more footstep(s) after it")
+    if len(applied.moved) > len(known):
+        said.append(f"{len(applied.moved) - len(known)} new footstep(s)")
+    if change.vrp is not None:
+        said.append(f"VRP at ({change.vrp[0]:.3f}, {change.vrp[1]:.3f}) m")
+    if change.longer:
+        said.append(
+            f"single support {'longer' if change.longer > 0.0 else 'shorter'} by {1e3 * abs(change.longer):.0f} ms"
+        )
+    if applied.delay > 0.0:
+        said.append(f"double support longer by {1e3 * applied.delay:.0f} ms")
+    return "; ".join(said)

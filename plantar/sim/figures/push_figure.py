@@ -1,0 +1,204 @@
+"""Figures of a run in which somebody touches the robot, in the manner of K's Fig. 7, 8, 10, 13 and 14."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.plan.phases import PhaseKind
+from plantar.plotting import COLOURS, new_figure
+from plantar.recordings.recording import Recording
+from plantar.sides import SIDES
+
+__all__ = ["draw_partner", "draw_pushes", "draw_strides", "draw_swing"]
+
+_PUSHED = 0.01  # of the largest force: less is no push
+_AXES = ("x (forward)", "y (left)")
+_PARTNER = "#7b5ea7"
+_STEPS_A_PANEL = 6
+
+
+def draw_pushes(run: Recording) -> Any:
+    """CoM, DCM, VRP, ZMP and footsteps over time, beside the force that the skin felt (K Fig. 7 and 14).
+
+    Args:
+        run: A recording with "/touch".
+
+    Returns:
+        The figure.
+    """
+    figure, axes = new_figure(11.0, 7.0, 2, 1, sharex=True)
+    time = run.topics["/truth/body"].time
+    for i, axis in enumerate(axes):
+        axis.plot(time, _field(run, "/truth/body", "zmp")[:, i], color=COLOURS["truth"], lw=0.5, label="ZMP")
+        plan = run.topics["/reference"]  # whose ZMP is the VRP: it knows of no push
+        axis.plot(plan.time, plan.fields["zmp"][:, i], "--", color=COLOURS["reference"], lw=1.0, label="VRP, planned")
+        _draw_body(axis, run, i)
+        _draw_force(axis, run, i)
+    _finish(axes, [f"{name} [m]" for name in _AXES])
+    return figure
+
+
+def draw_swing(run: Recording) -> Any:
+    """The swing foot's path as it was commanded and as it was, over time (K Fig. 8).
+
+    Args:
+        run: A recording with "/touch".
+
+    Returns:
+        The figure.
+    """
+    figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
+    for side in SIDES:
+        true = run.topics[f"/truth/{side}"]
+        for i, axis in enumerate(axes):
+            axis.plot(true.time, true.fields["position"][:, i], color=COLOURS[side], lw=1.4, label=f"{side}, true")
+            wanted = run.topics["/feet"]
+            axis.plot(wanted.time, wanted.fields[side][:, i], "--", color="black", lw=0.7, label=f"{side}, commanded")
+    for axis in axes:
+        for begin, end in _pushed_spans(run):
+            axis.axvspan(begin, end, color=COLOURS["active"], alpha=0.25, lw=0)
+    _finish(axes, [f"{name} [m]" for name in (*_AXES, "z (up)")])
+    return figure
+
+
+def draw_partner(run: Recording) -> Any:
+    """Robot and partner: their ways, the force between them, and how long supports lasted (K Fig. 10).
+
+    Args:
+        run: A recording with "/partner".
+
+    Returns:
+        The figure.
+    """
+    figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
+    _draw_body(axes[0], run, 0)
+    partner = run.topics["/partner"]
+    axes[1].plot(partner.time, -partner.fields["moved"][:, 0], color=_PARTNER, label="partner")
+    axes[1].plot(partner.time, -partner.fields["reference"][:, 0], "--", color=COLOURS["reference"], label="reference")
+    axes[1].legend(ncol=2, fontsize=8, loc="upper left")
+    force = axes[1].twinx()
+    force.fill_between(partner.time, partner.fields["force"][:, 0], color=COLOURS["active"], alpha=0.4, lw=0)
+    force.set_ylabel("force on its hand [N]")
+    for kind, name, mark in ((PhaseKind.SINGLE_SUPPORT, "SSP", "o"), (PhaseKind.DOUBLE_SUPPORT, "DSP", "s")):
+        begins, lasts = _durations(run, kind)
+        axes[2].plot(begins, lasts, mark, ms=5, label=name)
+    axes[2].legend(ncol=2, fontsize=8)
+    _finish(axes, ("robot, x [m]", "partner, x [m]", "duration [s]"))
+    return figure
+
+
+def draw_strides(run: Recording) -> Any:
+    """Path of the CoM and footholds from above, six steps a panel, with the forces on the body (K Fig. 13).
+
+    Args:
+        run: A recording with "/touch".
+
+    Returns:
+        The figure.
+    """
+    step = _field(run, "/reference", "step")[:, 0]
+    rounds = (int(step.max()) + 1) // _STEPS_A_PANEL
+    columns = max(1, min(rounds, 4))
+    rows = max(1, -(-rounds // columns))
+    figure, axes = new_figure(3.4 * columns, 5.2 * rows, rows, columns, squeeze=False, sharex=True, sharey=True)
+    time, com = run.topics["/truth/body"].time, _field(run, "/truth/body", "com")[:, :2]
+    force, when = _field(run, "/touch", "force")[:, :2], run.topics["/touch"].time
+    largest = float(np.linalg.norm(force, axis=1).max(initial=0.0))
+    for k, axis in enumerate(axes.ravel()[:rounds]):
+        chosen = (step >= k * _STEPS_A_PANEL) & (step < (k + 1) * _STEPS_A_PANEL)
+        begin, end = time[chosen][0], time[chosen][-1]
+        for side in SIDES:
+            _draw_footholds(axis, run, side, begin, end)
+        axis.plot(com[chosen, 1], com[chosen, 0], color=COLOURS["polygon"], lw=1.4, label="CoM")
+        pushed = np.flatnonzero((when >= begin) & (when <= end) & (np.linalg.norm(force, axis=1) > 0.2 * largest))
+        for i in pushed[::10]:
+            x, y = com[np.searchsorted(time, when[i])]
+            dx, dy = 0.12 * force[i] / largest
+            axis.annotate("", (y, x), (y - dy, x - dx), arrowprops={"arrowstyle": "-|>", "color": COLOURS["active"]})
+        axis.set_title(f"steps {k * _STEPS_A_PANEL} to {(k + 1) * _STEPS_A_PANEL - 1}", fontsize=9)
+        axis.set_aspect("equal")
+        axis.grid(alpha=0.3)
+        axis.set_xlabel("y (left) [m]")
+    axes[0, 0].invert_xaxis()  # left is to the left
+    axes[0, 0].set_ylabel("x (forward) [m]")
+    return figure
+
+
+def _draw_body(axis: Any, run: Recording, i: int) -> None:
+    """DCM and CoM over time along an axis, and the feet while they stand."""
+    time = run.topics["/truth/body"].time
+    axis.plot(time, _field(run, "/estimate", "dcm")[:, i], color=COLOURS["active"], lw=1.0, label="DCM")
+    axis.plot(time, _field(run, "/truth/body", "com")[:, i], color=COLOURS["polygon"], lw=1.4, label="CoM")
+    for side in SIDES:
+        axis.plot(time, _standing(run, side)[:, i], color=COLOURS[side], lw=2.5, alpha=0.7, label=f"{side} foot")
+
+
+def _finish(axes: Any, names: Sequence[str]) -> None:
+    """Name the panels of a figure over time; what its first one shows stands above it."""
+    for axis, name in zip(axes, names, strict=True):
+        axis.set_ylabel(name)
+        axis.grid(alpha=0.3)
+    axes[0].legend(ncol=6, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    axes[-1].set_xlabel("time [s]")
+
+
+def _draw_footholds(axis: Any, run: Recording, side: Any, begin: float, end: float) -> None:
+    """Outlines of a foot where it stood within a while."""
+    topic = run.topics[f"/truth/{side}"]
+    outline = np.vstack([run.layouts[side].outline, run.layouts[side].outline[:1]])
+    force = topic.fields["normal_force"][:, 0]
+    loaded = np.concatenate([[0], (force > 0.4 * force.max()).astype(int), [0]])
+    for first, last in zip(np.flatnonzero(np.diff(loaded) == 1), np.flatnonzero(np.diff(loaded) == -1), strict=True):
+        i = (first + last) // 2
+        if begin <= topic.time[i] <= end:
+            turn = topic.fields["rotation"][i].reshape(3, 3)[:2, :2]
+            ring = outline @ turn.T + topic.fields["position"][i, :2]
+            axis.plot(ring[:, 1], ring[:, 0], color=COLOURS[side], lw=0.9)
+
+
+def _draw_force(axis: Any, run: Recording, i: int) -> None:
+    """The force that the skin felt along an axis, and the true one, on a scale of their own."""
+    touch = run.topics["/touch"]
+    other = axis.twinx()
+    other.fill_between(touch.time, touch.fields["felt"][:, i], color=COLOURS["active"], alpha=0.45, lw=0)
+    other.plot(touch.time, touch.fields["force"][:, i], color=COLOURS["right"], lw=0.5)
+    largest = max(1.0, float(np.abs(touch.fields["force"]).max(initial=0.0)))
+    other.set_ylim(-2.5 * largest, 2.5 * largest)
+    other.set_ylabel("force felt by the skin [N]\n(line: true)", fontsize=8)
+
+
+def _pushed_spans(run: Recording) -> list[tuple[float, float]]:
+    """When somebody pushed, in s."""
+    touch = run.topics["/touch"]
+    force = np.linalg.norm(touch.fields["force"], axis=1)
+    on = np.concatenate([[0], (force > _PUSHED * max(float(force.max(initial=0.0)), 1e-9)).astype(int), [0]])
+    edges = np.diff(on)
+    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
+    return [(float(touch.time[a]), float(touch.time[b])) for a, b in zip(starts, ends, strict=True)]
+
+
+def _standing(run: Recording, side: Any) -> NDArray[np.float64]:
+    """Where a foot is (n, 2) in m while it stands; NaN while it does not."""
+    topic = run.topics[f"/truth/{side}"]
+    force = topic.fields["normal_force"][:, 0]
+    place = np.array(topic.fields["position"][:, :2], dtype=float)
+    place[force < 0.05 * force.max()] = np.nan
+    return place
+
+
+def _durations(run: Recording, kind: PhaseKind) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """When the supports of a kind began, and how long they lasted, in s."""
+    topic = run.topics["/reference"]
+    phases = topic.fields["phase"][:, 0]
+    starts = np.flatnonzero(np.diff(phases, prepend=-1.0))
+    ends = np.append(topic.time[starts[1:]], topic.time[-1])
+    chosen = phases[starts] == kind
+    return topic.time[starts][chosen], (ends - topic.time[starts])[chosen]
+
+
+def _field(run: Recording, topic: str, name: str) -> NDArray[np.float64]:
+    return np.asarray(run.topics[topic].fields[name])

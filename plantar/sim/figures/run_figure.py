@@ -1,0 +1,151 @@
+"""Figures of a run, drawn from its recording: balance over time, the walk in the plane, forces and foot heights."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.recordings.recording import Recording, read_mcap
+from plantar.sides import SIDES
+from plantar.sim.figures.foothold_figure import draw_footholds
+from plantar.sim.figures.guide_figure import draw_guide
+from plantar.sim.figures.push_figure import draw_partner, draw_pushes, draw_strides, draw_swing
+from plantar.sim.figures.zmp_figure import draw_zmp_plane, draw_zmps
+
+__all__ = ["plot_landing_forces", "plot_run"]
+
+
+def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path]:
+    """Draw a run's figures.
+
+    Args:
+        recording: MCAP file of a run, or what was read from it.
+        folder: Folder to write to; it must exist.
+
+    Returns:
+        The files: balance.png, plane.png, feet.png, and footholds.png where footholds were looked at, zmp.png and
+        zmp_plane.png where the robot has force-torque sensors at its ankles, pushes.png, swing.png and strides.png
+        where somebody touched it, partner.png where that was a mobile robot, guide.png where it was a hand that leads.
+    """
+    run = recording if isinstance(recording, Recording) else read_mcap(recording)
+    folder = Path(folder)
+    drawn = {"balance": _balance(run), "plane": _plane(run), "feet": _feet(run)}
+    if "/foothold" in run.topics and len(run.topics["/foothold"].time):
+        drawn["footholds"] = draw_footholds(run)
+    if "/zmp" in run.topics and len(run.topics["/zmp"].time):
+        drawn |= {"zmp": draw_zmps(run), "zmp_plane": draw_zmp_plane(run)}
+    if "/touch" in run.topics and len(run.topics["/touch"].time):
+        drawn |= {"pushes": draw_pushes(run), "swing": draw_swing(run), "strides": draw_strides(run)}
+    if "/partner" in run.topics and len(run.topics["/partner"].time):
+        drawn["partner"] = draw_partner(run)
+    if "/guide" in run.topics and len(run.topics["/guide"].time):
+        drawn["guide"] = draw_guide(run)
+    return [save_figure(figure, folder / f"{name}.png") for name, figure in drawn.items()]
+
+
+def plot_landing_forces(recordings: Mapping[str, str | Path | Recording], path: str | Path) -> Path:
+    """Draw the ground force on each foot over time, one panel a run, for comparison (T Fig. 51 and 55).
+
+    Args:
+        recordings: Runs by what shall stand beside their panels.
+        path: PNG to write.
+
+    Returns:
+        The file.
+
+    Raises:
+        InputError: If there is no run.
+    """
+    if not recordings:
+        raise InputError("no runs to compare; name at least one")
+    figure, axes = new_figure(8.0, 1.0 + 1.7 * len(recordings), len(recordings), 1, sharex=True, sharey=True)
+    panels = [axes] if len(recordings) == 1 else list(axes)
+    for axis, (name, recording) in zip(panels, recordings.items(), strict=True):
+        run = recording if isinstance(recording, Recording) else read_mcap(recording)
+        for side in SIDES:
+            topic = f"/truth/{side}"
+            force = _field(run, topic, "normal_force")[:, 0]
+            axis.plot(run.topics[topic].time, force, color=COLOURS[side], lw=0.7, label=side)
+        axis.set_ylabel(f"{name}\nground force [N]")
+        axis.grid(alpha=0.3)
+    panels[0].legend(fontsize=8, ncol=2)
+    panels[-1].set_xlabel("time [s]")
+    return save_figure(figure, Path(path))
+
+
+def _field(run: Recording, topic: str, name: str) -> NDArray[np.float64]:
+    return np.asarray(run.topics[topic].fields[name])
+
+
+def _balance(run: Recording) -> Any:
+    figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
+    time = run.topics["/truth/body"].time
+    for axis, i, name in zip(axes[:2], (0, 1), ("x (forward)", "y (left)"), strict=True):
+        axis.plot(time, _field(run, "/reference", "zmp")[:, i], color=COLOURS["reference"], label="VRP reference")
+        axis.plot(time, _field(run, "/reference", "zmp_desired")[:, i], color=COLOURS["active"], label="ZMP desired")
+        axis.plot(time, _field(run, "/truth/body", "zmp")[:, i], color=COLOURS["truth"], lw=0.8, label="ZMP true")
+        axis.plot(time, _field(run, "/reference", "dcm")[:, i], "--", color=COLOURS["right"], label="DCM reference")
+        axis.plot(time, _field(run, "/estimate", "dcm")[:, i], color=COLOURS["right"], label="DCM estimated")
+        axis.plot(time, _field(run, "/reference", "com")[:, i], "--", color=COLOURS["left"], label="CoM reference")
+        axis.plot(time, _field(run, "/truth/body", "com")[:, i], color=COLOURS["left"], label="CoM true")
+        axis.set_ylabel(f"{name} [m]")
+        axis.grid(alpha=0.3)
+    axes[0].legend(ncol=4, fontsize=8)
+    tilt = np.degrees(np.arccos(np.clip(_field(run, "/truth/body", "rotation")[:, 8], -1.0, 1.0)))
+    axes[2].plot(time, tilt, color=COLOURS["truth"], label="torso tilt [deg]")
+    margin = 100.0 * _field(run, "/truth/body", "zmp_margin")[:, 0]
+    axes[2].plot(time, margin, color=COLOURS["polygon"], lw=0.8, label="true ZMP margin [cm]")
+    axes[2].set_xlabel("time [s]")
+    axes[2].set_ylabel("deg, cm")
+    axes[2].grid(alpha=0.3)
+    axes[2].legend(fontsize=8)
+    return figure
+
+
+def _plane(run: Recording) -> Any:
+    figure, axis = new_figure(11.0, 4.0)
+    for side in SIDES:
+        layout = run.layouts[side]
+        position = _field(run, f"/truth/{side}", "position")
+        rotation = _field(run, f"/truth/{side}", "rotation").reshape(-1, 3, 3)
+        force = _field(run, f"/truth/{side}", "normal_force")[:, 0]
+        loaded = (force > 0.4 * force.max()).astype(int)
+        starts = np.flatnonzero(np.diff(np.concatenate([[0], loaded])) == 1)
+        for n, i in enumerate(starts):
+            ring = layout.outline @ rotation[i, :2, :2].T + position[i, :2]
+            ring = np.vstack([ring, ring[:1]])
+            axis.plot(*ring.T, color=COLOURS[side], lw=0.8, label=f"{side} foothold" if n == 0 else None)
+    axis.plot(*_field(run, "/truth/body", "zmp").T, color=COLOURS["truth"], lw=0.7, label="ZMP true")
+    axis.plot(*_field(run, "/estimate", "dcm").T, color=COLOURS["active"], lw=1.0, label="DCM estimated")
+    axis.plot(*_field(run, "/truth/body", "com")[:, :2].T, color=COLOURS["polygon"], lw=1.4, label="CoM true")
+    axis.set_aspect("equal")
+    axis.set_xlabel("x [m]")
+    axis.set_ylabel("y [m]")
+    axis.legend(ncol=5, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.25))
+    axis.grid(alpha=0.3)
+    return figure
+
+
+def _feet(run: Recording) -> Any:
+    figure, axes = new_figure(11.0, 5.0, 2, 1, sharex=True)
+    for side in SIDES:
+        time = run.topics[f"/truth/{side}"].time
+        axes[0].plot(time, _field(run, f"/truth/{side}", "normal_force")[:, 0], color=COLOURS[side], lw=0.8, label=side)
+        skin = run.topics[f"/skin/{side}"]
+        axes[0].plot(skin.time, skin.fields["force"].sum(axis=1), color=COLOURS[side], lw=0.3, alpha=0.6)
+        axes[1].plot(
+            time, 1e3 * _field(run, f"/truth/{side}", "position")[:, 2], color=COLOURS[side], lw=0.9, label=side
+        )
+    axes[0].set_ylabel("ground force [N]\n(thin: sum of taxels)")
+    axes[1].set_ylabel("sole height [mm]")
+    axes[1].set_xlabel("time [s]")
+    for axis in axes:
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize=8)
+    return figure

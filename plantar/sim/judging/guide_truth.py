@@ -1,0 +1,107 @@
+"""What became of a robot that a hand led by its arm: how far the arm gave way, and how far the feet followed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sides import SIDES
+from plantar.sim.model.world import World
+
+__all__ = ["ASTRAY", "FOLLOWED", "YIELDED", "GuideTruth"]
+
+YIELDED = 0.15
+"""Share of the way by which the arm has to have given way, as the place where it is held moves against the trunk: the
+hand goes for some steps before the feet can follow."""
+
+FOLLOWED = 2 / 3
+"""Share of the way by which the feet have to have followed at the end: the rest is what the arm gives way by while the
+force on it is too small to move a step."""
+
+ASTRAY = 0.5
+"""Share of the way by which the feet may have gone to a side at the end. Skin pushes along its normal: on a forearm
+that yields, and so turns by up to 25 degrees about the vertical, as much as tan(25 deg) of the force goes aside."""
+
+
+class GuideTruth:
+    """Follows arm and feet of a robot that is led.
+
+    Args:
+        world: The world.
+        link: Link of the arm that is held.
+        point: Point (3,) in its frame in m at which it is held.
+        joints: Names of the arm's joints.
+        posture: Their angles (k,) in rad while nobody moves the arm.
+        way: How far the hand goes in m, along the world's x axis: negative backward.
+        starts: Time in s from which it goes.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        link: str,
+        point: NDArray[np.float64],
+        joints: Sequence[str],
+        posture: NDArray[np.float64],
+        way: float,
+        starts: float,
+    ) -> None:
+        self._world, self._point, self._posture = world, point, posture
+        self._link = int(world.model.body(link).id)
+        self._base = int(world.model.body_rootid[self._link])
+        self._places = np.array([int(world.model.joint(name).qposadr[0]) for name in joints])
+        self._way, self._sign, self._starts = abs(way), math.copysign(1.0, way), starts
+        self._from: tuple[float, float, float] | None = None
+        self.yielded = self.followed = self.astray = self.turned = 0.0
+
+    def update(self) -> None:
+        """Look at arm and feet: at each control tick."""
+        data = self._world.data
+        held = data.xpos[self._link] + data.xmat[self._link].reshape(3, 3) @ self._point
+        trunk = data.xmat[self._base].reshape(3, 3)
+        # In the trunk's frame: a trunk that turns is no arm that yields.
+        ahead = self._sign * float(trunk[:, 0] @ (held - data.xpos[self._base]))
+        x, y, _ = np.mean([data.site_xpos[self._world.sole_sites[side]] for side in SIDES], axis=0).tolist()
+        if self._from is None or float(data.time) < self._starts:
+            self._from = (ahead, x, y)
+            return
+        self.yielded = max(self.yielded, ahead - self._from[0])
+        self.followed, self.astray = self._sign * (x - self._from[1]), abs(y - self._from[2])
+        self.turned = max(self.turned, float(np.abs(data.qpos[self._places] - self._posture).max()))
+
+    def reasons(self) -> list[dict[str, Any]]:
+        """Criteria that failed.
+
+        Returns:
+            As `plantar.sim.judging.verdict.reasons` gives them.
+        """
+        found = []
+        for name, what, value, share in (
+            ("yielded", "the arm gave way by", self.yielded, YIELDED),
+            ("followed", "the feet followed", self.followed, FOLLOWED),
+        ):
+            limit = share * self._way
+            if not value >= limit:
+                text = f"{what} {value:.3f} m; a hand that goes {self._way:.3f} m asks for {limit:.3f} m"
+                found.append({"criterion": name, "value": round(value, 4), "limit": round(limit, 4), "text": text})
+        limit = ASTRAY * self._way
+        if not self.astray <= limit:
+            text = f"the feet went {self.astray:.3f} m to a side; allowed: {limit:.3f} m on a way of {self._way:.3f} m"
+            found.append(
+                {"criterion": "astray", "value": round(self.astray, 4), "limit": round(limit, 4), "text": text}
+            )
+        return found
+
+    def summary(self) -> dict[str, Any]:
+        """How far the arm gave way at most along the way in m, how far the feet had followed along it and gone to a
+        side at the end in m, and the largest turn of a joint of the arm out of its posture in degrees."""
+        return {
+            "arm_yielded_m": round(self.yielded, 4),
+            "feet_followed_m": round(self.followed, 4),
+            "feet_astray_m": round(self.astray, 4),
+            "arm_turned_deg": round(math.degrees(self.turned), 2),
+        }

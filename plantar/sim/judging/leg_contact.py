@@ -1,0 +1,53 @@
+"""Does one leg touch the other."""
+
+from __future__ import annotations
+
+from plantar.sides import SIDES
+from plantar.sim.model.world import World
+from plantar.sim.robots.leg_shapes import COLLIDES
+
+__all__ = ["LegContact", "legs_that_touch"]
+
+
+def legs_that_touch(world: World) -> tuple[str, str] | None:
+    """Names of the left leg's and the right leg's link that touch each other now, of the first such contact.
+
+    Args:
+        world: The world.
+    """
+    model = world.model
+    for pair in world.data.contact.geom.tolist():
+        sides = {int(model.geom_contype[g]): g for g in pair if g >= 0}
+        found = [sides.get(COLLIDES[side][0]) for side in SIDES]
+        if None not in found:
+            left, right = (model.body(int(model.geom_bodyid[g])).name for g in found)
+            return left or "left leg", right or "right leg"
+    return None
+
+
+class LegContact:
+    """Follows whether a sole or leg touches the other one.
+
+    Args:
+        world: The world.
+
+    Attributes:
+        duration: For how long in s they touched, in all.
+        first: When they did first in s, and the names of both links.
+    """
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._sensed, self._address = world.data.sensordata, world.leg_contact
+        self.duration = 0.0
+        self.first: tuple[float, str, str] | None = None
+
+    def step(self) -> None:
+        """After each physics step."""
+        if not self._sensed.item(self._address) > 0.0:
+            return
+        self.duration += self._world.period
+        if self.first is None:
+            links = legs_that_touch(self._world)
+            if links is not None:
+                self.first = (float(self._world.data.time), *links)

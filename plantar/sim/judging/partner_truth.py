@@ -1,0 +1,29 @@
+"""What became of a robot and the partner before it: who moved whom, and how far."""
+
+from __future__ import annotations
+
+from typing import Any
+
+__all__ = ["LED", "partner_reasons"]
+
+LED = 0.5
+"""Share of its planned way that a robot which leads has to have moved its partner by: the rest is lost to the gap
+before they touch and to a partner that swings back towards where it rests."""
+
+
+def partner_reasons(role: str, way: float, moved: float) -> list[dict[str, Any]]:
+    """Criteria that failed of a robot with a partner.
+
+    Args:
+        role: What the partner is: of a "leader" nothing is asked beside a completed walk.
+        way: How far the robot was to walk towards it in m.
+        moved: How far the partner came towards the robot in m; negative for one that was pushed back.
+
+    Returns:
+        As `plantar.sim.judging.verdict.reasons` gives them.
+    """
+    needed = LED * way
+    if role == "leader" or -moved >= needed:
+        return []
+    text = f"the partner was led {-moved:.3f} m; a walk of {way:.3f} m towards it needs {needed:.3f} m"
+    return [{"criterion": "led", "value": round(-moved, 4), "limit": round(needed, 4), "text": text}]

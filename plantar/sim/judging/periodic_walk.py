@@ -1,0 +1,142 @@
+"""A walk that repeats itself, as the pendulum has it: where DCM and feet are when a push comes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.mechanics.easing import minimum_jerk
+from plantar.sides import Side
+from plantar.sim.judging.capture_limit import CaptureLimits, Instant, capture_limit, mirrored
+
+__all__ = ["PeriodicWalk", "capture_map"]
+
+
+@dataclass(frozen=True)
+class PeriodicWalk:
+    """Steps of one length and one duration, or steps in place. A step begins with its double support.
+
+    Attributes:
+        omega: Pendulum frequency in rad/s.
+        length: How far a foot lands ahead of the other one in m; 0 in place.
+        width: Distance in m between the feet's lines.
+        single: Duration of a single support in s, above 0.
+        double: Duration of a double support in s, 0 or more; the ZMP goes over at one speed.
+        zmp: Where the ZMP lies under the left foot alone (2,) in m; under the right one it is the mirror image.
+
+    Raises:
+        InputError: If a duration or the frequency is out of its range.
+
+    Example:
+        >>> walk = PeriodicWalk(3.5, 0.0, 0.2, 0.5, 0.1)
+        >>> walk.instant(0.5).dcm.round(4).tolist()
+        [0.0, -0.0526]
+    """
+
+    omega: float
+    length: float
+    width: float
+    single: float
+    double: float
+    zmp: tuple[float, float] = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        if not (self.omega > 0.0 and self.single > 0.0 and self.double >= 0.0):
+            raise InputError(
+                f"omega, single and double are {self.omega}, {self.single} and {self.double}; "
+                "allowed: above 0, above 0, 0 or more"
+            )
+
+    def instant(self, phase: float, side: Side = "left") -> Instant:
+        """The walk at a phase of a step.
+
+        Args:
+            phase: Share of the step that is over, 0 to 1: first its double support, then its single one.
+            side: Which foot stands in its single support.
+
+        Returns:
+            DCM and feet.
+
+        Raises:
+            InputError: If the phase is out of its range.
+        """
+        if not 0.0 <= phase <= 1.0:
+            raise InputError(f"phase of a step is {phase}; allowed: 0 to 1")
+        flip = np.array((1.0, 1.0 if side == "left" else -1.0))
+        time = phase * (self.single + self.double)
+        before = np.array((-self.length, -self.width))
+        if time < self.double:
+            dcm, swing, elapsed, left = self._swayed(time), before, 0.0, self.double - time
+            velocity = np.zeros(2)
+        else:
+            elapsed, left = time - self.double, 0.0
+            zmp = np.array(self.zmp)
+            dcm = zmp + math.exp(self.omega * elapsed) * (self._begin() - zmp)
+            after = np.array((self.length, -self.width))
+            share, rate = minimum_jerk(elapsed / self.single)
+            swing, velocity = before + share * (after - before), rate / self.single * (after - before)
+        return Instant(side, dcm * flip, swing * flip, elapsed, left, velocity * flip)
+
+    def _begin(self) -> NDArray[np.float64]:
+        """DCM (2,) when the left foot's single support begins, from that foot, that repeats itself a step later.
+
+        A step later it is the same from the right foot, with y turned round.
+        """
+        zmp, step = np.array(self.zmp), np.array((self.length, -self.width))
+        last = step + mirrored(self.zmp)
+        w = self.omega
+        by_single, by_double = math.exp(w * self.single), math.exp(w * self.double)
+        # Over both supports xi_a becomes fixed + grown xi_a, and less the step that is xi_a with y turned round.
+        fixed = by_double * zmp * (1.0 - by_single)
+        if self.double > 0.0:
+            ahead = (last - zmp) / (self.double * w)
+            fixed += last + ahead - by_double * (zmp + ahead)
+        return np.asarray((step - fixed) / (by_single * by_double - np.array((1.0, -1.0))))
+
+    def _swayed(self, time: float) -> NDArray[np.float64]:
+        """DCM (2,) in the double support before, from the left foot, which is about to stand alone."""
+        first = np.array((-self.length, -self.width)) + mirrored(self.zmp)
+        speed = (np.array(self.zmp) - first) / self.double
+        now, end = first + speed * time, np.array(self.zmp)
+        back = math.exp(self.omega * (time - self.double))
+        return np.asarray(now + speed / self.omega + back * (self._begin() - end - speed / self.omega))
+
+
+def capture_map(
+    limits: CaptureLimits, walk: PeriodicWalk, directions: int = 8, phases: int = 8, side: Side = "left"
+) -> NDArray[np.float64]:
+    """The largest push that is captured, in all directions and phases of a step.
+
+    Args:
+        limits: What the robot can do.
+        walk: Its walk; of the same frequency.
+        directions: How many directions, from forward to the left and round.
+        phases: How many phases, from the begin of a step's double support on.
+        side: Which foot stands in the step's single support.
+
+    Returns:
+        Impulses (phases, directions) in N s.
+
+    Raises:
+        InputError: If the frequencies differ.
+
+    Example:
+        >>> box = np.array([[-0.1, -0.04], [0.1, -0.04], [0.1, 0.04], [-0.1, 0.04]])
+        >>> beside = np.array([[-0.3, 0.15], [0.3, 0.15], [0.3, 0.4], [-0.3, 0.4]])
+        >>> robot = CaptureLimits(50.0, 3.5, box, beside, 0.4, 0.8, 0.1, swing_speed=1.5, steps=1)
+        >>> capture_map(robot, PeriodicWalk(3.5, 0.0, 0.2, 0.5, 0.1), directions=4, phases=2).round(1).tolist()
+        [[26.6, 15.7, 26.6, 33.3], [43.6, 16.2, 43.6, 32.6]]
+    """
+    if walk.omega != limits.omega:
+        raise InputError(f"pendulum frequency of the walk is {walk.omega} rad/s, that of the limits {limits.omega}")
+    angles = 2.0 * math.pi * np.arange(directions) / directions
+    return np.array(
+        [
+            [capture_limit(limits, walk.instant(k / phases, side), (math.cos(a), math.sin(a))).impulse for a in angles]
+            for k in range(phases)
+        ]
+    )

@@ -1,0 +1,278 @@
+"""What pushes on the upper body truly did: which steps they changed, and how the CoM was accelerated.
+
+A step is compared by the way from the foot that stood to the foot that landed, against that way as planned at the
+start: what dead reckoning or an earlier change moved along with both feet is no change of this step.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gravity import GRAVITY
+from plantar.sides import Side, other_side
+from plantar.sim.judging.step_count import Stand
+
+__all__ = ["AGREEMENT", "CHANGED", "PushTruth", "Pushed", "Stride", "step_changes", "strides"]
+
+CHANGED = 1 / 20
+"""Distance in leg lengths by which a step has to be off its plan to count as changed: 30 mm for H1. A swing foot that
+is not aimed anew lands up to 25 mm off while a push that the ankles hold shakes the body."""
+
+AGREEMENT = 0.1
+"""Largest difference, as a share, of the CoM's measured acceleration from the predicted one."""
+
+_AFTER = 3  # steps after the one that a push falls into that it may still change
+_LEAST_FORCE = 0.001  # weight: below, nobody pushes
+
+
+class Pushed(NamedTuple):
+    """A push for the judge.
+
+    Attributes:
+        step: Step that it fell into.
+        start: When it began in s.
+        end: When it ended in s.
+        impulse: True impulse (2,) in N s.
+        small: Whether the steps are to be kept at it.
+    """
+
+    step: int
+    start: float
+    end: float
+    impulse: NDArray[np.float64]
+    small: bool
+
+
+class Stride(NamedTuple):
+    """The way of a foot with one step.
+
+    Attributes:
+        true: From where it stood to where it stood next (x, y) in m.
+        planned: The same as planned at the start.
+    """
+
+    true: tuple[float, float]
+    planned: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class _Sample:
+    """An instant while somebody pushed."""
+
+    time: float
+    com: NDArray[np.float64]
+    zmp: NDArray[np.float64]
+    force: NDArray[np.float64]
+    above: float
+
+
+def step_changes(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: Sequence[Footstep]) -> list[float]:
+    """How far each step came to be from its plan, by the way from foot to foot.
+
+    Args:
+        stands: The stands of the feet in order, sides in turn.
+        feet: Where the feet stood at the start.
+        steps: The footsteps as planned at the start.
+
+    Returns:
+        Distances in m of the steps that were taken, in order; they end where the feet no longer came in their turn.
+    """
+    found: list[float] = []
+    planned: dict[Side, Footstep] = dict(feet)
+    true: dict[Side, tuple[float, float]] = {side: (foot.x, foot.y) for side, foot in feet.items()}
+    for stand, step in zip(stands, steps, strict=False):
+        if stand.side != step.side or stand.place is None:
+            break
+        other = other_side(step.side)
+        way = (stand.place[0] - true[other][0], stand.place[1] - true[other][1])
+        asked = (step.x - planned[other].x, step.y - planned[other].y)
+        found.append(math.dist(way, asked))
+        planned[step.side], true[step.side] = step, stand.place[:2]
+    return found
+
+
+def strides(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: Sequence[Footstep]) -> list[Stride]:
+    """The way that each foot went with its step.
+
+    Args:
+        stands: The stands of the feet in order, sides in turn.
+        feet: Where the feet stood at the start.
+        steps: The footsteps as planned at the start.
+
+    Returns:
+        The strides in order; they end where the feet no longer came in their turn.
+    """
+    found: list[Stride] = []
+    planned: dict[Side, Footstep] = dict(feet)
+    true: dict[Side, tuple[float, float]] = {side: (foot.x, foot.y) for side, foot in feet.items()}
+    for stand, step in zip(stands, steps, strict=False):
+        if stand.side != step.side or stand.place is None:
+            break
+        (x, y), before = true[step.side], planned[step.side]
+        way = (stand.place[0] - x, stand.place[1] - y)
+        found.append(Stride(way, (step.x - before.x, step.y - before.y)))
+        planned[step.side], true[step.side] = step, stand.place[:2]
+    return found
+
+
+class PushTruth:
+    """Follows a run in which somebody pushes.
+
+    Args:
+        mass: Mass of the robot in kg.
+        leg: Length of its legs in m.
+        stride: Time in s from a step to the next one of the same foot; 0 for a robot that stands.
+    """
+
+    def __init__(self, mass: float, leg: float, stride: float = 0.0) -> None:
+        self._mass, self._leg, self._stride = mass, leg, stride
+        self._samples: list[_Sample] = []
+
+    def update(
+        self, time: float, com: NDArray[np.float64], zmp: NDArray[np.float64] | None, wrench: NDArray[np.float64]
+    ) -> None:
+        """At each control tick.
+
+        Args:
+            time: Time in s.
+            com: True CoM (3,) in m.
+            zmp: True ZMP (2,) in m; None without load.
+            wrench: True wrench (6,) of who pushes, about the world's origin, in N and N m.
+        """
+        if zmp is None:
+            return
+        x, y = wrench[:2].tolist()
+        strength = math.hypot(x, y)
+        above = 0.0
+        if strength > _LEAST_FORCE * self._mass * GRAVITY:
+            # Height of the line of action along the push: moment about the CoM's horizontal axes over the force.
+            moment = wrench[3:] - np.cross(com, wrench[:3])
+            above = float(moment[1] * x - moment[0] * y) / strength**2
+        self._samples.append(_Sample(time, com.copy(), np.array(zmp), np.array([x, y]), above))
+
+    def accelerations(self, pushes: Sequence[Pushed]) -> list[dict[str, float]]:
+        """What each push gave the CoM beside what the ground gave it, against what the model of K says.
+
+        For a body that is kept upright, m h com'' = m g (com - zmp) + F (h + d) for a horizontal force F that acts d
+        above a CoM at height h (K 9-11, corrected). Integrated over the push, m dv less the ground's share has to be
+        the integral of F (1 + d / h); with the signs as they are printed it would be that of F (1 - d / h).
+
+        What legs and trunk swing with has angular momentum that the pendulum does not know: 1.2 N s in 0.24 s of H1's
+        steps in place, to the left or to the right. What it made a stride before, where nobody pushed, is taken off.
+
+        Args:
+            pushes: The pushes.
+
+        Returns:
+            For each "measured_Ns", "predicted_Ns", "printed_Ns" along it, "above_com_m", and "ratio" of the first two.
+        """
+        return [self._acceleration(push) for push in pushes]
+
+    def _acceleration(self, push: Pushed) -> dict[str, float]:
+        chosen = self._around(push.start, push.end)
+        nothing = dict.fromkeys(("measured_Ns", "predicted_Ns", "printed_Ns", "above_com_m", "ratio"), math.nan)
+        length = float(np.hypot(*push.impulse))
+        if len(chosen) < 4 or length == 0.0:
+            return nothing
+        way = push.impulse / length
+        before = self._around(push.start - self._stride, push.end - self._stride) if self._stride else []
+        walks = len(before) >= 4 and not any(s.force.any() for s in before)
+        measured = self._unexplained(chosen, way) - (self._unexplained(before, way) if walks else 0.0)
+        times, height = np.array([s.time for s in chosen]), np.array([s.com[2] for s in chosen])
+        force = np.array([s.force for s in chosen]) @ way
+        above = np.array([s.above for s in chosen])
+        predicted = float(np.trapezoid(force * (1.0 + above / height), times))
+        printed = float(np.trapezoid(force * (1.0 - above / height), times))
+        given = float(np.trapezoid(force, times))
+        return {
+            "measured_Ns": measured,
+            "predicted_Ns": predicted,
+            "printed_Ns": printed,
+            "above_com_m": float(np.trapezoid(force * above, times)) / given if given else math.nan,
+            "ratio": measured / predicted if predicted else math.nan,
+        }
+
+    def _around(self, start: float, end: float) -> list[_Sample]:
+        """The samples of some time, and of 20 ms before and after."""
+        return [s for s in self._samples if start - 0.02 <= s.time <= end + 0.02]
+
+    def _unexplained(self, chosen: Sequence[_Sample], way: NDArray[np.float64]) -> float:
+        """What the CoM gained along a way in N s beside what the ground gives a pendulum."""
+        times, com = np.array([s.time for s in chosen]), np.array([s.com for s in chosen])
+        along, zmp = com[:, :2] @ way, np.array([s.zmp for s in chosen]) @ way
+        speed = np.gradient(along, times)
+        ground = self._mass * GRAVITY * (along - zmp) / com[:, 2]
+        return float(self._mass * (speed[-2] - speed[1]) - np.trapezoid(ground[1:-1], times[1:-1]))
+
+    def steps_reasons(self, pushes: Sequence[Pushed], changes: Sequence[float]) -> list[dict[str, Any]]:
+        """Criteria that failed of a scene in which small pushes leave the steps alone and large ones change one.
+
+        Args:
+            pushes: The pushes in order.
+            changes: How far each step came to be from its plan in m (`step_changes`).
+
+        Returns:
+            As `plantar.sim.judging.verdict.reasons` gives them.
+        """
+        limit, found = CHANGED * self._leg, []
+        for i, push in enumerate(pushes):
+            until = pushes[i + 1].step if i + 1 < len(pushes) else push.step + _AFTER + 1
+            after = changes[push.step : min(until, push.step + _AFTER + 1)]
+            most = max(after, default=0.0)
+            impulse = float(np.hypot(*push.impulse))
+            told = {"value": round(most, 4), "limit": round(limit, 4)}
+            if push.small and most > limit:
+                text = f"{impulse:.1f} N s changed a step by {most:.3f} m; allowed: {limit:.3f} m at a small push"
+                found.append({"criterion": "steps_kept", **told, "text": text})
+            elif not push.small and most <= limit:
+                text = f"{impulse:.1f} N s changed no step by more than {most:.3f} m; a large push needs {limit:.3f} m"
+                found.append({"criterion": "stepped", **told, "text": text})
+        return found
+
+    def stride_reasons(self, pushes: Sequence[Pushed], ways: Sequence[Stride]) -> list[dict[str, Any]]:
+        """Criteria that failed of a scene in which each push makes its step longer.
+
+        Args:
+            pushes: The pushes.
+            ways: The strides (`strides`).
+
+        Returns:
+            As `plantar.sim.judging.verdict.reasons` gives them.
+        """
+        limit, reacted = CHANGED * self._leg, 0
+        for push in pushes:
+            if push.step < len(ways):
+                true, planned = (np.array(way) for way in ways[push.step])
+                along = push.impulse / max(float(np.hypot(*push.impulse)), 1e-9)
+                reacted += bool((true - planned) @ along > limit)
+        if reacted == len(pushes):
+            return []
+        text = f"{reacted} of {len(pushes)} pushed steps became longer along their push by {limit:.3f} m or more"
+        return [{"criterion": "strides", "value": reacted, "limit": len(pushes), "text": text}]
+
+    def acceleration_reasons(self, pushes: Sequence[Pushed]) -> list[dict[str, Any]]:
+        """Criteria that failed of a scene in which the CoM is to be accelerated as the model of K says.
+
+        Args:
+            pushes: The pushes.
+
+        Returns:
+            As `plantar.sim.judging.verdict.reasons` gives them.
+        """
+        found = []
+        for told in self.accelerations(pushes):
+            off = abs(told["ratio"] - 1.0)
+            if not off <= AGREEMENT:
+                text = (
+                    f"a push {told['above_com_m']:+.3f} m above the CoM gave it {told['measured_Ns']:.1f} N s beside "
+                    f"what the ground did, {told['predicted_Ns']:.1f} N s were predicted; allowed: {AGREEMENT:.0%} off"
+                )
+                found.append({"criterion": "com_acceleration", "value": off, "limit": AGREEMENT, "text": text})
+        return found

@@ -1,0 +1,93 @@
+"""How a standing robot takes pushes: how far its true ZMP goes, and when it stands still again."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.sim.model.shove import Shove
+
+__all__ = ["Recovery"]
+
+_ZMP_BACK = 0.025  # leg from the reference: nearer counts as back; 15 mm for H1
+_COM_BACK = 1 / 60  # leg
+_CALM = 2.02  # beats for which it has to stay: half a second
+
+
+class Recovery:
+    """Follows ZMP and CoM through pushes, by the simulator's truth.
+
+    Args:
+        shoves: The pushes in order.
+        end: Time in s at which the run ends.
+        body: How large the robot is.
+    """
+
+    def __init__(self, shoves: Sequence[Shove], end: float, body: BodyScale = REFERENCE_BODY) -> None:
+        self._body = body
+        self.shoves = tuple(shoves)
+        self._until = [s.start for s in self.shoves[1:]] + [end]
+        self._now = -1
+        self._off = [0.0] * len(self.shoves)
+        self._last_off = [s.start for s in self.shoves]  # last time at which it was not back yet
+        self._seen = [-math.inf] * len(self.shoves)
+
+    def update(
+        self,
+        time: float,
+        zmp: NDArray[np.float64] | None,
+        com: NDArray[np.float64],
+        reference_zmp: NDArray[np.float64],
+        reference_com: NDArray[np.float64],
+    ) -> None:
+        """At each control tick.
+
+        Args:
+            time: Time in s.
+            zmp: True ZMP (2,) in m, None where no foot carries.
+            com: True CoM (2,) in m.
+            reference_zmp: Planned ZMP (2,) in m.
+            reference_com: Planned CoM (2,) in m.
+        """
+        while self._now + 1 < len(self.shoves) and time >= self.shoves[self._now + 1].start:
+            self._now += 1
+        i = self._now
+        if i < 0:
+            return
+        self._seen[i] = time
+        off = math.inf if zmp is None else math.dist(zmp, reference_zmp)
+        if zmp is not None:
+            self._off[i] = max(self._off[i], off)
+        leg = self._body.leg
+        if off > _ZMP_BACK * leg or math.dist(com, reference_com) > _COM_BACK * leg:
+            self._last_off[i] = time
+
+    def summary(self) -> dict[str, Any]:
+        """Figures of all pushes: direction, impulse, largest ZMP deviation, and time from the push's end to rest.
+
+        Returns:
+            Numbers and lists for the run's summary; a push after which the robot did not come to rest has None.
+        """
+        pushes: list[dict[str, Any]] = []
+        for i, shove in enumerate(self.shoves):
+            back = self._seen[i] - self._last_off[i] >= _CALM * self._body.beat
+            x, y, _ = shove.impulse.tolist()
+            pushes.append(
+                {
+                    "time_s": round(shove.start, 3),
+                    "impulse_Ns": round(math.hypot(x, y), 2),
+                    "direction_deg": round(math.degrees(math.atan2(y, x)), 1),
+                    "zmp_off_max_m": round(self._off[i], 4),
+                    "recovered_s": round(max(0.0, self._last_off[i] - shove.end), 3) if back else None,
+                }
+            )
+        return {
+            "pushes": pushes,
+            "recovered": sum(p["recovered_s"] is not None for p in pushes),
+            "zmp_off_max_m": round(max(self._off, default=0.0), 4),
+        }

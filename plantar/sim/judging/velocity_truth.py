@@ -1,0 +1,114 @@
+"""How fast a robot truly walked against what it was told, and whether it stood still when it was told to."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.plan.phases import Timing
+from plantar.gait.propose.velocity_command import VelocityTable
+from plantar.sim.model.world import World
+
+__all__ = ["AT_REST", "SPEED_ERROR", "STEPS_TO_REST", "VelocityTruth"]
+
+SPEED_ERROR = 0.1
+"""Share of the commanded speed by which the mean speed may be off."""
+
+STEPS_TO_REST = 2
+"""Steps after which a robot that was told to stop stands."""
+
+AT_REST = 0.00824
+"""Speed of the CoM in legs a beat below which it stands: 0.02 m/s for H1."""
+
+
+class VelocityTruth:
+    """Follows a walk at commanded velocities.
+
+    The robot's way is taken in the frame of its torso's heading, from the first lift-off of a walk on, and compared
+    with the command that held one step before: a foot in the air goes where it was going to.
+
+    Args:
+        world: The world.
+        table: The commands over time.
+        timing: Durations of the walk's phases.
+    """
+
+    def __init__(self, world: World, table: VelocityTable, timing: Timing) -> None:
+        self._world = world
+        self._table = table
+        self._delay = timing.single_support + timing.double_support
+        self._shift = timing.start
+        self._last: tuple[float, NDArray[np.float64], float] | None = None
+        self._way = [0.0, 0.0]  # along the command, and as commanded, in m
+        self._turn = [0.0, 0.0]  # the same in rad
+        self._speed = 0.0
+        self._walks_from = math.inf
+
+    def update(self, time: float) -> None:
+        """At each control tick.
+
+        Args:
+            time: Time in s.
+        """
+        world, data = self._world, self._world.data
+        com = data.subtree_com[world.torso, :2].copy()
+        heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
+        last, self._last = self._last, (time, com, heading)
+        if last is None or time <= last[0]:
+            return
+        period, (dx, dy) = time - last[0], (com - last[1]).tolist()
+        self._speed += 0.05 * (math.hypot(dx, dy) / period - self._speed)
+        command = self._table.at(time - self._delay)
+        if command is None:
+            self._walks_from = time + self._shift - self._delay
+        if command is None or time < self._walks_from:
+            return
+        c, s = math.cos(heading), math.sin(heading)
+        wanted = math.hypot(command.forward, command.left)
+        if wanted > 0.0:
+            self._way[0] += (command.forward * (c * dx + s * dy) + command.left * (c * dy - s * dx)) / wanted
+            self._way[1] += wanted * period
+        if command.turn != 0.0:
+            self._turn[0] += math.copysign(1.0, command.turn) * math.remainder(heading - last[2], 2.0 * math.pi)
+            self._turn[1] += abs(command.turn) * period
+
+    def summary(self, landings: list[float]) -> dict[str, Any]:
+        """Shares of the commanded speeds, and what followed the last stop.
+
+        Args:
+            landings: Times of touchdown in s.
+        """
+        stops = [t for t, c in zip(self._table.times, self._table.commands, strict=True) if c is None]
+        return {
+            "speed_ratio": round(self._way[0] / self._way[1], 4) if self._way[1] > 0.0 else None,
+            "turn_ratio": round(self._turn[0] / self._turn[1], 4) if self._turn[1] > 0.0 else None,
+            "walked_m": round(self._way[0], 3),
+            "turned_deg": round(math.degrees(self._turn[0]), 1),
+            "steps_after_stop": sum(t > stops[-1] for t in landings) if stops else None,
+            "last_speed_m_s": round(self._speed, 4),
+        }
+
+    def reasons(self, landings: list[float]) -> list[dict[str, Any]]:
+        """What keeps the walk from being as it was told; empty where nothing does.
+
+        Args:
+            landings: Times of touchdown in s.
+        """
+        told, found = self.summary(landings), []
+        for name, words in (("speed_ratio", "speed"), ("turn_ratio", "rate of turn")):
+            ratio = told[name]
+            if ratio is not None and not abs(ratio - 1.0) <= SPEED_ERROR:
+                text = f"the mean {words} was {ratio:.2f} of the command; allowed: within {SPEED_ERROR:g} of it"
+                found.append({"criterion": name, "value": ratio, "limit": SPEED_ERROR, "text": text})
+        steps, speed = told["steps_after_stop"], told["last_speed_m_s"]
+        if steps is not None and steps > STEPS_TO_REST:
+            text = f"{steps} steps after it was told to stop; allowed: {STEPS_TO_REST}"
+            found.append({"criterion": "stop", "value": steps, "limit": STEPS_TO_REST, "text": text})
+        at_rest = round(self._world.body.in_si("leg/beat") * AT_REST, 4)
+        if steps is not None and not speed < at_rest:
+            text = f"the CoM moved at {speed:.3f} m/s in the end; allowed: less than {at_rest:g} m/s"
+            found.append({"criterion": "rest", "value": speed, "limit": at_rest, "text": text})
+        return found

@@ -1,0 +1,114 @@
+"""The verdict on a run: every criterion that failed, with its value and its limit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from plantar.mechanics.same_time import SAME_TIME
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.sim.judging.joint_limits import JointLimits
+from plantar.sim.judging.leg_contact import LegContact
+
+__all__ = ["FASTER_FOR", "HEADING", "POSITION", "UPRIGHT", "Ending", "reasons"]
+
+POSITION = 1 / 6
+"""Distance in leg lengths of the CoM from the walk's end that counts as there: 0.1 m for H1."""
+
+HEADING = 5.0
+"""Angle in degrees from the walk's last heading that counts as straight."""
+
+UPRIGHT = 5.0
+"""Tilt of the torso in degrees that counts as upright."""
+
+FASTER_FOR = 0.02
+"""Time in s for which a joint may be faster than its limit: four control periods, which no robot's size changes."""
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a run ended.
+
+    Attributes:
+        fall: What fell how far, as (criterion's value, limit, text); None for no fall.
+        stopped: The safe state in which the controller stays (`WalkingController.safe_state`); None while it walks.
+        steps: Steps taken and planned.
+        missed: What became of the first step that was not taken.
+        position: Distance in m of the CoM from the walk's end; None for a walk that has no place to end at.
+        heading: Heading error in degrees; None likewise.
+        tilt: Tilt of the torso in degrees.
+        body: How large the robot is.
+        pushes: Pushes that the robot recovered from, and all of them.
+        overrun: Time in s at which the run was cut off, since the controller still was not at its end, and the end in s
+            as it was planned at first; None otherwise.
+    """
+
+    fall: tuple[float, float, str] | None
+    stopped: str | None
+    steps: tuple[int, int]
+    missed: str
+    position: float | None
+    heading: float | None
+    tilt: float
+    body: BodyScale = REFERENCE_BODY
+    pushes: tuple[int, int] = (0, 0)
+    overrun: tuple[float, float] | None = None
+
+
+def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[str, Any]]:
+    """Why a run is not completed; empty for one that is.
+
+    Args:
+        ending: How it ended.
+        legs: Whether the legs touched.
+        joints: How fast the joints were.
+
+    Returns:
+        For each criterion that failed its name "criterion", "value", "limit" and a "text".
+    """
+    found: list[dict[str, Any]] = []
+
+    def add(criterion: str, value: float, limit: float, text: str) -> None:
+        found.append({"criterion": criterion, "value": value, "limit": limit, "text": text})
+
+    if ending.fall is not None:
+        value, limit, text = ending.fall
+        add("fall", round(value, 3), round(limit, 3), text)
+    if ending.stopped is not None:
+        add("emergency_stop", 1, 0, f"the controller stopped for good: {ending.stopped}")
+    if ending.overrun is not None:
+        time, planned_end = ending.overrun
+        text = f"the controller still put its end off at {time:.0f} s, where the run was cut off"
+        add("overrun", round(time, 3), round(planned_end, 3), text)
+    if legs.first is not None:
+        time, one, other = legs.first
+        text = f"{one} touched {other}, first at {time:.2f} s, for {legs.duration:.3f} s in all"
+        add("collision", round(legs.duration, 4), 0.0, text)
+    longest = float(joints.longest.max())
+    if longest > FASTER_FOR + SAME_TIME:
+        k = int(joints.longest.argmax())
+        share = float(joints.fastest[k])
+        text = f"{joints.names[k]} was faster than its limit for {longest:.3f} s, by {share:.2f} times at most"
+        add("joint_speed", round(longest, 4), FASTER_FOR, text)
+    taken, planned = ending.steps
+    if taken < planned:
+        add("steps", taken, planned, f"{taken} of {planned} steps; step {taken} (from 0): {ending.missed}")
+    recovered, pushes = ending.pushes
+    if recovered < pushes:
+        add("pushes", recovered, pushes, f"recovered from {recovered} of {pushes} pushes")
+    ends: tuple[tuple[str, float | None, float, str, str], ...] = (
+        (
+            "position",
+            ending.position,
+            round(POSITION * ending.body.leg, 4),
+            "m",
+            "the CoM ended {} from the walk's end",
+        ),
+        ("heading", ending.heading, HEADING, "deg", "the torso ended turned by {}"),
+        ("tilt", ending.tilt, UPRIGHT, "deg", "the torso ended tilted by {}"),
+    )
+    for criterion, off, limit, unit, text in ends:
+        if off is not None and not off < limit:
+            words = f"{text.format(f'{off:.3g} {unit}')}; allowed: less than {limit:g} {unit}"
+            add(criterion, round(off, 4), limit, words)
+    return found

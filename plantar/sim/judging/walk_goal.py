@@ -1,0 +1,165 @@
+"""The goal of a walk: its footsteps as planned at the start, and what of them was planned anew, and why.
+
+The judge keeps the goal itself. A controller cannot make it shorter, and can move a footstep only by saying so before
+the foot lands there, with a reason, to a place that a detour explains.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.plan_change import MovedStep
+from plantar.gait.plan.walk_plan import vrp_of_step
+from plantar.layouts.layout import Side
+from plantar.settings.body_scale import REFERENCE_BODY
+from plantar.sides import SIDES
+
+__all__ = ["NEAR_YAW", "WalkGoal"]
+
+
+_NEAR = 1 / 12
+"""Distance in leg lengths within which a foot has reached a place: 50 mm for H1."""
+
+NEAR_YAW = math.radians(5.0)
+"""Angle in rad within which it has the place's heading."""
+
+_DETOUR = 5 / 6
+"""Distance in leg lengths by which a footstep may be moved against the one before it: twice around an obstacle (0.4
+each)."""
+
+_DETOUR_YAW = math.radians(30.0)
+_AWAY, _DRIFT = 0.5, 0.25
+"""Distance in leg lengths by which it may be moved in all, and share of the way walked so far by which further: a
+detour of 0.4 legs early in a walk, two of them later, a strip that turns away by 10 degrees; no walk that ends where it
+began."""
+
+
+@dataclass(frozen=True)
+class _Move:
+    time: float
+    place: Footstep
+    reason: str
+
+
+class WalkGoal:
+    """Where the feet have to be put down, in which order.
+
+    Args:
+        feet: Where the feet stand at the start.
+        steps: The footsteps as planned at the start.
+        leg: Length of the robot's legs in m, which distances are judged by.
+        led: How far in m somebody leads the robot off its way, by which any footstep may be moved further.
+
+    Attributes:
+        steps: The footsteps as planned at the start.
+        near: Distance in m within which a foot has reached a place.
+        refused: How many moves were not taken over: without a reason, not finite, or further than a detour explains.
+    """
+
+    def __init__(
+        self,
+        feet: Mapping[Side, Footstep],
+        steps: Sequence[Footstep],
+        leg: float = REFERENCE_BODY.leg,
+        led: float = 0.0,
+    ) -> None:
+        self.steps = tuple(steps)
+        self.near = _NEAR * leg
+        self._leg, self._led = leg, led
+        self.refused = 0
+        self._feet = dict(feet)
+        self._moves: dict[int, list[_Move]] = {}
+        self._now = list(self.steps)
+        self._way = self._ways()
+
+    def _ways(self) -> list[float]:
+        """How far in m the middle between the feet is planned to have moved with each step."""
+        standing, ways, way = dict(self._feet), [], 0.0
+        for step in self.steps:
+            before = standing[step.side]
+            way += 0.5 * math.hypot(step.x - before.x, step.y - before.y)
+            standing[step.side] = step
+            ways.append(way)
+        return ways
+
+    def hear(self, time: float, moved: Sequence[MovedStep]) -> None:
+        """Take over what a controller says that it moved.
+
+        Args:
+            time: When it was heard in s, by the judge's clock.
+            moved: The footsteps that it moved since it was heard last.
+        """
+        wanted = list(self._now)
+        known = [m for m in moved if 0 <= m.step < len(wanted) and m.reason.strip()]
+        known = [m for m in known if math.isfinite(m.x) and math.isfinite(m.y) and math.isfinite(m.yaw)]
+        self.refused += len(moved) - len(known)
+        last = {m.step: m for m in known}
+        for m in last.values():
+            wanted[m.step] = replace(wanted[m.step], x=float(m.x), y=float(m.y), yaw=float(m.yaw))
+        for k, m in sorted(last.items()):
+            if self._explained(k, wanted):
+                self._moves.setdefault(k, []).append(_Move(time, wanted[k], m.reason))
+                self._now[k] = wanted[k]
+            else:
+                wanted[k] = self._now[k]
+                self.refused += 1
+
+    def _explained(self, k: int, places: Sequence[Footstep]) -> bool:
+        """Whether a detour explains where a footstep is moved to."""
+
+        def from_the_one_before(steps: Sequence[Footstep]) -> tuple[float, float]:
+            before = steps[k - 1] if k else self._feet["left" if steps[0].side == "right" else "right"]
+            return steps[k].x - before.x, steps[k].y - before.y
+
+        there, planned = from_the_one_before(places), from_the_one_before(self.steps)
+        step, original = places[k], self.steps[k]
+        away = math.hypot(step.x - original.x, step.y - original.y)
+        turned = abs(math.remainder(step.yaw - original.yaw, 2.0 * math.pi))
+        detour, most = _DETOUR * self._leg, _AWAY * self._leg + _DRIFT * self._way[k] + self._led
+        return math.dist(there, planned) <= detour and away <= most and turned <= _DETOUR_YAW
+
+    def places(self, step: int, time: float) -> tuple[Footstep, ...]:
+        """Where a step may be put down: as planned at the start, or as planned anew last.
+
+        Args:
+            step: Its index.
+            time: When the foot touched down in s; what is said later does not count.
+
+        Returns:
+            The places, the first one as planned at the start.
+        """
+        heard = [m.place for m in self._moves.get(step, ()) if m.time <= time]
+        return (self.steps[step], *heard[-1:])
+
+    def end(
+        self, centers: Mapping[Side, NDArray[np.float64]], *, at_start: bool = False
+    ) -> tuple[NDArray[np.float64], float]:
+        """Where the walk ends.
+
+        Args:
+            centers: Centre (2,) of each sole in its frame in m.
+            at_start: As planned at the start instead of as planned anew last.
+
+        Returns:
+            Point (2,) between the soles' centres in m, and the heading in rad.
+        """
+        last, steps = dict(self._feet), self.steps if at_start else self._now
+        for step in steps:
+            last[step.side] = step
+        middle = 0.5 * sum(vrp_of_step(last[side], centers[side]) for side in SIDES)
+        return np.asarray(middle), steps[-1].yaw if steps else self._feet["left"].yaw
+
+    def summary(self) -> list[dict[str, object]]:
+        """Footsteps that were moved: how far in m from where they were planned at the start, when last, and why."""
+        rows: list[dict[str, object]] = []
+        for k, moves in sorted(self._moves.items()):
+            move, planned = moves[-1], self.steps[k]
+            moved = math.hypot(move.place.x - planned.x, move.place.y - planned.y)
+            rows.append({"step": k, "moved_m": round(moved, 4), "time_s": round(move.time, 3), "reason": move.reason})
+        return rows

@@ -1,0 +1,90 @@
+"""ZMP from the skin against ZMP from force-torque sensors at the ankles (T 4.3.1, Fig. 42-43).
+
+Both are low-pass filtered as a controller would, alike: taxel forces and ankle wrenches each pass a filter of first
+order with the same time constant before anything else. The taxels' means are then freed from what clipping their noise
+at zero adds (`plantar.gait.estimate.skin_load`). Feet are where the controller's estimator has them, for both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.controller import Command
+from plantar.gait.estimate.ankle_sensor import SoleWrench
+from plantar.gait.estimate.skin_load import SkinLoad
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.mechanics.zmp import zmp_of_feet
+from plantar.sides import SIDES
+
+__all__ = ["FILTER_TIME", "ZmpComparison"]
+
+FILTER_TIME = 0.02
+"""Time constant in s of both low-pass filters: that of the balance laws' own."""
+
+
+class ZmpComparison:
+    """Follows both ZMPs through a run.
+
+    Args:
+        layouts: Sole layout of each side.
+        noise: Standard deviation of a taxel's noise in N.
+        period: Control period in s.
+        begin: Time in s from which differences count: filters and estimator have settled.
+    """
+
+    def __init__(self, layouts: Mapping[Side, SoleLayout], noise: float, period: float, begin: float = 1.0) -> None:
+        self._share = period / (FILTER_TIME + period)
+        self._begin = begin
+        self._skins = {s: SkinLoad(layouts[s], noise, self._share) for s in SIDES}
+        self._wrenches: dict[Side, NDArray[np.float64]] = {}
+        self._differences: list[NDArray[np.float64]] = []
+
+    def update(self, time: float, command: Command) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None]:
+        """At each control tick.
+
+        Args:
+            time: Time in s.
+            command: The command, with what the controller sensed; it has to have ankle loads.
+
+        Returns:
+            ZMP (2,) in m from the skin and from the ankles in the world frame, None without load.
+        """
+        skin: list[NDArray[np.float64] | None] = []
+        ankle: list[NDArray[np.float64] | None] = []
+        skin_loads: list[float] = []
+        ankle_loads: list[float] = []
+        for side in SIDES:
+            wrench = command.ankle_loads[side].wrench_in_sole
+            last = self._wrenches.get(side, wrench)
+            self._wrenches[side] = last + self._share * (wrench - last)
+            place = command.state.positions_sole[side][:2]
+            turn = command.state.rotations_sole[side][:2, :2]
+            for points, loads, sole in (
+                (skin, skin_loads, self._skins[side].update(command.percepts[side].reading)),
+                (ankle, ankle_loads, SoleWrench(self._wrenches[side])),
+            ):
+                cop = sole.position_cop_in_sole
+                loads.append(sole.vertical_force)
+                points.append(None if cop is None else place + turn @ cop)
+        one, other = zmp_of_feet(skin, skin_loads), zmp_of_feet(ankle, ankle_loads)
+        if one is not None and other is not None and time >= self._begin:
+            self._differences.append(one - other)
+        return one, other
+
+    def summary(self) -> dict[str, Any]:
+        """RMS and largest distance between the two ZMPs in m, and the mean difference (x, y)."""
+        if not self._differences:
+            return {"samples": 0, "rms_m": None, "max_m": None, "mean_m": None}
+        rows = np.array(self._differences)
+        distance = np.hypot(rows[:, 0], rows[:, 1])
+        return {
+            "samples": len(rows),
+            "rms_m": round(float(np.sqrt(np.mean(distance**2))), 5),
+            "max_m": round(float(distance.max()), 5),
+            "mean_m": [round(float(v), 5) for v in rows.mean(axis=0)],
+            "filter_s": FILTER_TIME,
+        }

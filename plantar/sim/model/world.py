@@ -1,0 +1,385 @@
+"""MuJoCo models from robots and terrain: the world that is simulated, and the robot alone for its controller."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError, SceneError
+from plantar.optional_library import unheard
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.sides import SIDES, Side
+from plantar.sim.model.body import body_of
+from plantar.sim.model.contact_truth import REACH
+from plantar.sim.model.leg_model import LegModel
+from plantar.sim.plant.body import make_true
+from plantar.sim.plant.draw import TruePlant
+from plantar.sim.robots.biped import biped_mjcf
+from plantar.sim.robots.leg_shapes import COLLIDES, add_leg_shapes, keep_apart
+from plantar.sim.robots.model_file import spec_from_file
+from plantar.sim.robots.robot import Robot
+from plantar.sim.terrain import GROUND_GROUP, Ground, Solid
+
+__all__ = [
+    "DIVERGED",
+    "PHYSICS_PERIOD",
+    "Visitor",
+    "World",
+    "build_leg_model",
+    "build_world",
+    "check_stable",
+    "robot_spec",
+]
+
+PHYSICS_PERIOD = 0.001
+"""Time step of the physics in s, where a scene does not say."""
+
+_CONTACT_STEPS = (
+    5  # physics steps that a contact takes to bring penetration to rest: solref of `plantar.sim.contact_models`
+)
+_SOFT = 1 / 600  # leg: penetration over which a contact becomes as stiff as it gets, and gap up to which it is listed
+
+_LEG_CONTACT = "truth_leg_contact"
+_LEGS = tuple(contype for contype, _ in COLLIDES.values())
+DIVERGED = (
+    int(mujoco.mjtWarning.mjWARN_BADQPOS),
+    int(mujoco.mjtWarning.mjWARN_BADQVEL),
+    int(mujoco.mjtWarning.mjWARN_BADQACC),
+    int(mujoco.mjtWarning.mjWARN_BADCTRL),
+)
+"""MuJoCo's warnings that its state diverged."""
+
+
+def robot_spec(robot: Robot) -> Any:
+    """The robot alone as an editable `mujoco.MjSpec`.
+
+    Args:
+        robot: The robot.
+
+    Raises:
+        RobotError: If the model cannot be read.
+    """
+    mujoco.set_mju_user_warning(unheard)
+    if robot.biped is not None:
+        center, half = robot.sole_rectangle("left")
+        text = biped_mjcf(
+            robot.biped,
+            name=robot.name,
+            posture=[math.degrees(v) for v in robot.posture["left"]],
+            sole_center=center,
+            sole_half_size=half,
+            shoe_thickness=robot.shoe_thickness,
+            shoe_mass=robot.shoe_mass,
+            stiffness=robot.stiffness,
+            damping=robot.damping,
+        )
+        spec = mujoco.MjSpec.from_string(text)
+        add_leg_shapes(spec, robot)
+        return spec
+    return spec_from_file(robot)
+
+
+def check_stable(warnings: NDArray[np.int32]) -> None:
+    """Refuse to go on where MuJoCo found the state diverged, which it answers by starting anew from the model's pose.
+
+    Args:
+        warnings: How often MuJoCo warned of what: `data.warning.number`, an array that it goes on counting in.
+
+    Raises:
+        SceneError: If positions, velocities, accelerations or controls were not finite or too large.
+    """
+    if warnings[list(DIVERGED)].any():
+        raise SceneError(
+            "the simulated physics became unstable: forces too large for its time step (control.physics_period); "
+            "lower that, the robot's [servo] stiffness and damping, or what pushes it"
+        )
+
+
+def _compiled(spec: Any, robot: Robot) -> Any:
+    try:
+        return spec.compile()
+    except ValueError as error:
+        text = " ".join(str(error).split())
+        raise RobotError(f"robot '{robot.name}': its model cannot be simulated: {text}") from None
+
+
+def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
+    """Kinematic model of the robot alone, which its controller uses.
+
+    Args:
+        robot: The robot.
+        worn: What it wears beside its file's model, such as an arm that moves.
+
+    Returns:
+        The model.
+
+    Raises:
+        RobotError: If the model cannot be read or simulated.
+    """
+    spec = robot_spec(robot)
+    for part in worn:
+        part.add_to(spec)
+    model = _compiled(spec, robot)
+    joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
+    soles = {s: robot.legs[s].sole_site for s in SIDES}
+    unit = body_of(robot, model).leg / REFERENCE_BODY.leg
+    return LegModel(model, joints, soles, robot.torso_body, unit)
+
+
+def _add_looks(spec: Any, torso: str) -> None:
+    """Sky, light and floor of pictures and videos; no effect on the physics."""
+    spec.add_texture(
+        name="sky",
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        rgb1=[0.98, 0.985, 0.99],
+        rgb2=[0.72, 0.80, 0.88],
+        width=256,
+        height=1536,
+    )
+    spec.add_texture(
+        name="ground",
+        type=mujoco.mjtTexture.mjTEXTURE_2D,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
+        rgb1=[0.88, 0.89, 0.91],
+        rgb2=[0.80, 0.82, 0.85],
+        width=256,
+        height=256,
+    )
+    material = spec.add_material(name="ground", texrepeat=[5, 5], texuniform=True)
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "ground"
+    spec.worldbody.add_light(
+        pos=[0, 0, 4],
+        dir=[0.3, 0.4, -1],
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+        diffuse=[0.3, 0.3, 0.3],
+        castshadow=False,
+    )
+    spec.worldbody.add_light(
+        pos=[0.6, -0.8, 3.2],
+        mode=mujoco.mjtCamLight.mjCAMLIGHT_TARGETBODYCOM,
+        targetbody=torso,
+        type=mujoco.mjtLightType.mjLIGHT_SPOT,
+        cutoff=60.0,
+        exponent=2.0,
+        diffuse=[0.35, 0.35, 0.35],
+    )
+    spec.visual.headlight.ambient = [0.4, 0.4, 0.4]
+    spec.visual.headlight.diffuse = [0.25, 0.25, 0.25]
+    spec.visual.quality.shadowsize = 4096
+    spec.visual.rgba.haze = [0.95, 0.96, 0.97, 1.0]
+    spec.visual.map.haze = 0.4
+
+
+def _add_touch(spec: Any, sole: Any, name: str) -> None:
+    """Add a sensor of the normal force on a sole box: a touch site that encloses it with 10 mm to spare."""
+    site = sole.parent.add_site(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, pos=sole.pos, quat=sole.quat, group=5)
+    site.size = np.asarray(sole.size) + 0.01
+    spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_TOUCH, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name)
+
+
+def _add_leg_contact(spec: Any, robot: Robot) -> None:
+    """Add a sensor of whether anything of one leg touches anything of the other."""
+    left, right = (spec.joint(robot.legs[side].joints[0]).parent for side in SIDES)
+    for side, link in zip(SIDES, (left, right), strict=True):
+        link.name = link.name or f"{side}_leg"  # a sensor finds it by name, which a model need not give
+    body = mujoco.mjtObj.mjOBJ_XBODY  # stands for all below it, too
+    spec.add_sensor(
+        name=_LEG_CONTACT,
+        type=mujoco.mjtSensor.mjSENS_CONTACT,
+        objtype=body,
+        objname=left.name,
+        reftype=body,
+        refname=right.name,
+        intprm=[1, 0, 1],  # say whether there are contacts; of one, whichever comes first
+    )
+
+
+@dataclass(frozen=True)
+class World:
+    """A compiled world and the addresses of what is read and written in it.
+
+    Attributes:
+        model: The MuJoCo model.
+        data: Its state.
+        robot: The robot in it.
+        joint_qpos: Addresses of the leg joints in qpos.
+        joint_qvel: Addresses of the leg joints in qvel.
+        servos: Indices of the legs' actuators in ctrl.
+        sole_geoms: Geom ids of each sole.
+        sole_sites: Site id of each sole frame.
+        torso: Body id of the torso.
+        stiffness: Servo position gains (k,) in N m/rad, as the robot's file says them.
+        damping: Servo velocity gains (k,) in N m s/rad, likewise.
+        joint_damping: Damping (k,) in N m s/rad that the joints have by themselves, as the robot's model says it.
+        joint_friction: Dry friction (k,) in N m of the joints, likewise.
+        gyro: Address of the gyro in sensordata.
+        accelerometer: Address of the accelerometer in sensordata.
+        ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
+        touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
+        leg_contact: Address in sensordata of whether one leg touches the other: above 0; likewise.
+        body: How large the robot is, by its file.
+        period: Time step of the physics in s.
+        moving_ground: Pieces of ground that move, with their number among the mocap bodies.
+        ground_top: Height in m that no ground ever exceeds.
+    """
+
+    model: Any
+    data: Any
+    robot: Robot
+    joint_qpos: NDArray[np.int64]
+    joint_qvel: NDArray[np.int64]
+    servos: NDArray[np.int64]
+    sole_geoms: dict[Side, tuple[int, ...]]
+    sole_sites: dict[Side, int]
+    torso: int
+    stiffness: NDArray[np.float64]
+    damping: NDArray[np.float64]
+    joint_damping: NDArray[np.float64]
+    joint_friction: NDArray[np.float64]
+    gyro: int
+    accelerometer: int
+    ankle_wrench: dict[Side, tuple[int, int]]
+    touch: dict[Side, int]
+    leg_contact: int
+    body: BodyScale
+    period: float = PHYSICS_PERIOD
+    moving_ground: tuple[tuple[int, Solid], ...] = ()
+    ground_top: float = math.inf
+
+    @property
+    def reach(self) -> float:
+        """Largest gap in m between sole and ground that still counts as contact."""
+        return REACH * self.body.leg / REFERENCE_BODY.leg
+
+    def move_ground(self) -> None:
+        """Put what moves of the ground where it is now."""
+        for i, solid in self.moving_ground:
+            self.data.mocap_pos[i] = solid.at(float(self.data.time))
+
+
+class Visitor(Protocol):
+    """Someone or something beside robot and ground that is in a world."""
+
+    def add_to(self, spec: Any) -> None:
+        """Add it to the world's editable `mujoco.MjSpec`."""
+
+
+def build_world(
+    robot: Robot,
+    ground: Ground,
+    period: float = PHYSICS_PERIOD,
+    plant: TruePlant | None = None,
+    others: Sequence[Visitor] = (),
+) -> World:
+    """Build and compile the world.
+
+    Args:
+        robot: The robot.
+        ground: The ground.
+        period: Time step of the physics in s.
+        plant: In what robot and ground differ from what these say; None for nothing.
+        others: Who else is in it; their coordinates come after the robot's.
+
+    Returns:
+        The world in its reference configuration; the runner puts the robot on its feet.
+
+    Raises:
+        RobotError: If the model cannot be read or simulated.
+    """
+    spec = robot_spec(robot)
+    _set_solver(spec, period)
+    _add_looks(spec, robot.torso_body)
+    for geom in spec.geoms:
+        if geom.group == GROUND_GROUP:
+            geom.group = 1  # as visible as before, but nothing that proximity sensors see
+    ground.add_to(spec)
+    for side in SIDES:
+        _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
+    _add_leg_contact(spec, robot)
+    soles = _set_contacts(spec, ground.friction)
+    for other in others:
+        other.add_to(spec)
+    model = _compiled(spec, robot)
+    body = body_of(robot, model)
+    _soften(model, soles, body, period, robot.contact_damping)
+    keep_apart(model, robot)
+    world = _world_of(model, robot, ground, body)
+    if plant is not None:
+        make_true(model, plant, world.torso, world.servos, soles, body)
+    return world
+
+
+def _set_solver(spec: Any, period: float) -> None:
+    spec.option.timestep = period
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = 10.0
+    spec.option.iterations = 20
+
+
+def _set_contacts(spec: Any, friction: float) -> list[str]:
+    """Friction of soles and ground; the names of their geoms."""
+    touching = [geom for geom in spec.geoms if geom.contype and geom.contype not in _LEGS]
+    for geom in touching:
+        geom.condim = 3
+        geom.friction[0] = friction
+    return [geom.name for geom in touching]
+
+
+def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float, damping: float) -> None:
+    """Contact parameters of soles and ground, as `plantar.sim.contact_models` recommends them: 5 ms and 1 mm for H1."""
+    ids = [model.geom(name).id for name in names]
+    model.geom_solref[ids] = [_CONTACT_STEPS * period, damping]
+    model.geom_solimp[ids] = [0.95, 0.99, _SOFT * body.leg, 0.5, 2]
+    model.geom_gap[ids] = _SOFT * body.leg  # corners that hover by micrometres stay in the contact list
+
+
+def _servos_of(model: Any, robot: Robot, names: Sequence[str], ids: Sequence[int]) -> NDArray[np.int64]:
+    """The actuator of each joint; refused is a joint that none drives."""
+    servo_of = {int(model.actuator_trnid[a, 0]): a for a in range(model.nu)}
+    missing = [n for n, i in zip(names, ids, strict=True) if i not in servo_of]
+    if missing:
+        raise RobotError(f"robot '{robot.name}': no actuator drives joint {', '.join(missing)}")
+    return np.array([servo_of[i] for i in ids])
+
+
+def _world_of(model: Any, robot: Robot, ground: Ground, body: BodyScale) -> World:
+    """The compiled model with the places of all that is read from it and written to it."""
+    joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
+    ids = [model.joint(name).id for name in joints]
+    servos = _servos_of(model, robot, joints, ids)
+    dofs = model.jnt_dofadr[ids].astype(np.int64)
+    return World(
+        model=model,
+        data=mujoco.MjData(model),
+        robot=robot,
+        joint_qpos=model.jnt_qposadr[ids].astype(np.int64),
+        joint_qvel=dofs,
+        servos=servos,
+        sole_geoms={s: (model.geom(f"{s}_sole_box").id,) for s in SIDES},
+        sole_sites={s: model.site(robot.legs[s].sole_site).id for s in SIDES},
+        torso=model.body(robot.torso_body).id,
+        stiffness=model.actuator_gainprm[servos, 0].copy(),
+        damping=-model.actuator_biasprm[servos, 2].copy(),
+        joint_damping=model.dof_damping[dofs].copy(),
+        joint_friction=model.dof_frictionloss[dofs].copy(),
+        gyro=int(model.sensor("imu_gyro").adr[0]),
+        accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
+        ankle_wrench={
+            s: (int(model.sensor(f"{s}_ankle_force").adr[0]), int(model.sensor(f"{s}_ankle_torque").adr[0]))
+            for s in SIDES
+        },
+        touch={s: int(model.sensor(f"{s}_truth_touch").adr[0]) for s in SIDES},
+        leg_contact=int(model.sensor(_LEG_CONTACT).adr[0]),
+        body=body,
+        period=float(model.opt.timestep),
+        moving_ground=tuple((int(model.body(f"ground_{i}").mocapid[0]), solid) for i, solid in ground.moving),
+        ground_top=ground.top,
+    )

@@ -1,0 +1,179 @@
+"""A hand that takes a robot by its forearm and leads it: two fingers about the arm, which go a way and take it along.
+
+The hand is a body of its own with mass; nobody carries its weight. Along its way it follows a path with the force of a
+spring, and of no more than a person's arm gives; sideways, up and down it goes along with the forearm. Between the
+fingers the arm has play. What the hand does to the robot goes through the skin of the arm alone
+(`plantar.sim.body_skin`).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.mechanics.easing import minimum_jerk
+from plantar.settings.body_scale import BodyScale
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.model.body_point import body_point
+from plantar.sim.model.world import World
+from plantar.sim.partner.settings import GuideSettings
+from plantar.sim.partner.touch import Partner
+
+__all__ = ["Grip", "Guide"]
+
+_MASS = 0.02  # of the robot: 1.7 kg beside H1, as a hand and forearm
+_FINGER, _LONG = 1 / 30, 0.075  # leg: radius of a finger and half its length, 20 and 45 mm
+_PLAY = 0.02  # leg: on each side of the arm, 12 mm: an arm that yields turns, and is thicker along the way then
+_QUICK = 7.4  # 1/beat: how quickly it goes along with the forearm, 30 rad/s for H1, critically damped
+_COLOUR = (0.85, 0.6, 0.45, 1.0)
+
+
+class Grip(NamedTuple):
+    """Where an arm is taken.
+
+    Attributes:
+        link: Name of the link.
+        point: Point (3,) in its frame in m, in the middle of the arm.
+        radius: Of the arm in m.
+    """
+
+    link: str
+    point: NDArray[np.float64]
+    radius: float
+
+
+class Guide(Partner):
+    """The hand.
+
+    Args:
+        settings: Its settings, for the same body.
+        grip: Where it takes the arm.
+        body: How large the robot is.
+        seed: Chooses when it sets out, and the direction where the settings leave it open.
+
+    Attributes:
+        settings: Its settings.
+        grip: Where it takes the arm.
+        sign: 1 where it leads forward, -1 where backward.
+        starts: Time in s from which it leads.
+        moved: How far in m it has truly come along its way.
+        reference: How far in m it is to have come.
+        force: True force in N with which it leads the arm along its way; negative where it holds it back.
+    """
+
+    def __init__(self, settings: GuideSettings, grip: Grip, body: BodyScale, seed: int) -> None:
+        self.settings, self.grip, self._body = settings, grip, body
+        rng = np.random.default_rng([seed, 0x6D])
+        drawn = float(rng.choice([-1.0, 1.0]))
+        self.sign = {"forward": 1.0, "backward": -1.0}.get(settings.toward, drawn)
+        self.starts = settings.sets_out + float(rng.uniform(0.0, settings.within))
+        self._mass = _MASS * body.mass
+        self._apart = grip.radius + (_PLAY + _FINGER) * body.leg
+        self._places = self._axes = np.arange(3)
+        self._link = self._root = -1
+        self._start = math.nan
+        self.moved = self.reference = self.force = 0.0
+        self._forces: list[float] = []
+
+    @property
+    def lasts(self) -> float:
+        """How long in s it leads."""
+        return self.settings.way / self.settings.hand_speed
+
+    def add_to(self, spec: Any) -> None:
+        """Add it to a world.
+
+        Args:
+            spec: The world's editable `mujoco.MjSpec`.
+        """
+        leg, apart = self._body.leg, self._apart
+        body = spec.worldbody.add_body(name="guide", gravcomp=1.0)
+        for name, axis in (("x", [1, 0, 0]), ("y", [0, 1, 0]), ("z", [0, 0, 1])):
+            body.add_joint(name=f"guide_{name}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
+        capsule, radius, half = mujoco.mjtGeom.mjGEOM_CAPSULE, _FINGER * leg, _LONG * leg
+        across = [-apart, 0.0, half + radius, apart, 0.0, half + radius]
+        shapes = [
+            body.add_geom(name=name, type=capsule, size=[radius, half, 0.0], pos=[x, 0.0, 0.0], mass=0.5 * self._mass)
+            for name, x in (("guide_behind", -apart), ("guide_before", apart))
+        ]
+        shapes.append(body.add_geom(type=capsule, size=[radius, 0.0, 0.0], fromto=across, mass=0.0))
+        for geom in shapes:
+            geom.contype = geom.conaffinity = 0
+            geom.group = 1
+            geom.rgba = _COLOUR
+
+    def bind(self, world: World) -> tuple[int, ...]:
+        """Find it in the compiled world.
+
+        Args:
+            world: The world.
+
+        Returns:
+            Ids of its fingers.
+        """
+        first = world.model.joint("guide_x")
+        self._places = int(first.qposadr[0]) + np.arange(3)
+        self._axes = int(first.dofadr[0]) + np.arange(3)
+        self._link = int(world.model.body(self.grip.link).id)
+        self._root = int(world.model.body_rootid[self._link])
+        return tuple(int(world.model.geom(name).id) for name in ("guide_behind", "guide_before"))
+
+    def place(self, world: World) -> None:
+        """Put its fingers about the forearm.
+
+        Args:
+            world: The world, in which the robot stands.
+        """
+        world.data.qpos[self._places] = self.held(world)[0]
+        world.data.qvel[self._axes] = 0.0
+
+    def position(self, world: World) -> NDArray[np.float64]:
+        """Where the middle between its fingers is (3,) in the world in m."""
+        return np.array(world.data.qpos[self._places])
+
+    def held(self, world: World) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where the middle of the arm truly is that it holds (3,) in the world in m, and its velocity (3,) in m/s."""
+        return body_point(world.data, self._link, self._root, self.grip.point)
+
+    def drive(self, world: World, skin: SkinSensor) -> None:
+        """Set the forces that move it for the next physics step.
+
+        Args:
+            world: The world.
+            skin: The skin, which has just pressed back.
+        """
+        data, s, time = world.data, self.settings, float(world.data.time)
+        self.force = -self.sign * sum(float(skin.on_obstacles[f"guide_{side}"][0]) for side in ("behind", "before"))
+        self._forces.append(self.force)
+        place, speed = data.qpos[self._places], data.qvel[self._axes]
+        arm, motion = self.held(world)
+        rate = _QUICK / self._body.beat
+        force = self._mass * (rate * rate * (arm - place) + 2.0 * rate * (motion - speed))
+        if time >= self.starts:
+            if math.isnan(self._start):
+                self._start = float(place[0])
+            share, pace = minimum_jerk((time - self.starts) / self.lasts)
+            self.reference = s.way * share
+            self.moved = self.sign * (float(place[0]) - self._start)
+            off, lag = self.reference - self.moved, s.hand_speed * pace - self.sign * float(speed[0])
+            wanted = s.hand_spring * off + 2.0 * math.sqrt(s.hand_spring * self._mass) * lag
+            force[0] = self.sign * min(max(wanted, -s.hand_force), s.hand_force)
+        data.qfrc_applied[self._axes] = force
+
+    def summary(self) -> dict[str, Any]:
+        """What became of it.
+
+        Returns:
+            Its direction, when it set out in s, how far it was to go and how far it came, and its largest force in N.
+        """
+        return {
+            "direction": "forward" if self.sign > 0.0 else "backward",
+            "set_out_s": round(self.starts, 3),
+            "way_m": round(self.settings.way, 4),
+            "moved_m": round(self.moved, 4),
+            "largest_force_N": round(float(np.abs(np.array(self._forces or [0.0])).max()), 1),
+        }

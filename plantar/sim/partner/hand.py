@@ -1,0 +1,141 @@
+"""A flat hand that follows a point of a robot's upper body and presses on it with a given force.
+
+It is a body of its own with mass, which slides along the world's axes and turns about the vertical; nobody carries its
+weight. What it does to the robot goes through the robot's skin alone (`plantar.sim.body_skin`), so its inertia is
+felt, too.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.settings.body_scale import BodyScale
+from plantar.sim.body_skin.upper_body import FACES
+
+__all__ = ["Hand", "HandTarget"]
+
+_MASS = 0.02  # of the robot: 1.7 kg for H1, as a hand and forearm
+_WIDE, _THICK = 0.075, 0.02  # leg: half edges of the palm, 9 x 9 cm and 24 mm for H1
+_QUICK = 7.4  # 1/beat: natural frequency of how it follows a point, 30 rad/s for H1, critically damped
+_ARM = 0.35  # leg: length of the drawn forearm
+
+
+class HandTarget(NamedTuple):
+    """Where a hand shall be.
+
+    Attributes:
+        position: Where its palm's face shall be (3,) in the world in m.
+        velocity: How fast that point moves (3,) in m/s.
+        yaw: Heading of the robot in rad.
+        inward: Unit vector (3,) in the world along which it presses.
+        force: Force in N along that; None to stay at the position in that direction, too.
+    """
+
+    position: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    yaw: float
+    inward: NDArray[np.float64]
+    force: float | None = None
+
+
+class Hand:
+    """A hand for one face of the upper body.
+
+    Args:
+        face: Name of the face (`plantar.sim.body_skin.upper_body.FACES`).
+        body: How large the robot is.
+
+    Attributes:
+        face: Name of the face.
+        name: Name of its body and of its palm's geom.
+        half: Half edge of its palm in m.
+    """
+
+    def __init__(self, face: str, body: BodyScale) -> None:
+        self.face, self.name = face, f"hand_{face}"
+        self.half = _WIDE * body.leg
+        self._thick, self._arm = _THICK * body.leg, _ARM * body.leg
+        self._mass = _MASS * body.mass
+        self._stiffness = self._mass * (_QUICK / body.beat) ** 2
+        self._damping = 2.0 * self._mass * _QUICK / body.beat
+        self._axes = np.arange(4)
+        self._places = np.arange(4)
+        self._turning = 0.0
+        self.geom = -1
+
+    def add_to(self, spec: Any) -> None:
+        """Add it to a world.
+
+        Args:
+            spec: The world's editable `mujoco.MjSpec`.
+        """
+        body = spec.worldbody.add_body(name=self.name, gravcomp=1.0)
+        for name, axis in (("x", [1, 0, 0]), ("y", [0, 1, 0]), ("z", [0, 0, 1])):
+            body.add_joint(name=f"{self.name}_{name}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
+        body.add_joint(name=f"{self.name}_yaw", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0, 0, 1])
+        forward, left = np.abs(FACES[self.face]).tolist()
+        size = [
+            self._thick if forward else self.half,
+            self._thick if left else self.half,
+            self.half,
+        ]
+        palm = body.add_geom(name=self.name, type=mujoco.mjtGeom.mjGEOM_BOX, size=size, mass=self._mass)
+        x, y = FACES[self.face]
+        near, far = self._thick + 0.25 * self.half, self._arm
+        arm = body.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_CAPSULE,
+            size=[0.4 * self.half, 0.0, 0.0],
+            fromto=[near * x, near * y, 0.0, far * x, far * y, -0.3 * far],
+            mass=0.0,
+        )
+        for geom in (palm, arm):
+            geom.contype = geom.conaffinity = 0
+            geom.group = 1
+            geom.rgba = [0.85, 0.6, 0.45, 1.0]
+
+    def bind(self, model: Any) -> None:
+        """Find it in the compiled world.
+
+        Args:
+            model: The MjModel.
+        """
+        first = model.joint(f"{self.name}_x")
+        self._places = int(first.qposadr[0]) + np.arange(4)
+        self._axes = int(first.dofadr[0]) + np.arange(4)
+        self.geom = int(model.geom(self.name).id)
+        self._turning = float(model.body_inertia[model.body(self.name).id].max())
+
+    def place(self, data: Any, target: HandTarget) -> None:
+        """Put it somewhere, at rest.
+
+        Args:
+            data: The MjData.
+            target: Where.
+        """
+        data.qpos[self._places[:3]] = self._middle(target)
+        data.qpos[self._places[3]] = target.yaw
+        data.qvel[self._axes] = 0.0
+
+    def drive(self, data: Any, target: HandTarget) -> None:
+        """Set the forces that move it: once a physics step.
+
+        Args:
+            data: The MjData.
+            target: Where it shall be, and how hard it presses.
+        """
+        place, motion = data.qpos[self._places], data.qvel[self._axes]
+        force = self._stiffness * (self._middle(target) - place[:3]) + self._damping * (target.velocity - motion[:3])
+        if target.force is not None:
+            force += (target.force - float(force @ target.inward)) * target.inward
+        rate = self._stiffness / self._mass
+        turn = rate * (target.yaw - place[3]) - self._damping / self._mass * motion[3]
+        data.qfrc_applied[self._axes[:3]] = force
+        data.qfrc_applied[self._axes[3]] = self._turning * turn
+
+    def _middle(self, target: HandTarget) -> NDArray[np.float64]:
+        """Where the palm's middle is when its face is at the target."""
+        return target.position - self._thick * target.inward

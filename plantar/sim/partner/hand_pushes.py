@@ -1,0 +1,279 @@
+"""Someone who pushes a robot that walks with flat hands, a face of its upper body each.
+
+A push has an impulse in the robot's frame, forward and to the left. Each of its components is the work of one hand,
+which presses inwards on the face behind it: so a push in any direction needs no friction, and its force passes the
+robot's axis at both hands. A hand waits beyond what the skin sees, comes up to it shortly before, presses with a force
+that swells and fades as a half sine, and stops when it has delivered its share: it feels what it presses with.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import SceneError
+from plantar.mechanics.same_time import SAME_TIME
+from plantar.sensing.link_skin import BodySkin
+from plantar.settings.body_scale import BodyScale
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.body_skin.upper_body import FACES
+from plantar.sim.model.body_point import body_point
+from plantar.sim.model.world import World
+from plantar.sim.partner.hand import Hand, HandTarget
+
+__all__ = ["HandPush", "HandPushes", "faces_of"]
+
+_APART = 0.15  # leg, between a waiting hand and the skin: more than the skin sees
+_NEAR = 0.003  # leg, at the begin of a push: 2 mm for H1
+_APPROACH = 1.2  # beats before a push at which its hands come up: 0.3 s for H1
+_REST = 0.3  # of the half sine's peak, with which a hand goes on that has not delivered its share
+_LONGEST = 3.0  # durations after which a hand gives up
+_LEAST = 1e-6  # N s: components below take no hand
+
+
+@dataclass
+class HandPush:
+    """One push.
+
+    Attributes:
+        impulse: Impulse (2,) in N s, forward and to the left in the robot's frame.
+        duration: Duration in s of its half sine.
+        when: Says when it begins in s, as planned now; asked until it has.
+        step: Step that it falls into, for who judges; -1 for none.
+        start: When it began in s; infinite before.
+        end: When it ended in s; infinite before.
+        delivered: True impulse (3,) on the robot in N s, world frame.
+        peak: Largest true force on the robot in N.
+    """
+
+    impulse: NDArray[np.float64]
+    duration: float
+    when: Callable[[], float]
+    step: int = -1
+    start: float = math.inf
+    end: float = math.inf
+    delivered: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    peak: float = 0.0
+
+    def shares(self) -> dict[str, float]:
+        """How hands share the push.
+
+        Returns:
+            Impulse in N s of each hand that takes part, by the face that it presses on.
+        """
+        forward, left = self.impulse.tolist()
+        found = {"back": forward, "front": -forward, "right": left, "left": -left}
+        return {face: share for face, share in found.items() if share > _LEAST}
+
+
+def faces_of(pushes: Sequence[HandPush]) -> tuple[str, ...]:
+    """Faces that hands are needed for.
+
+    Args:
+        pushes: The pushes.
+
+    Returns:
+        Their names in the order of `FACES`.
+    """
+    needed = {face for push in pushes for face in push.shares()}
+    return tuple(face for face in FACES if face in needed)
+
+
+class HandPushes:
+    """Hands that push, one push after another.
+
+    Args:
+        pushes: The pushes in the order of time.
+        skin: Skin of the upper body, in the base frame.
+        body: How large the robot is.
+        height: Says at which height above the base's origin in m the robot is pushed, once it stands; hands keep to
+            that point of it.
+
+    Attributes:
+        pushes: The pushes, with what became of them.
+        hands: The hands by the face that each presses on.
+        height: Height above the base's origin in m at which they press; not a number before they are placed.
+    """
+
+    def __init__(
+        self, pushes: Sequence[HandPush], skin: BodySkin, body: BodyScale, height: Callable[[World], float]
+    ) -> None:
+        self.pushes = tuple(pushes)
+        self.hands = {face: Hand(face, body) for face in faces_of(self.pushes)}
+        self.height = math.nan
+        self._ask, self._body = height, body
+        self._faces = {face: skin.positions[skin.slices[face]] for face in self.hands}
+        self._middles = {face: 0.5 * (at.min(axis=0) + at.max(axis=0))[:2] for face, at in self._faces.items()}
+        self._given = dict.fromkeys(self.hands, 0.0)  # N s, in the push that is on
+        self._next = 0
+        self._base = 0
+
+    def add_to(self, spec: Any) -> None:
+        """Add the hands to a world.
+
+        Args:
+            spec: The world's editable `mujoco.MjSpec`.
+        """
+        for hand in self.hands.values():
+            hand.add_to(spec)
+
+    def bind(self, world: World) -> tuple[int, ...]:
+        """Find the hands in the compiled world.
+
+        Args:
+            world: The world.
+
+        Returns:
+            Ids of the geoms that the skin feels: their palms.
+        """
+        self._base = int(world.model.body_rootid[world.torso])
+        for hand in self.hands.values():
+            hand.bind(world.model)
+        return tuple(hand.geom for hand in self.hands.values())
+
+    def place(self, world: World) -> None:
+        """Put the hands where they wait, once the robot stands.
+
+        Args:
+            world: The world.
+
+        Raises:
+            SceneError: If the middle of a palm would be above or below the skin.
+        """
+        self.height = self._ask(world)
+        frame = _Frame(world.data, self._base)
+        for face, hand in self.hands.items():
+            low, high = float(self._faces[face][:, 2].min()), float(self._faces[face][:, 2].max())
+            if not low <= self.height <= high:  # half a palm may hang over the edge
+                origin = float(world.data.xpos[self._base, 2])
+                raise SceneError(
+                    f"a hand would push at a height of {self.height + origin:.3f} m; allowed: where the upper body has "
+                    f"skin, {low + origin:.3f} to {high + origin:.3f} m"
+                )
+            hand.place(world.data, self._target(frame, face, _APART * self._body.leg))
+
+    def near(self, time: float) -> bool:
+        """Whether a hand is on its way to the robot, pushes it or goes back.
+
+        Args:
+            time: Time in s.
+
+        Returns:
+            Whether the skin may feel one.
+        """
+        way = _APPROACH * self._body.beat
+        if self._next and time <= self.pushes[self._next - 1].end + way:
+            return True
+        return self._next < len(self.pushes) and time >= self.pushes[self._next].when() - way
+
+    def drive(self, world: World, skin: SkinSensor) -> None:
+        """Move the hands for the next physics step.
+
+        Args:
+            world: The world.
+            skin: The skin, which has just pressed back.
+        """
+        time = float(world.data.time) + SAME_TIME
+        push = self.pushes[self._next] if self._next < len(self.pushes) else None
+        if push is not None and push.start == math.inf and time >= push.when():
+            push.start = float(world.data.time)
+            self._given = dict.fromkeys(self.hands, 0.0)
+        frame = _Frame(world.data, self._base)
+        self._follow(push, time, world.period, skin, frame)
+        for face, hand in self.hands.items():
+            distance, force = self._wanted(push, face, time)
+            hand.drive(world.data, self._target(frame, face, distance * self._body.leg, force))
+        if push is not None and push.start < math.inf and self._over(push, time):
+            push.end = float(world.data.time)
+            self._next += 1
+
+    def _wanted(self, push: HandPush | None, face: str, time: float) -> tuple[float, float | None]:
+        """Distance from its face in leg lengths at which a hand shall be, and the force in N with which it presses."""
+        if push is None or face not in push.shares():
+            return _APART, None
+        if push.start < math.inf:
+            force = self._force(push, face, time)
+            return (_APART if force is None else 0.0), force
+        return (_NEAR if time >= push.when() - _APPROACH * self._body.beat else _APART), None
+
+    def summary(self) -> dict[str, Any]:
+        """What became of the pushes.
+
+        Returns:
+            "height_above_base_m", and "pushes": of each that began its step, begin and duration, the impulse that it
+            was to have in the robot's frame and the true one in the world's, and its largest force.
+        """
+        rows: list[dict[str, Any]] = [
+            {
+                "step": push.step,
+                "time_s": round(push.start, 3),
+                "duration_s": round(push.end - push.start, 3) if push.end < math.inf else None,
+                "wanted_Ns": [round(v, 2) for v in push.impulse.tolist()],
+                "delivered_Ns": [round(v, 2) for v in push.delivered.tolist()],
+                "peak_N": round(push.peak, 1),
+            }
+            for push in self.pushes
+            if push.start < math.inf
+        ]
+        return {"height_above_base_m": round(self.height, 4), "pushes": rows}
+
+    def _follow(self, push: HandPush | None, time: float, period: float, skin: SkinSensor, frame: _Frame) -> None:
+        """Add up what the skin has just been pressed with, by the push that comes or else by the one before."""
+        if push is None or time < push.when() - _APPROACH * self._body.beat:
+            if not self._next:
+                return
+            push = self.pushes[self._next - 1]
+        force = skin.wrenches[:, :3].sum(axis=0)
+        push.delivered += force * period
+        push.peak = max(push.peak, float(np.linalg.norm(force)))
+        for face, hand in self.hands.items():
+            self._given[face] -= float(skin.on_obstacles[hand.name][:3] @ frame.inward(face)) * period
+
+    def _force(self, push: HandPush, face: str, time: float) -> float | None:
+        """Force in N with which a hand presses; None where it has delivered its share or given up."""
+        share, since = push.shares()[face], (time - push.start) / push.duration
+        if self._given[face] >= share or since >= _LONGEST:
+            return None
+        peak = 0.5 * math.pi * share / push.duration
+        return peak * (math.sin(math.pi * since) if since < 0.5 else max(math.sin(math.pi * min(since, 1.0)), _REST))
+
+    def _over(self, push: HandPush, time: float) -> bool:
+        """Whether all hands of a push are done."""
+        return all(self._force(push, face, time) is None for face in push.shares())
+
+    def _target(self, frame: _Frame, face: str, distance: float, force: float | None = None) -> HandTarget:
+        """Where a hand shall be: over the middle of its face, some distance in m away from it."""
+        point, velocity = frame.point(np.array([*self._middles[face], self.height]))
+        inward = frame.inward(face)
+        return HandTarget(point - distance * inward, velocity, frame.yaw, inward, force)
+
+
+class _Frame:
+    """Where the base is at an instant, and how it moves.
+
+    Args:
+        data: The MjData.
+        base: Id of the base.
+
+    Attributes:
+        yaw: Its heading in rad.
+    """
+
+    def __init__(self, data: Any, base: int) -> None:
+        self._data, self._base = data, base
+        self._rotation = data.xmat[base].reshape(3, 3)
+        self.yaw = math.atan2(float(self._rotation[1, 0]), float(self._rotation[0, 0]))
+
+    def inward(self, face: str) -> NDArray[np.float64]:
+        """Unit vector (3,) in the world into the body at a face."""
+        forward, left = FACES[face]
+        return np.asarray(-forward * self._rotation[:, 0] - left * self._rotation[:, 1])
+
+    def point(self, local: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where a point (3,) of the base is in the world in m, and how fast it moves in m/s."""
+        return body_point(self._data, self._base, self._base, local)

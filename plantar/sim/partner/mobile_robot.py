@@ -1,0 +1,152 @@
+"""A mobile robot on the ground before the robot that walks, with its hand at the height of the CoM (K Fig. 9).
+
+Its wheels roll along the robot's heading at the start and hold sideways; its arm is a spring. It measures the force on
+its hand, moves a reference by its impedance controller, and drives its own mass after it with a limited force.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from plantar.sensing.link_skin import BodySkin
+from plantar.settings.body_scale import BodyScale
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.model.world import World
+from plantar.sim.partner.impedance import Impedance
+from plantar.sim.partner.settings import PartnerSettings
+from plantar.sim.partner.touch import Partner
+
+__all__ = ["MobileRobot"]
+
+_HAND = (0.02, 0.15, 0.1)  # leg: half edges of the hand: 18 x 12 cm for H1
+_BASE = (0.35, 0.35, 0.2)  # leg: half edges of the base
+_ARM = 0.45  # leg: from the base's front to the hand
+_ARM_SPRING, _ARM_DAMPING = 3.6, 0.43  # weight/leg, weight beat/leg: an arm of 5 kN/m and 150 N s/m before H1
+_ARM_MASS = 0.03  # of the robot: 2.6 kg before H1
+_QUICK = 7.4  # 1/beat: how quickly the drive follows the reference, 30 rad/s for H1, critically damped
+_TOUCHES = 0.00237  # weight: force on the hand that counts as contact, 2 N for H1
+
+
+class MobileRobot(Partner):
+    """The partner.
+
+    Args:
+        settings: Its settings, for the same body.
+        skin: Skin of the robot's upper body, in the base frame.
+        body: How large the robot is.
+        height: Height in m of its hand in the world.
+        seed: Of its sensor's noise.
+
+    Attributes:
+        settings: Its settings.
+        law: Its impedance controller, whose axis points at the robot.
+        moved: How far in m it has truly come, towards the robot.
+        force: True force on its hand in N, towards the robot: negative where the robot pushes it away.
+    """
+
+    def __init__(self, settings: PartnerSettings, skin: BodySkin, body: BodyScale, height: float, seed: int) -> None:
+        self.settings, self.law = settings, Impedance(settings)
+        self._body, self._height = body, height
+        self._front = float(skin.positions[skin.slices["front"]][:, 0].max())
+        self._noise = np.random.default_rng([seed, 0x9A])
+        self._start = math.nan
+        self._place = self._axis = -1
+        self.moved = 0.0
+        self.force = 0.0
+        self._forces: list[float] = []
+
+    def add_to(self, spec: Any) -> None:
+        """Add it to a world.
+
+        Args:
+            spec: The world's editable `mujoco.MjSpec`.
+        """
+        leg, height = self._body.leg, self._height
+        body = spec.worldbody.add_body(name="partner")
+        body.add_joint(name="partner_x", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0])
+        hand, base = ([share * leg for share in shares] for shares in (_HAND, _BASE))
+        middle, thick = hand[0] + _ARM * leg + base[0], 0.06 * leg
+        top = (middle, 0.0, height)
+        box, capsule = mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_CAPSULE
+        arm = body.add_body(name="partner_arm")
+        spring, damping = (
+            _ARM_SPRING * self._body.weight / leg,
+            _ARM_DAMPING * self._body.weight * self._body.beat / leg,
+        )
+        arm.add_joint(
+            name="partner_arm", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0], stiffness=spring, damping=damping
+        )
+        mass = _ARM_MASS * self._body.mass
+        shapes = [
+            arm.add_geom(name="partner_hand", type=box, size=hand, pos=[hand[0], 0, height], mass=mass),
+            body.add_geom(type=box, size=base, pos=[middle, 0, base[2] + 0.1 * leg], mass=self.settings.body_mass),
+            arm.add_geom(type=capsule, size=[thick, 0, 0], fromto=[2 * hand[0], 0, height, *top], mass=0.0),
+            body.add_geom(type=capsule, size=[2 * thick, 0, 0], fromto=[middle, 0, base[2], *top], mass=0.0),
+        ]
+        for geom, colour in zip(shapes, ([0.85, 0.6, 0.45, 1], *3 * ([0.45, 0.52, 0.6, 1],)), strict=True):
+            geom.contype = geom.conaffinity = 0
+            geom.group = 1
+            geom.rgba = colour
+
+    def bind(self, world: World) -> tuple[int, ...]:
+        """Find it in the compiled world.
+
+        Args:
+            world: The world.
+
+        Returns:
+            Id of its hand's geom.
+        """
+        joint = world.model.joint("partner_x")
+        self._place, self._axis = int(joint.qposadr[0]), int(joint.dofadr[0])
+        return (int(world.model.geom("partner_hand").id),)
+
+    def place(self, world: World) -> None:
+        """Put its hand before the robot's body.
+
+        Args:
+            world: The world, in which the robot stands.
+        """
+        base = int(world.model.body_rootid[world.torso])
+        self._start = float(world.data.xpos[base, 0]) + self._front + self.settings.apart
+        world.data.qpos[self._place] = self._start
+        world.data.qvel[self._axis] = 0.0
+
+    def drive(self, world: World, skin: SkinSensor) -> None:
+        """Measure, move the reference, and drive after it.
+
+        Args:
+            world: The world.
+            skin: The skin, which has just pressed back.
+        """
+        data, s = world.data, self.settings
+        true = -float(skin.on_obstacles["partner_hand"][0])  # its axis points at the robot, against the world's x
+        self.force = true
+        self._forces.append(true)
+        self.moved = self._start - float(data.qpos[self._place])
+        if data.time >= s.starts:
+            self.law.update(true + s.hand_noise * self._noise.standard_normal(), world.period)
+        rate = _QUICK / self._body.beat
+        off, speed = self.law.position - self.moved, self.law.velocity + float(data.qvel[self._axis])
+        wanted = s.body_mass * (rate * rate * off + 2.0 * rate * speed) - true
+        data.qfrc_applied[self._axis] = -min(max(wanted, -s.drive_force), s.drive_force)
+
+    def summary(self) -> dict[str, Any]:
+        """What became of it.
+
+        Returns:
+            Its role, how far it came towards the robot and its rest with it, the largest force on its hand in N and the
+            share of the time in which it touched the robot.
+        """
+        forces = np.abs(np.array(self._forces or [0.0]))
+        return {
+            "role": self.settings.role,
+            "moved_m": round(self.moved, 4),
+            "rest_m": round(self.law.rest, 4),
+            "largest_force_N": round(float(forces.max()), 1),
+            "contact_share": round(float((forces > _TOUCHES * self._body.weight).mean()), 4),
+        }

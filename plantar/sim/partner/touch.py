@@ -1,0 +1,150 @@
+"""Partners that touch a walking robot: skin in the world, what presses on it, and the physics step with both."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.sim.body_skin.sensing import SkinSensing, SkinSensor
+from plantar.sim.model.world import World
+
+__all__ = ["Partner", "Touch", "skin_material"]
+
+_SLIP = (
+    0.12  # leg/beat: 0.3 m/s for H1. Slower, the friction of 1 kN would turn a hand of 1.7 kg round in a physics step
+)
+
+
+class Partner(Protocol):
+    """A moving body that touches the robot."""
+
+    def add_to(self, spec: Any) -> None:
+        """Add it to a world.
+
+        Args:
+            spec: The world's editable `mujoco.MjSpec`.
+        """
+
+    def bind(self, world: World) -> tuple[int, ...]:
+        """Find it in the compiled world.
+
+        Args:
+            world: The world.
+
+        Returns:
+            Ids of the geoms that the skin feels.
+        """
+
+    def place(self, world: World) -> None:
+        """Put it where it is at the start.
+
+        Args:
+            world: The world, in which the robot stands.
+        """
+
+    def near(self, time: float) -> bool:
+        """Whether the skin may feel it; a partner that is farther off costs no rays.
+
+        Args:
+            time: Time in s.
+
+        Returns:
+            Whether it may; always, for a partner that does not say otherwise.
+        """
+        return True
+
+    def drive(self, world: World, skin: SkinSensor) -> None:
+        """Set the forces that move it for the next physics step.
+
+        Args:
+            world: The world.
+            skin: The skin, which has just pressed back.
+        """
+
+
+def skin_material(body: BodyScale) -> SkinSensing:
+    """Skin for a robot of some size: what the companion's is on H1, by dynamic similarity.
+
+    Args:
+        body: How large the robot is.
+
+    Returns:
+        Stiffness as a share of weight / leg^3, damping of weight beat / leg^3, the force at half a taxel's signal of
+        the weight, the distance at half of it of the leg. Friction sets in over a higher speed, for partners with mass.
+    """
+    weight, leg, beat = (getattr(body, name) / getattr(REFERENCE_BODY, name) for name in ("weight", "leg", "beat"))
+    given = SkinSensing()
+    return SkinSensing(
+        stiffness=given.stiffness * weight / leg**3,
+        damping=given.damping * weight * beat / leg**3,
+        slip_speed=_SLIP * body.leg / body.beat,
+        half_force=given.half_force * weight,
+        half_distance=given.half_distance * leg,
+    )
+
+
+class Touch:
+    """Skin of the upper body in a world, and the partners that press on it.
+
+    Args:
+        world: The world, with the partners in it.
+        skin: The skin, on the base and what it carries.
+        partners: Who touches it.
+        seed: Of the skin's noise.
+
+    Attributes:
+        sensor: The skin.
+        partners: Who touches it.
+    """
+
+    def __init__(self, world: World, skin: BodySkin, partners: Sequence[Partner], seed: int) -> None:
+        self._world = world
+        self.partners = tuple(partners)
+        geoms = [geom for partner in self.partners for geom in partner.bind(world)]
+        self.sensor = SkinSensor(world.model, skin, skin_material(world.body), seed, geoms)
+        self._near = True
+
+    def place(self) -> None:
+        """Put the partners where they are at the start: once the robot stands."""
+        for partner in self.partners:
+            partner.place(self._world)
+        mujoco.mj_forward(self._world.model, self._world.data)
+
+    def read(self) -> SkinReading:
+        """Read the skin.
+
+        Returns:
+            Its latest sample.
+        """
+        return self.sensor.read(self._world.data)
+
+    @property
+    def force(self) -> NDArray[np.float64]:
+        """True force (3,) on the robot in N, world frame, at the last physics step."""
+        return np.asarray(self.sensor.wrenches[:, :3].sum(axis=0))
+
+    @property
+    def wrench(self) -> NDArray[np.float64]:
+        """True wrench (6,) on the robot about the world's origin in N and N m, at the last physics step."""
+        found = self.sensor.wrenches.sum(axis=0)
+        for link, wrench in zip(self.sensor.skin.links, self.sensor.wrenches, strict=True):
+            found[3:] += np.cross(self._world.data.body(link).xpos, wrench[:3])
+        return np.asarray(found)
+
+    def step(self) -> None:
+        """One physics step, with what the skin feels and who presses on it."""
+        world = self._world
+        mujoco.mj_step1(world.model, world.data)
+        near = any(partner.near(float(world.data.time)) for partner in self.partners)
+        if near or self._near:
+            self.sensor.apply(world.data)
+        self._near = near
+        for partner in self.partners:
+            partner.drive(world, self.sensor)
+        mujoco.mj_step2(world.model, world.data)

@@ -1,0 +1,62 @@
+"""The true robot in the simulator: its mass and where that is, stiffness of its servos, friction of its joints.
+
+What is changed is the compiled model of the world. The controller has a model of its own
+(`plantar.sim.model.leg_model`), which stays the nominal one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.settings.body_scale import BodyScale
+from plantar.sim.plant.draw import TruePlant
+from plantar.sim.plant.ground import make_ground_true
+
+__all__ = ["make_true"]
+
+
+def make_true(
+    model: Any,
+    plant: TruePlant,
+    torso: int,
+    servos: NDArray[np.int64],
+    touching: Sequence[str],
+    body: BodyScale,
+) -> None:
+    """Change a compiled model into that of the true plant.
+
+    Args:
+        model: The MjModel of the world, which is changed.
+        plant: The true plant.
+        torso: Body id of the torso.
+        servos: Indices of the legs' actuators.
+        touching: Names of the geoms of soles and ground.
+        body: How large the robot is, by its file.
+    """
+    _scale_mass(model, plant.mass_ratio, torso)
+    _move_com(model, plant.com_offset, torso)
+    model.actuator_gainprm[servos, 0] *= plant.stiffness_ratio
+    model.actuator_biasprm[servos, 1] *= plant.stiffness_ratio
+    model.dof_frictionloss[model.jnt_dofadr[model.actuator_trnid[servos, 0]]] += plant.joint_friction
+    make_ground_true(model, plant, [model.geom(name).id for name in touching], body)
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+
+
+def _scale_mass(model: Any, ratio: float, torso: int) -> None:
+    robot = model.body_rootid == model.body_rootid[torso]
+    model.body_mass[robot] *= ratio
+    model.body_inertia[robot] *= ratio
+
+
+def _move_com(model: Any, offset: NDArray[np.float64], torso: int) -> None:
+    """Move the centres of mass of all bodies that are fixed to the torso, and with them that of the whole."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    moved = data.xmat[torso].reshape(3, 3) @ offset
+    for body in np.flatnonzero(model.body_weldid == model.body_weldid[torso]):
+        model.body_ipos[body] += data.xmat[body].reshape(3, 3).T @ moved

@@ -1,0 +1,237 @@
+"""The true plant of a run: what a `[plant]` table states, and what the seed draws of the rest."""
+
+from __future__ import annotations
+
+import math
+import zlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layouts.layout import SoleLayout
+from plantar.settings.body_scale import BodyScale
+from plantar.sides import SIDES, Side
+from plantar.sim.plant.settings import RANDOM, Plant
+
+__all__ = ["RANGES", "Range", "TruePlant", "drawn_plant", "stream"]
+
+_LEVEL = 2.0  # at which `RANGES` hold
+
+_GAIN_MOST = 0.9  # either way of a taxel's gain of 1: a taxel that reads nothing is dead, which is another fault
+
+
+def _either_way(chance: np.random.Generator, limit: float) -> float:
+    return 1.0 + limit * float(chance.uniform(-1.0, 1.0))
+
+
+def _each_axis(chance: np.random.Generator, limit: float) -> NDArray[np.float64]:
+    return limit * chance.uniform(-1.0, 1.0, 3)
+
+
+def _in_ball(chance: np.random.Generator, limit: float) -> NDArray[np.float64]:
+    way = chance.standard_normal(3)
+    return np.asarray(limit * math.cbrt(chance.uniform()) / np.linalg.norm(way) * way)
+
+
+def _less_than_one(chance: np.random.Generator, limit: float) -> float:
+    return 1.0 - limit * float(chance.uniform())
+
+
+def _up_to(chance: np.random.Generator, limit: float) -> float:
+    return limit * float(chance.uniform())
+
+
+def _whole(chance: np.random.Generator, limit: float) -> float:
+    """Not less than the limit: a spread, whose members are drawn, or what is hardest at its limit."""
+    return limit
+
+
+class Range(NamedTuple):
+    """What an item is drawn from.
+
+    Attributes:
+        limit: How far it is from nominal at level 2, at most; in proportion at other levels.
+        unit: Unit of the limit; one of the body's grows with the robot.
+        draw: Gives it for a source of chance and the limit in SI.
+    """
+
+    limit: float
+    unit: str
+    draw: Callable[[np.random.Generator, float], Any]
+
+
+RANGES: Mapping[str, Range] = {
+    "gyro_bias": Range(0.005, "rad/s", _each_axis),
+    "com_offset": Range(1 / 30, "leg", _in_ball),  # 2 cm on h1, any way
+    "mass_ratio": Range(0.1, "1", _either_way),
+    "encoder_offset": Range(0.3, "deg", _whole),
+    "stiffness_ratio": Range(0.5, "1", _less_than_one),
+    "friction_ratio": Range(0.6, "1", _less_than_one),
+    "softness": Range(0.03, "s", _up_to),
+    "taxel_gain": Range(0.15, "1", _whole),
+    "crosstalk": Range(0.1, "1", _whole),
+    "sensor_delay": Range(0.01, "s", _whole),
+    "actuation_delay": Range(0.01, "s", _whole),
+    "joint_friction": Range(0.005, "weight leg", _up_to),  # 2.5 N m on h1, 1.8 % of its knee's limit
+    "backlash": Range(0.1, "deg", _up_to),
+    "torque_ripple": Range(0.05, "1", _whole),
+    "hysteresis": Range(0.1, "1", _whole),
+    "taxel_drift": Range(0.002, "weight", _whole),  # 1.7 N on h1, as much as a taxel's noise
+    "dropout": Range(0.02, "1", _whole),
+    "rubber": Range(0.03, "sole", _up_to),  # 7 mm on h1
+    "patchiness": Range(0.5, "1", _whole),
+    "reflectance": Range(0.3, "1", _whole),
+}
+"""What each item is drawn from. What can be bought or met (IMU, encoders, electronics, ground) has limits in SI, for
+every robot the same; a length of the robot has one that grows with it."""
+
+
+@dataclass(frozen=True)
+class TruePlant:
+    """What a run's true plant differs in, in SI.
+
+    Attributes:
+        gyro_bias: What the gyro reads too much (3,) in rad/s, in the IMU's frame.
+        com_offset: By how much the upper body's centre of mass is elsewhere (3,) in m, in the torso's frame.
+        mass_ratio: True mass over the model's.
+        encoder_offsets: What the encoder of each leg joint (k,) reads too much in rad.
+        stiffness_ratio: True stiffness of the servos over the model's.
+        friction_ratio: True friction of the ground over the scene's.
+        softness: Time constant in s with which the ground yields.
+        taxel_gains: What each taxel (n,) of each sole reads of its force.
+        crosstalk: Share of each taxel's force that its neighbours feel instead.
+        sensor_delay: Time in s from a reading until the controller has it.
+        actuation_delay: Time in s from a set-point until its servo follows it.
+        joint_friction: Dry friction of each leg joint in N m, beside what the model has.
+        backlash: Play of each leg joint's gear in rad.
+        torque_ripple: Share by which a servo's torque swings as its joint turns.
+        hysteresis: Share by which a taxel reads too little under a load that comes on, too much under one that goes.
+        taxel_drifts: Where each taxel's (n,) zero wanders off to as it becomes warm, in N.
+        dropout: Share of the time for which each connector of the soles has no contact.
+        rubber: Thickness of the layer of foam that each sole ends in, in m.
+        patchiness: Share by which friction and softness may be less from one piece of ground to the next.
+        reflectance: Share by which patches of the ground may be lighter or darker.
+        seed: Of what each piece of ground is like, and of what happens by chance while the run goes on.
+    """
+
+    gyro_bias: NDArray[np.float64]
+    com_offset: NDArray[np.float64]
+    mass_ratio: float
+    encoder_offsets: NDArray[np.float64]
+    stiffness_ratio: float
+    friction_ratio: float
+    softness: float
+    taxel_gains: Mapping[Side, NDArray[np.float64]]
+    crosstalk: float
+    sensor_delay: float
+    actuation_delay: float
+    joint_friction: float
+    backlash: float
+    torque_ripple: float
+    hysteresis: float
+    taxel_drifts: Mapping[Side, NDArray[np.float64]]
+    dropout: float
+    rubber: float
+    patchiness: float
+    reflectance: float
+    seed: int
+
+    def summary(self) -> dict[str, Any]:
+        """What differs, for a run's summary: nothing of what is nominal."""
+        gains, drifts = (
+            np.concatenate([of_soles[side] for side in SIDES]) for of_soles in (self.taxel_gains, self.taxel_drifts)
+        )
+        told: dict[str, tuple[Any, float]] = {  # each with its nominal value
+            "gyro_bias_rad_s": (self.gyro_bias, 0.0),
+            "com_offset_m": (self.com_offset, 0.0),
+            "mass_ratio": (self.mass_ratio, 1.0),
+            "encoder_offsets_deg": (np.degrees(self.encoder_offsets), 0.0),
+            "stiffness_ratio": (self.stiffness_ratio, 1.0),
+            "friction_ratio": (self.friction_ratio, 1.0),
+            "softness_s": (self.softness, 0.0),
+            "taxel_gain_spread": (gains.std(), 0.0),
+            "crosstalk": (self.crosstalk, 0.0),
+            "sensor_delay_s": (self.sensor_delay, 0.0),
+            "actuation_delay_s": (self.actuation_delay, 0.0),
+            "joint_friction_Nm": (self.joint_friction, 0.0),
+            "backlash_deg": (math.degrees(self.backlash), 0.0),
+            "torque_ripple": (self.torque_ripple, 0.0),
+            "hysteresis": (self.hysteresis, 0.0),
+            "taxel_drift_spread_N": (drifts.std(), 0.0),
+            "dropout": (self.dropout, 0.0),
+            "rubber_m": (self.rubber, 0.0),
+            "patchiness": (self.patchiness, 0.0),
+            "reflectance": (self.reflectance, 0.0),
+        }
+        return {
+            name: _rounded(value) for name, (value, nominal) in told.items() if np.any(np.asarray(value) != nominal)
+        }
+
+
+def drawn_plant(
+    plant: Plant, seed: int, body: BodyScale, joints: int, layouts: Mapping[Side, SoleLayout]
+) -> TruePlant | None:
+    """The true plant of a run.
+
+    Each item is drawn from a stream of its own: alone it is what it is together with all others, and at another level
+    as much more or less of the same.
+
+    Args:
+        plant: What the scene states of it.
+        seed: Draws the rest.
+        body: How large the robot is.
+        joints: Number of leg joints.
+        layouts: The soles.
+
+    Returns:
+        The plant; None where it is the nominal one.
+    """
+    plant = plant.for_body(body)
+    values = {name: _value(plant, name, seed) for name in plant.items()}
+    values["backlash"] = math.radians(values["backlash"])
+    most, spread = math.radians(values.pop("encoder_offset")), values.pop("taxel_gain")
+    gains, drifts = (_of_each_taxel(stream(seed, name), layouts) for name in ("gains", "drifts"))
+    drift = values.pop("taxel_drift")
+    found = TruePlant(
+        encoder_offsets=most * stream(seed, "zeros").uniform(-1.0, 1.0, joints),
+        taxel_gains={side: 1.0 + np.clip(spread * row, -_GAIN_MOST, _GAIN_MOST) for side, row in gains.items()},
+        taxel_drifts={side: drift * row for side, row in drifts.items()},
+        seed=seed,
+        **values,
+    )
+    return found if found.summary() else None
+
+
+def _value(plant: Plant, name: str, seed: int) -> Any:
+    """One item as its setting tells it: stated, or drawn."""
+    stated = getattr(plant, name)
+    if stated != RANDOM:
+        return np.array(plant.vector(name)) if isinstance(stated, tuple) else stated
+    limit, unit, draw = RANGES[name]
+    in_si = 1.0 if unit == "deg" else plant.body.in_si(unit)
+    return draw(stream(seed, name), plant.level / _LEVEL * limit * in_si)
+
+
+def _of_each_taxel(chance: np.random.Generator, layouts: Mapping[Side, SoleLayout]) -> dict[Side, NDArray[np.float64]]:
+    """A number of the standard normal distribution for each taxel (n,) of each sole."""
+    return {side: chance.standard_normal(len(layouts[side])) for side in SIDES}
+
+
+def stream(seed: int, name: str) -> np.random.Generator:
+    """The source of chance of one item.
+
+    Args:
+        seed: Seed of the run.
+        name: Name of what is drawn.
+
+    Returns:
+        The source; another one for every name.
+    """
+    return np.random.default_rng([seed, 0x91, zlib.crc32(name.encode())])
+
+
+def _rounded(value: Any) -> Any:
+    return np.round(value, 6).tolist()

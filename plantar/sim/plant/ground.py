@@ -1,0 +1,57 @@
+"""The true ground in the simulator, and the foam under the soles: friction, softness, and how both differ by place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from plantar.settings.body_scale import BodyScale
+from plantar.sim.plant.draw import TruePlant, stream
+from plantar.sim.terrain import GROUND_GROUP
+
+__all__ = ["FOAM_MODULUS", "foam_time", "make_ground_true"]
+
+FOAM_MODULUS = 3e5
+"""Young's modulus in Pa of the foam under a sole: EVA of midsoles has 0.2 to 0.5 MPa."""
+
+
+def foam_time(thickness: float, body: BodyScale) -> float:
+    """Time constant with which a layer of foam under one sole yields to the body.
+
+    Args:
+        thickness: Its thickness in m.
+        body: How large the robot is.
+
+    Returns:
+        sqrt(m / k) in s with the layer's stiffness k = E A / thickness, A a whole sole.
+    """
+    return math.sqrt(body.mass * thickness / (FOAM_MODULUS * body.sole * body.sole_width))
+
+
+def make_ground_true(model: Any, plant: TruePlant, touching: Sequence[int], body: BodyScale) -> None:
+    """Change friction and softness of contacts into those of the true plant.
+
+    Springs in a row yield one after the other, so squares of their time constants add up. MuJoCo takes the larger
+    friction of two geoms and the mean of their time constants; where pieces of ground differ, the piece's own count.
+
+    Args:
+        model: The MjModel of the world, which is changed.
+        plant: The true plant.
+        touching: Geom ids of soles and ground.
+        body: How large the robot is, by its file.
+    """
+    foam = foam_time(plant.rubber, body)
+    before = model.geom_solref[touching, 0]
+    model.geom_friction[touching, 0] *= plant.friction_ratio
+    model.geom_solref[touching, 0] = np.hypot(np.hypot(before, plant.softness), foam)
+    if not plant.patchiness:
+        return
+    pieces = [geom for geom in touching if model.geom_group[geom] == GROUND_GROUP]
+    less = 1.0 - plant.patchiness * stream(plant.seed, "patches").uniform(size=(len(pieces), 2))
+    hard = before[[touching.index(geom) for geom in pieces]]
+    model.geom_friction[pieces, 0] *= less[:, 0]
+    model.geom_solref[pieces, 0] = np.hypot(np.hypot(hard, less[:, 1] * plant.softness), foam)
+    model.geom_priority[pieces] = 1

@@ -1,0 +1,95 @@
+"""What true taxels make of the forces on them: crosstalk, hysteresis, gains and zeros that differ, loose connectors."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layouts.layout import SoleLayout
+from plantar.sides import Side
+from plantar.sim.plant.draw import TruePlant, stream
+
+__all__ = ["CONNECTORS", "SILENCE", "WARMING", "TaxelErrors"]
+
+CONNECTORS = 4
+"""Connectors of a sole: its taxels hang on them from heel to toe, each on as many."""
+
+SILENCE = 0.1
+"""Mean time in s for which a connector has no contact once it has lost it."""
+
+WARMING = 60.0
+"""Time constant in s with which a sole becomes as warm as the foot that stands in it."""
+
+
+class TaxelErrors:
+    """The errors of one sole's taxels, in the order in which a force meets them: the cover spreads it (crosstalk), the
+    taxel's elastic layer rubs (hysteresis), and its electronics have a gain, a zero and a connector.
+
+    Hysteresis is the play of a reading between (1 - h) and (1 + h) times the force: it stays as it is until one of both
+    takes it along. Independent of the rate, as that of rubber is at the rates of steps.
+
+    Args:
+        layout: The sole.
+        plant: The true plant.
+        side: Which sole it is.
+    """
+
+    def __init__(self, layout: SoleLayout, plant: TruePlant, side: Side) -> None:
+        self._spread = _spread(layout, plant.crosstalk)
+        self._low, self._high = 1.0 - plant.hysteresis, 1.0 + plant.hysteresis
+        self._read = np.zeros(len(layout))
+        self._gains, self._drifts = plant.taxel_gains[side], plant.taxel_drifts[side]
+        self._loses = plant.dropout / (1.0 - plant.dropout) / SILENCE  # 1/s
+        self._chance = stream(plant.seed, f"dropout {side}")
+        self._broken = self._chance.random(CONNECTORS) < plant.dropout
+        order = np.argsort(np.argsort(layout.positions[:, 0], kind="stable"))  # of each taxel, from heel to toe
+        self._bank = order * CONNECTORS // len(layout)
+        self._looked: float | None = None
+
+    def felt(self, force: NDArray[np.float64], time: float) -> NDArray[np.float64]:
+        """What the taxels read.
+
+        Args:
+            force: Force (n,) on each taxel in N.
+            time: Time in s, which never goes back.
+
+        Returns:
+            What each reads (n,) in N.
+        """
+        spread = self._spread.dot(force)
+        self._read = np.minimum(np.maximum(self._read, self._low * spread), self._high * spread)
+        warm = -math.expm1(-max(time, 0.0) / WARMING)
+        return np.asarray(self._gains * self._read + warm * self._drifts)
+
+    def silence(self, time: float, *readings: NDArray[np.float64] | None) -> None:
+        """Take out of readings what hangs on connectors that have no contact now.
+
+        A contact is lost and found again at constant rates, so that both states last for exponentially distributed
+        times: 0.1 s without contact, and as long with it that the share of both is the plant's.
+
+        Args:
+            time: Time in s, which never goes back.
+            readings: Readings (n,), in which silent taxels become NaN; None for none.
+        """
+        if not self._loses:
+            return
+        passed = 0.0 if self._looked is None else time - self._looked
+        self._looked = time
+        rate = np.where(self._broken, 1.0 / SILENCE, self._loses)
+        self._broken = self._broken ^ (self._chance.random(CONNECTORS) < -np.expm1(-rate * passed))
+        silent = self._broken[self._bank]
+        for reading in readings:
+            if reading is not None:
+                reading[silent] = np.nan
+
+
+def _spread(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64]:
+    """What each taxel (n, n) feels of each one's force; a taxel without neighbours keeps its own."""
+    spread = np.eye(len(layout))
+    for i, near in enumerate(layout.neighbours):
+        if near:
+            spread[i, i] -= crosstalk
+            spread[list(near), i] = crosstalk / len(near)
+    return spread

@@ -1,0 +1,231 @@
+"""The controller's settings of a run: defaults, then the robot's tables, then the scene's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError, SceneError
+from plantar.gait.balance.ankle_strategy import AnkleRules
+from plantar.gait.balance.balance_laws import balance_gains
+from plantar.gait.contact.ground_map import GroundMapSettings
+from plantar.gait.contact.stance_contact import ContactSettings
+from plantar.gait.controller_settings import ControllerSettings
+from plantar.gait.estimate.ankle_sensor import AnkleSensor
+from plantar.gait.estimate.dcm_filter import DcmFilterRules
+from plantar.gait.estimate.estimator import EstimatorGains
+from plantar.gait.estimate.identification import IdentificationRules
+from plantar.gait.estimate.push_estimate import PushRules
+from plantar.gait.estimate.wrench_filter import WrenchFilterRules
+from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
+from plantar.gait.feet.foot_motion import Landing
+from plantar.gait.feet.ground_conformity import ConformityGains
+from plantar.gait.feet.swing_fit import SwingFitRules
+from plantar.gait.plan.phases import Timing
+from plantar.gait.propose.double_support_timing import DoubleSupportTimingRules
+from plantar.gait.propose.dsp_opt import DspWeights
+from plantar.gait.propose.feasibility import FeasibilityRules
+from plantar.gait.propose.foothold_rules import FootholdRules
+from plantar.gait.propose.learned_stride import LearnedStrideRules
+from plantar.gait.propose.slope_inside import SlopeRules
+from plantar.gait.propose.ssp_opt import StepRegionRules, StepWeights
+from plantar.gait.propose.step_adjustment import StepAdjustmentRules
+from plantar.gait.propose.step_timing import StepTimingRules
+from plantar.layouts.layout import Side
+from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.net_wrench import NetWrenchRules
+from plantar.settings.body_scale import BodyScale
+from plantar.settings.schema import Settings
+from plantar.sim.robots.robot import Robot
+from plantar.sim.run.scene import Control, Scene, Walk
+
+__all__ = ["CONTROL_PERIOD", "controller_settings", "walk_timing"]
+
+CONTROL_PERIOD = Control().period
+"""Control period in s of a scene that does not say."""
+
+_YAW_ON_UNKNOWN_GROUND = 0.1
+"""Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
+little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the side.)"""
+
+_SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
+"""Beats that the phases of a step last where neither scene nor robot says: 0.9 and 0.3 s on a leg of 0.6 m."""
+
+_OF_STEPS = ("step_adjustment", "step_region", "ankle_strategy")
+"""Tables of steps that move for balance, however they do."""
+
+_OF_DOUBLE_SUPPORTS = ("double_support_timing", "dsp_weights")
+"""Tables of double supports that end sooner or later for it."""
+
+_LEAST_START = 0.2
+"""Least time in s of the first shift of the weight."""
+
+T = TypeVar("T", bound=Settings)
+
+
+def controller_settings(
+    scene: Scene,
+    robot: Robot,
+    body: BodyScale,
+    ankles: Mapping[Side, AnkleSensor],
+    limits: Mapping[Side, NDArray[np.float64]] | None = None,
+    skin: BodySkin | None = None,
+) -> ControllerSettings:
+    """Settings of the walking controller for a scene.
+
+    Args:
+        scene: The scene, with its shares as those of the same body.
+        robot: The robot.
+        body: How large it is: what is stated as a share of its body counts for this one.
+        ankles: Force-torque sensor of each ankle, where it has them.
+        limits: Where its weight may act on one foot (see `plantar.sim.model.ankle_limits`); anywhere where None.
+        skin: Skin of its upper body, in the base frame; None without.
+
+    Returns:
+        The settings.
+
+    Raises:
+        SceneError: If the scene sets something that it does not run, or asks for parts that need another one.
+    """
+    walk, control = scene.walk, scene.control
+    _refuse_unused(scene, robot)
+    partial = control.footholds != "off" or control.conform
+    crouch = robot.largest_crouch_partial if partial else robot.largest_crouch
+    approach = 0.0 if robot.rocks else walk.approach_height  # a slow one takes longer than its swing
+    adjusts = control.step_adjustment and not robot.rocks
+    yaw = {"yaw": _YAW_ON_UNKNOWN_GROUND} if control.pfc else {}
+
+    def made(kind: type[T], name: str, **given: Any) -> T:
+        table = {**given, **robot.controller.get(name, {}), **scene.controller.get(name, {})}
+        return kind.from_table(table, f"[{name}]", SceneError)
+
+    found = ControllerSettings(
+        com_height=robot.com_height - min(walk.crouch, crouch),
+        mass=body.mass,
+        trunk_lean=robot.trunk_lean if walk.lean else 0.0,
+        period=_period(control),
+        timing=walk_timing(walk, robot, body),
+        swing_height=walk.swing_height,
+        swing_fit=made(SwingFitRules, "swing_fit", height=walk.swing_height) if control.swing_shape == "fit" else None,
+        ankle_reach=robot.ankle_reach,
+        landing=made(Landing, "landing", approach_height=approach, approach_speed=walk.approach_speed),
+        compliance=made(ComplianceGains, "compliance") if control.pfc else None,
+        touchdown=made(TouchdownGains, "touchdown"),
+        ground_map=made(GroundMapSettings, "ground_map", sensing_range=scene.sensing.proximity_range),
+        slope=made(SlopeRules, "slope"),
+        feasibility=made(FeasibilityRules, "feasibility", rule=control.feasibility)
+        if control.feasibility != "off"
+        else None,
+        conformity=made(ConformityGains, "conformity") if control.conform else None,
+        estimator=made(EstimatorGains, "estimator", **yaw),
+        dcm_filter=made(DcmFilterRules, "dcm_filter") if control.dcm_estimate == "kalman" else None,
+        identification=made(IdentificationRules, "identification") if control.identify else None,
+        contact=made(ContactSettings, "contact"),
+        foothold=made(FootholdRules, "foothold"),
+        # A robot that rocks keeps its own time, which its soles' edges make and no plan of the ZMP.
+        step_timing=made(StepTimingRules, "step_timing") if control.step_timing and not robot.rocks else None,
+        step_adjustment=made(StepAdjustmentRules, "step_adjustment") if adjusts else None,
+        learned_stride=made(LearnedStrideRules, "learned_stride") if adjusts and control.learn_strides else None,
+        step_region=made(StepRegionRules, "step_region"),
+        step_weights=made(StepWeights, "step_weights"),
+        double_support_timing=made(DoubleSupportTimingRules, "double_support_timing"),
+        dsp_weights=made(DspWeights, "dsp_weights"),
+        ankle_strategy=made(AnkleRules, "ankle_strategy"),
+        push=made(PushRules, "push_estimate") if control.push_estimate != "off" else None,
+        push_felt=made(NetWrenchRules, "push_felt") if control.push_estimate == "skin" else None,
+        push_expected=made(WrenchFilterRules, "push_expected"),
+        gains=balance_gains({**robot.balance, **scene.controller.get("balance", {})}),
+        feedback=control.feedback,
+        zmp_source=control.zmp_source,
+        ankles=ankles,
+        ankle_limits=limits or {},
+        footholds=control.footholds,
+        skin=skin,
+    )
+    try:
+        return found.for_body(body)
+    except InputError as error:
+        raise SceneError(f"scene '{scene.name}' with robot '{robot.name}': {error}") from None
+
+
+def _period(control: Control) -> float:
+    """Control period in s: a whole number of physics steps."""
+    steps = control.period / control.physics_period
+    if round(steps) < 1 or abs(steps - round(steps)) > 1e-6:
+        raise SceneError(
+            f"control.period is {control.period:g} s; allowed: a whole number of physics steps of "
+            f"{control.physics_period:g} s (control.physics_period)"
+        )
+    return control.period
+
+
+def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
+    """Durations of a walk's phases: the scene's, else the robot's, else the same number of beats for every robot.
+
+    A robot that rocks from foot to foot has its own, and begins and ends as quickly.
+
+    Args:
+        walk: Gait of a scene, for the same body.
+        robot: The robot.
+        body: How large it is.
+
+    Returns:
+        The durations.
+    """
+    stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
+    single = stated[0] or robot.single_support or _SINGLE_SUPPORT * body.beat
+    if walk.approach_height > 0.0 and not robot.rocks:
+        single = max(single, robot.approach_support)
+    double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat
+    start, end = (max(_LEAST_START, double), single + double) if robot.rocks else (walk.start, walk.end)
+    return Timing(single, double, start, end, walk.settle)
+
+
+def _refuse_unused(scene: Scene, robot: Robot) -> None:
+    """Refuse switches that need another one, and settings of what is switched off: they would do nothing."""
+    control, steps = scene.control, StepAdjustmentRules()
+    table = {**robot.controller.get("step_adjustment", {}), **scene.controller.get("step_adjustment", {})}
+    solves = table.get("method", steps.method) == "ssp_opt"
+    adjusts_double = table.get("double_support", steps.double_support)
+    if control.feasibility != "off" and not control.pfc:
+        raise SceneError(f"control.feasibility is '{control.feasibility}'; allowed: off, or with pfc = true")
+    if control.conform and not control.pfc:
+        raise SceneError("control.conform is true; allowed: with pfc = true")
+    runs = {
+        **dict.fromkeys(("compliance", "touchdown", "ground_map", "slope"), (control.pfc, "control.pfc = true")),
+        "identification": (control.identify, "control.identify = true"),
+        "dcm_filter": (control.dcm_estimate == "kalman", "control.dcm_estimate = 'kalman'"),
+        "swing_fit": (control.swing_shape == "fit", "control.swing_shape = 'fit'"),
+        "step_timing": (control.step_timing, "control.step_timing = true"),
+        **dict.fromkeys(_OF_STEPS, (control.step_adjustment, "control.step_adjustment = true")),
+        "step_weights": (
+            control.step_adjustment and solves,
+            "control.step_adjustment = true and step_adjustment.method = 'ssp_opt'",
+        ),
+        **dict.fromkeys(
+            _OF_DOUBLE_SUPPORTS,
+            (
+                control.step_adjustment and adjusts_double,
+                "control.step_adjustment = true and step_adjustment.double_support = true",
+            ),
+        ),
+        **dict.fromkeys(
+            ("push_estimate", "push_expected"),
+            (control.push_estimate != "off", "control.push_estimate = 'soles' or 'skin'"),
+        ),
+        "learned_stride": (
+            control.step_adjustment and control.learn_strides,
+            "control.step_adjustment = true and control.learn_strides = true",
+        ),
+        "push_felt": (control.push_estimate == "skin", "control.push_estimate = 'skin'"),
+        "feasibility": (control.feasibility != "off", "control.feasibility = 'skin' or 'force_torque'"),
+        "conformity": (control.conform, "control.conform = true"),
+        **dict.fromkeys(("contact", "foothold"), (control.footholds != "off", "control.footholds = 'force' or 'skin'")),
+    }
+    for name, (used, needed) in runs.items():
+        if scene.controller.get(name) and not used:
+            keys = ", ".join(f"{name}.{key}" for key in scene.controller[name])
+            raise SceneError(f"scene '{scene.name}' sets {keys}, which does nothing; allowed: with {needed}")

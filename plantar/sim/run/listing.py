@@ -1,0 +1,39 @@
+"""What there is: robots and machines, scenes, and formats of recordings; read without a simulator."""
+
+from __future__ import annotations
+
+from plantar.errors import InputError
+from plantar.files.structured_text import described_files, packaged_files
+
+__all__ = ["listed"]
+
+
+def listed(what: str) -> dict[str, str]:
+    """Names of what there is, each with a line that describes it.
+
+    Args:
+        what: "robots", "scenes" or "formats".
+
+    Returns:
+        Descriptions by name.
+
+    Raises:
+        InputError: If something else is asked for.
+
+    Example:
+        >>> "h1" in listed("robots"), "beam" in listed("scenes")
+        (True, True)
+    """
+    if what == "formats":
+        from plantar.formats import formats
+
+        return {f.name: f"{f.title} ({', '.join(f.suffixes)})" for f in formats().values()}
+    if what == "robots":
+        kinds = ("robots/*/robot.toml", "companion/machines/*/machine.toml")
+        files = [file for kind in kinds for file in packaged_files("plantar.sim", kind)]
+        return {path.parent.name: text for path, text in described_files(files).items()}
+    if what == "scenes":
+        return {
+            path.stem: text for path, text in described_files(packaged_files("plantar.sim", "scenes/*.toml")).items()
+        }
+    raise InputError(f"cannot list '{what}'; allowed: robots, scenes, formats, settings")

@@ -1,0 +1,201 @@
+"""What a run records: the topics of its MCAP file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.controller import Command, Sensors
+from plantar.gait.plan.walk_plan import PlanView
+from plantar.layouts.layout import Side
+from plantar.recordings.recorder import Recorder
+from plantar.sensing.reading import Reading
+from plantar.sides import SIDES
+from plantar.sim.arms.compliant_arm import CompliantArm
+from plantar.sim.figures.drawn_run import DrawnRun
+from plantar.sim.model.contact_truth import GroundTruth
+from plantar.sim.model.world import World
+from plantar.sim.partner.guide import Guide
+from plantar.sim.partner.mobile_robot import MobileRobot
+from plantar.sim.partner.touch import Touch
+
+__all__ = ["MOST_VERTICES", "RunLog"]
+
+_NAN2 = np.full(2, np.nan)
+
+MOST_VERTICES = 24
+"""Vertices of a recorded support polygon; further ones are left out."""
+
+
+class RunLog:
+    """Writes a run's recording. Use as a context manager.
+
+    Args:
+        path: MCAP file to write.
+        world: The world.
+        metadata: What identifies the run.
+        zmps: Whether the ZMPs of skin and ankles are recorded, too.
+        touch: Who touches the robot, and the skin that feels it; None for nobody.
+        arm: Its arm that moves; None without.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        world: World,
+        metadata: Mapping[str, object],
+        *,
+        zmps: bool = False,
+        touch: Touch | None = None,
+        arm: CompliantArm | None = None,
+    ) -> None:
+        k = len(world.servos)
+        self._world = world
+        self._recorder = Recorder(path, metadata, {s: world.robot.layouts[s] for s in SIDES})
+        channel = self._recorder.channel
+        self._skin = {s: channel(f"/skin/{s}", [("force", len(world.robot.layouts[s]))]) for s in SIDES}
+        self._joints = channel("/joints", [("position", k), ("command", k), ("torque", k)])
+        self._estimate = channel("/estimate", [("com", 3), ("com_velocity", 3), ("dcm", 2), ("zmp", 2)])
+        self._reference = channel(
+            "/reference", [("com", 3), ("dcm", 2), ("zmp", 2), ("zmp_desired", 2), ("phase", 1), ("step", 1)]
+        )
+        self._truth = {
+            s: channel(f"/truth/{s}", [("normal_force", 1), ("position", 3), ("rotation", 9)]) for s in SIDES
+        }
+        self._body = channel("/truth/body", [("com", 3), ("zmp", 2), ("zmp_margin", 1), ("rotation", 9), ("wrench", 6)])
+        self._foothold = channel(
+            "/foothold", [("step", 1), ("side", 1), ("area_ratio", 1), ("vrp", 2), ("polygon", 2 * MOST_VERTICES)]
+        )
+        self._zmps = channel("/zmp", [("skin", 2), ("force_torque", 2)]) if zmps else None
+        self._touch = touch
+        self._partner = None
+        if touch is not None:
+            self._touched = channel("/touch", [("force", 3), ("felt", 3)])
+            self._feet = channel("/feet", [(side, 3) for side in SIDES])
+            self._partner = next((p for p in touch.partners if isinstance(p, MobileRobot)), None)
+        if self._partner is not None:
+            self._partners = channel("/partner", [("moved", 1), ("reference", 1), ("force", 1)])
+        self._arm = arm
+        if arm is not None:
+            joints = len(arm.posture)
+            self._arms = channel("/arm", [("position", joints), ("posture", joints), ("torque", joints)])
+        self._guide = None if touch is None else next((p for p in touch.partners if isinstance(p, Guide)), None)
+        if self._guide is not None:
+            self._guides = channel("/guide", [("place", 3), ("held", 3), ("reference", 1), ("moved", 1), ("force", 1)])
+        self._joint_row, self._estimate_row, self._reference_row = np.empty(3 * k), np.empty(10), np.empty(11)
+        self._foot_row, self._body_row = np.empty(13), np.empty(21)
+        self._drawn = DrawnRun(self._recorder, world)
+
+    def __enter__(self) -> RunLog:
+        self._recorder.__enter__()
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self._recorder.__exit__(*error)
+
+    def skin(self, readings: Mapping[Side, Reading]) -> None:
+        """Record the soles' latest readings at the time of their samples."""
+        for side, channel in self._skin.items():
+            channel.write(readings[side].time, readings[side].force)
+        self._drawn.skin(readings)
+
+    def zmps(self, time: float, skin: NDArray[np.float64] | None, force_torque: NDArray[np.float64] | None) -> None:
+        """Record the filtered ZMP (2,) in m of the skin and that of the ankles' sensors; NaN for none.
+
+        Args:
+            time: Time in s.
+            skin: ZMP from the skin.
+            force_torque: ZMP from the ankles.
+        """
+        if self._zmps is not None:
+            row = [_NAN2 if zmp is None else zmp for zmp in (skin, force_torque)]
+            self._zmps.write(time, np.concatenate(row))
+
+    def _footholds(self, time: float, command: Command) -> None:
+        """Record what feet have been found to stand on; polygons end with NaN."""
+        for found in command.footholds:
+            row = np.full(5 + 2 * MOST_VERTICES, np.nan)
+            row[:5] = found.step, SIDES.index(found.side), found.area_ratio, *found.vrp
+            ring = found.polygon[:MOST_VERTICES].ravel()
+            row[5 : 5 + len(ring)] = ring
+            self._foothold.write(time, row)
+
+    def say(self, time: float, text: str, level: str = "info") -> None:
+        """Record what happened as a line of the log.
+
+        Args:
+            time: Time in s.
+            text: What happened.
+            level: "info", "warning" or "error".
+        """
+        self._drawn.say(time, text, level)
+
+    def tick(
+        self, sensors: Sensors, command: Command, plan: PlanView, joints: NDArray[np.float64], truth: GroundTruth
+    ) -> None:
+        """Record one control tick.
+
+        Args:
+            sensors: What the controller read.
+            command: What it asked for.
+            plan: The plan of the walk.
+            joints: Joint references (k,) in rad.
+            truth: What the judge saw.
+        """
+        w, time = self._world, sensors.time
+        data, state, reference = w.data, command.state, command.reference
+        k = len(w.servos)
+        row = self._joint_row
+        row[:k], row[k : 2 * k], row[2 * k :] = sensors.joint_positions, joints, data.actuator_force[w.servos]
+        self._joints.write(time, row)
+        row = self._estimate_row
+        row[:3], row[3:6], row[6:8] = state.com, state.com_velocity, command.dcm
+        row[8:] = _NAN2 if state.zmp is None else state.zmp
+        self._estimate.write(time, row)
+        row = self._reference_row
+        row[:3], row[3:5], row[5:7], row[7:9] = command.com, reference.dcm, reference.vrp, command.zmp_desired
+        row[9], row[10] = command.phase.kind, command.phase.step
+        self._reference.write(time, row)
+        row = self._foot_row
+        for side, channel in self._truth.items():
+            site = w.sole_sites[side]
+            row[0], row[1:4], row[4:] = data.sensordata[w.touch[side]], data.site_xpos[site], data.site_xmat[site]
+            channel.write(time, row)
+        row = self._body_row
+        row[:3], row[6:15], row[15:] = data.subtree_com[w.torso], data.xmat[w.torso], truth.wrench
+        row[3:5] = _NAN2 if truth.zmp is None else truth.zmp
+        row[5] = np.nan if truth.margin is None else truth.margin
+        self._body.write(time, row)
+        if command.footholds:
+            self._footholds(time, command)
+        self._drawn.tick(time, command, plan, truth)
+        if self._touch is not None:
+            self._record_touch(self._touch, sensors, command)
+        if self._arm is not None:
+            row = np.concatenate([self._arm.true_angles, self._arm.posture, self._arm.torque])
+            self._arms.write(time, row)
+        if self._guide is not None:
+            guide = self._guide
+            told = (guide.sign * guide.reference, guide.sign * guide.moved, guide.sign * guide.force)
+            self._guides.write(time, np.concatenate([guide.position(w), guide.held(w)[0], told]))
+
+    def _record_touch(self, touch: Touch, sensors: Sensors, command: Command) -> None:
+        """Record the true force on the skin and the felt one, world frame, where feet shall be, and the partner."""
+        felt = np.full(3, np.nan)
+        if sensors.skin is not None:
+            skin, world = touch.sensor.skin, self._world
+            active = sensors.skin.force >= skin.thresholds
+            felt = np.zeros(3)
+            for patch in skin.patches:
+                own = np.flatnonzero(active[skin.slices[patch.name]]) + skin.slices[patch.name].start
+                turn = world.data.body(patch.link).xmat.reshape(3, 3)
+                felt += turn @ (sensors.skin.force[own] @ skin.normals[own])
+        self._touched.write(sensors.time, np.concatenate([touch.force, felt]))
+        self._feet.write(sensors.time, np.concatenate([command.feet[side].position for side in SIDES]))
+        if self._partner is not None:
+            row = np.array([self._partner.moved, self._partner.law.position, self._partner.force])
+            self._partners.write(sensors.time, row)

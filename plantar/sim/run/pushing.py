@@ -1,0 +1,133 @@
+"""Pushes on the base, as a scene asks for them: one in a step of a walk, or several while the robot stands."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from plantar.errors import SceneError
+from plantar.gait.plan.phases import WalkSchedule
+from plantar.mechanics.same_time import SAME_TIME
+from plantar.sim.model.shove import Shove
+from plantar.sim.model.world import World
+from plantar.sim.run.scene import Push
+
+__all__ = ["Pusher", "direction_name", "direction_of"]
+
+_DIRECTIONS = {
+    "forward": (1.0, 0.0),
+    "backward": (-1.0, 0.0),
+    "left": (0.0, 1.0),
+    "right": (0.0, -1.0),
+}
+_FIRST = 1.5  # s: a robot that stands is left alone for so long
+_WEAKEST = 0.6  # of the scene's impulse: the weakest of several seeded pushes
+
+
+class Pusher:
+    """Applies pushes to the torso body.
+
+    Args:
+        push: The pushes of the scene.
+        schedule: Phases of the walk, which give the time of a push in a step.
+        seed: Chooses what the scene leaves open. A push in a step: seeds 0-3 push forward, backward, left and right,
+            seeds 4-7 again, and so on; the step is drawn. Pushes while standing: each one's direction, all around, and
+            its strength, from 0.6 times the scene's impulse up to all of it.
+
+    Raises:
+        SceneError: If the scene pushes at a step that the walk does not have, or when nobody stands any more.
+    """
+
+    def __init__(self, push: Push, schedule: WalkSchedule, seed: int) -> None:
+        _refuse_unused(push)
+        self.direction = direction_name(push, seed)
+        self.step: int | None = None
+        self.shoves: tuple[Shove, ...] = ()
+        self._next = 0
+        self._height = push.height
+        if push.strength <= 0.0:
+            return
+        rng = np.random.default_rng([seed, 0xB0])
+        if push.count:
+            self.shoves = _while_standing(push, schedule, rng)
+            return
+        swings = [p for p in schedule.phases if p.swing is not None]
+        if not swings or push.step >= len(swings):
+            raise SceneError(f"[push] step is {push.step}; the walk has {len(swings)} steps, counted from 0")
+        self.step = int(rng.integers(len(swings))) if push.step < 0 else push.step
+        phase = swings[self.step]
+        start = phase.start + push.phase * (phase.end - phase.start)
+        impulse = push.strength * np.array([*direction_of(push, seed), 0.0])
+        self.shoves = (Shove(start, start + push.duration, impulse, smooth=False),)
+
+    def apply(self, world: World) -> None:
+        """Set the external force on the torso for the next physics step."""
+        if self._next >= len(self.shoves):
+            return
+        shove, time = self.shoves[self._next], world.data.time + SAME_TIME
+        if time < shove.start:
+            return
+        fx, fy, fz = shove.force(time).tolist()
+        world.data.xfrc_applied[world.torso] = (fx, fy, fz, -self._height * fy, self._height * fx, 0.0)
+        if time >= shove.end:
+            self._next += 1
+
+
+def direction_name(push: Push, seed: int) -> str:
+    """Direction of a push in words, with what the seed chooses.
+
+    Args:
+        push: The pushes of a scene.
+        seed: Seeds 0-3 push forward, backward, left and right, seeds 4-7 again, and so on.
+
+    Returns:
+        One of the four, or "angle" or "step" where the scene says so.
+    """
+    return tuple(_DIRECTIONS)[seed % len(_DIRECTIONS)] if push.direction == "seeded" else push.direction
+
+
+def direction_of(push: Push, seed: int) -> tuple[float, float]:
+    """Direction of a push as a unit vector, forward and to the left.
+
+    Args:
+        push: The pushes of a scene, in no direction that changes with the step.
+        seed: Chooses it where the scene leaves it open.
+
+    Returns:
+        The vector (2,).
+    """
+    if push.direction == "angle":
+        return math.cos(math.radians(push.angle)), math.sin(math.radians(push.angle))
+    return _DIRECTIONS[direction_name(push, seed)]
+
+
+def _refuse_unused(push: Push) -> None:
+    """Refuse what only hands do: a force from nowhere does nothing of it."""
+    alone = {"direction": push.direction == "step", "cycle": push.cycle >= 0.0, "repeat": push.repeat > 1}
+    alone |= {"with_swing": push.with_swing}
+    alone |= {"small": push.small > 0.0, "place": push.place != "height", "verdict": push.verdict != "walk"}
+    given = [name for name, is_given in alone.items() if is_given]
+    if given:
+        raise SceneError(f"[push] {given[0]} is for pushes by hands; allowed: with push.by = 'hands'")
+
+
+def _while_standing(push: Push, schedule: WalkSchedule, rng: np.random.Generator) -> tuple[Shove, ...]:
+    """Pushes at equal intervals on a robot that takes no step."""
+    if schedule.steps:
+        raise SceneError(f"[push] count is {push.count}; allowed: 0 in a walk of {schedule.steps} steps")
+    needed = _FIRST + push.count * push.interval
+    if push.duration > push.interval or needed > schedule.end:
+        raise SceneError(
+            f"[push] {push.count} pushes of {push.duration:g} s every {push.interval:g} s need a scene of {needed:g} s "
+            f"(walk.settle) and a duration below the interval; the scene ends after {schedule.end:g} s"
+        )
+    shoves = []
+    for i in range(push.count):
+        angle, strength = rng.uniform(-math.pi, math.pi), rng.uniform(_WEAKEST, 1.0)
+        along = np.array([math.cos(angle), push.sideways * math.sin(angle), 0.0])
+        if push.direction != "seeded":
+            along, strength = np.array([*direction_of(push, 0), 0.0]), 1.0
+        start = _FIRST + i * push.interval
+        shoves.append(Shove(start, start + push.duration, strength * push.strength * along, smooth=True))
+    return tuple(shoves)

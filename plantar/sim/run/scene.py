@@ -1,0 +1,519 @@
+"""A scene is data: a TOML that names terrain, robot, gait, what is sensed and what disturbs.
+
+Reading a scene needs no simulator; `plantar list scenes` uses it too.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain, repeat
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from plantar.errors import InputError, SceneError
+from plantar.files.input_file import is_file
+from plantar.files.structured_text import read_toml
+from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
+from plantar.gait.propose.velocity_command import STOP, VelocityTable, table_of
+from plantar.settings.body_scale import BodyScale
+from plantar.settings.overrides import owner_of, split_setting, value_of
+from plantar.settings.schema import Settings, choice, number, share, switch, tables, whole
+from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.sim.arms.settings import ArmSettings
+from plantar.sim.partner.settings import GuideSettings, PartnerSettings
+from plantar.sim.plant.settings import Plant
+from plantar.sim.sensing.settings import Sensing
+from plantar.sim.terrain import TERRAIN_KINDS, Flat, Terrain
+
+__all__ = [
+    "SECTIONS",
+    "Control",
+    "Push",
+    "Scene",
+    "Walk",
+    "builtin_scenes",
+    "load_scene",
+    "override",
+    "scene_file",
+    "scene_of",
+    "setting_name",
+]
+
+_FOLDER = Path(__file__).parent.parent / "scenes"
+
+
+_VELOCITY_UNITS = ("s", "m/s", "m/s", "rad/s")
+"""Units of a row of a velocity command."""
+
+
+class Walk(Settings):
+    """Gait of a scene. Lengths in m, times in s.
+
+    Attributes:
+        steps: Number of steps; the last one closes the feet.
+        pattern: Where the steps go: "straight", or in a "box" of six steps a round whose side is `length`.
+        length: Distance by which a step leads the other foot.
+        sideways: Lateral distance by which each opening step leads, positive to the left.
+        stance_width: Distance of the ankles when the feet stand side by side; 0 takes the robot's own.
+        wider: By how much farther apart than that they stand.
+        first: Foot that moves first.
+        single_support: t_ss; 0 takes the robot's own.
+        double_support: t_ds; 0 takes the robot's own.
+        swing_height: Clearance of the swing foot.
+        lean: Whether the trunk leans over the stance foot, which takes load off the hip roll joints (see the robot's
+            `trunk_lean`).
+        crouch: How much lower than its own CoM height the robot walks, to reach further and ground that is lower than
+            expected; as far as the robot can (its `largest_crouch` and `largest_crouch_partial`).
+        approach_height: Height above the expected ground from which the swing foot goes down slowly; it then aims as
+            far below it, for ground that is lower than expected.
+        approach_speed: Speed of that in m/s.
+        start: Duration of the first weight shift.
+        end: Duration of the last weight shift.
+        settle: Standing time that is simulated after the walk.
+        begin: Standing time before the walk; the CoM leads the first weight shift by about 1 s.
+        velocity: Walk at this velocity [forward, left, turn] in m/s, m/s and rad/s, or in texts with units, instead of
+            a number of steps; zeros take steps in place.
+        commands: Such velocities over time: each [time, forward, left, turn], or [time, "stop"], in s after `begin`.
+        wander: Largest velocity [forward, left, turn], either way, of those that the seed draws, a new one each
+            `change_every`.
+        change_every: Time from one such velocity to the next.
+        until: Time after which a walk at a velocity is told to stop.
+    """
+
+    steps: int = whole(20, "steps", 0, 100000)
+    pattern: str = choice("straight", "box")
+    length: float = share(1 / 3, "leg", -0.5, 0.5)
+    sideways: float = number(0.0, "m", -0.3, 0.3)
+    stance_width: float = number(0.0, "m", 0, 0.6)
+    wider: float = share(0.0, "leg", 0, 0.5)
+    first: str = choice("left", "right")
+    single_support: float = number(0.0, "s", 0, 10)
+    double_support: float = number(0.0, "s", 0, 10)
+    swing_height: float = share(1 / 12, "leg", 0.005, 0.25)
+    lean: bool = switch(False)
+    crouch: float = number(0.0, "m", 0, 0.15)
+    approach_height: float = number(0.0, "m", 0, 0.1)
+    approach_speed: float = share(0.0247, "leg/beat", 0.005, 0.5)
+    start: float = share(4.85, "beat", 0.2, 60)
+    end: float = share(4.04, "beat", 0.2, 60)
+    settle: float = number(2.0, "s", 0, 600)
+    begin: float = number(1.0, "s", 1, 60)
+    velocity: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
+    commands: tuple[Sequence[float | str], ...] = tables('a list of [time, forward, left, turn] or [time, "stop"]')
+    wander: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
+    change_every: float = number(6.0, "s", 0.5, 600)
+    until: float = number(10.0, "s", 0, 36000)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        given = [name for name in ("velocity", "commands", "wander") if getattr(self, name)]
+        if len(given) > 1:
+            raise InputError(f"{' and '.join(given)} are given; allowed: one of them")
+        self.velocities(0)
+
+    def velocities(self, seed: int) -> VelocityTable | None:
+        """The commanded velocities over time in s; None for a walk of a number of steps.
+
+        Args:
+            seed: Draws those of a walk that wanders.
+        """
+        rows: list[Sequence[float | str]] = [self._in_si(row) for row in self.commands]
+        if self.velocity:
+            rows = [self._in_si([0.0, *self.velocity])]
+        if self.wander:
+            wander = self._in_si([0.0, *self.wander])
+            table_of([wander], 0.0)  # checks it
+            rng = np.random.default_rng([seed, 0xC0])
+            count = max(1, math.ceil(self.until / self.change_every - 1e-9))
+            drawn = rng.uniform(-1.0, 1.0, (count, 3)) * np.array(wander[1:], dtype=float)
+            rows = [[k * self.change_every, *velocity] for k, velocity in enumerate(drawn.tolist())]
+        if not rows:
+            return None
+        table = table_of(rows, self.begin)
+        if table.commands[-1] is not STOP:
+            if self.until <= rows[-1][0]:  # type: ignore[operator]
+                raise InputError(f"until is {self.until:g} s; allowed: after the last velocity, at {rows[-1][0]:g} s")
+            table = table_of([*rows, [self.until, "stop"]], self.begin)
+        return table
+
+    def _in_si(self, row: Any) -> Any:
+        """A row of [time, forward, left, turn] whose texts with units are numbers in s, m/s and rad/s; what is none of
+        those stays, for who reads the row to refuse."""
+        if not isinstance(row, Sequence) or isinstance(row, str):
+            return row
+        units = chain(_VELOCITY_UNITS, repeat("1"))
+        return [self.in_si(value, unit, "a velocity command") for value, unit in zip(row, units, strict=False)]
+
+
+class Push(Settings):
+    """Pushes on the base: one in a step, one in each of several steps, or several while the robot stands.
+
+    Attributes:
+        dv: Velocity in m/s that the push gives to a body that nothing holds: its impulse is that times the robot's
+            mass; 0 pushes nobody.
+        impulse: Impulse in N s, for every robot the same, instead of `dv`; 0 goes by `dv`.
+        duration: Duration in s.
+        by: What pushes: a "force" on the torso that comes from nowhere, or "hands" that press on the skin of the upper
+            body, which is then felt (`sensing.body_skin`).
+        direction: Direction in the robot's frame; "angle" takes `angle`, "step" goes along the step that it falls into,
+            and with "seeded" the seed chooses.
+        angle: Direction in degrees from forward to the left, where `direction` says so.
+        step: Step in whose single support it comes; -1 lets the seed choose.
+        phase: Share of the single support at which it begins.
+        cycle: Share of the stride, from the begin of that single support to the begin of the next one of the same foot,
+            at which it begins instead; -1 goes by `phase`. Of pushes by hands.
+        with_swing: Whether a push to a side comes in a step whose foot swings to that side: one step later where that
+            of `step` does not. (Over the outer edge of the foot that stands no step catches more than 37 N s on h1, see
+            `plantar.sim.judging.capture_limit`.) Of pushes by hands.
+        repeat: In how many steps, from that one on, one push each comes. Of pushes by hands.
+        small: Impulse of one more push some steps earlier, as a share of the impulse; 0 for none. Of pushes by hands.
+        small_before: So many steps earlier.
+        count: Number of pushes on a robot that stands; 0 pushes once, in a step.
+        interval: Time in s from one such push to the next.
+        sideways: Strength of a push to the side, as a share of one forward; in between along an ellipse.
+        height: Height in m above the torso's centre of mass at which it is pushed; 0.6 is about the neck.
+        place: Where hands push: at `height`, or at the height of the CoM, the hips or the shoulders.
+        verdict: What the judge asks for beside a completed walk: "steps", that small pushes change no step and others
+            do; "stride", that each pushed step becomes longer along its push; "acceleration", that the CoM is
+            accelerated as a force at that height has to. Of pushes by hands.
+    """
+
+    dv: float = number(0.0, "m/s", 0, 10)
+    impulse: float = number(0.0, "N s", 0, 1000)
+    duration: float = number(0.1, "s", 0.001, 10)
+    by: str = choice("force", "hands")
+    direction: str = choice("seeded", "forward", "backward", "left", "right", "angle", "step")
+    angle: float = number(0.0, "deg", -360, 360)
+    step: int = whole(-1, "step", -1, 100000)
+    phase: float = number(0.5, "1", 0, 1)
+    cycle: float = number(-1.0, "1", -1, 1)
+    with_swing: bool = switch(False)
+    repeat: int = whole(1, "steps", 1, 100000)
+    small: float = number(0.0, "1", 0, 1)
+    small_before: int = whole(4, "steps", 1, 1000)
+    count: int = whole(0, "pushes", 0, 1000)
+    interval: float = number(4.0, "s", 0.1, 60)
+    sideways: float = number(1.0, "1", 0, 1)
+    height: float = number(0.0, "m", -1, 1)
+    place: str = choice("height", "com", "hip", "shoulder")
+    verdict: str = choice("walk", "steps", "stride", "acceleration")
+
+    @property
+    def strength(self) -> float:
+        """Impulse in N s of the push, for the body that the settings count for."""
+        return self.impulse or self.dv * self.body.mass
+
+
+class Control(Settings):
+    """How the scene is controlled and computed.
+
+    Attributes:
+        feedback: False walks the plan in open loop.
+        zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
+        footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole; "force" goes by the
+            taxels' forces, "skin" by what they see before they touch, too.
+        pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
+        feasibility: Rule by which a foothold is refused that is higher than expected: "off", "skin" (supported area) or
+            "force_torque" (moment at the ankle). Needs pfc.
+        conform: Feet take the ground's shape: standing soles turn until the ground carries them where they shall be
+            loaded. For bumps; needs pfc.
+        identify: The controller identifies how robot and sensors differ from its model, such as the gyro's bias.
+        step_timing: The controller ends a single support sooner or later than planned where the DCM asks for it; not of
+            a robot that rocks.
+        step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks. For ground where a
+            foot may stand anywhere.
+        learn_strides: Strides become longer by what pushed steps went farther; needs `step_adjustment`.
+        push_estimate: What tells of a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
+            "skin" on the upper body, and the soles where that feels nothing.
+        dcm_estimate: What estimates the CoM's velocity, and so the DCM: "observer", or "kalman", a Kalman filter that
+            takes what neither ZMP nor push explain for a push that nothing feels.
+        swing_shape: Path of the swing foot: "polynomial" changes only with the plan; "fit" is fitted at every tick to
+            where and when the foot shall land.
+        period: Control period in s.
+        physics_period: Time step of the simulated physics in s; a contact takes five of them.
+        skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
+    """
+
+    feedback: bool = switch(True)
+    zmp_source: str = choice("skin", "force_torque")
+    footholds: str = choice("off", "force", "skin")
+    pfc: bool = switch(False)
+    feasibility: str = choice("off", "skin", "force_torque")
+    conform: bool = switch(False)
+    identify: bool = switch(True)
+    step_timing: bool = switch(True)
+    step_adjustment: bool = switch(False)
+    learn_strides: bool = switch(False)
+    push_estimate: str = choice("off", "soles", "skin")
+    dcm_estimate: str = choice("observer", "kalman")
+    swing_shape: str = choice("polynomial", "fit")
+    period: float = number(0.005, "s", 0.0005, 0.05)
+    physics_period: float = number(0.001, "s", 0.0001, 0.002)
+    skip: str = choice("auto", "none")
+
+
+SECTIONS: dict[str, type[Settings]] = {
+    "terrain": Flat,  # or another of TERRAIN_KINDS, by its field `kind`
+    "walk": Walk,
+    "sensing": Sensing,
+    "push": Push,
+    "partner": PartnerSettings,
+    "arm": ArmSettings,
+    "guide": GuideSettings,
+    "control": Control,
+    "plant": Plant,
+}
+"""Settings class of each table of a scene; `terrain` has the one of its kind."""
+
+_LEAST = ("terrain", "walk")
+"""Sections of which a scene file has one at least: an empty or foreign file is no scene."""
+
+_ALIASES: Mapping[str, str] = {
+    "sideways": "walk.sideways",
+    "t_ss": "walk.single_support",
+    "t_ds": "walk.double_support",
+    "noise": "sensing.force_noise",
+    "delay": "sensing.delay_periods",
+    "plant": "plant.draw",
+}
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene.
+
+    Attributes:
+        name: Name.
+        description: One line for people.
+        robot: Name or TOML file of the robot.
+        terrain: Ground.
+        walk: Gait.
+        sensing: Sensor noise and delay.
+        push: Disturbance.
+        control: Switches.
+        controller: Settings of the controller's parts by table and name (`plantar.gait.controller_tables`), as far as
+            given.
+        plant: In what the true robot and ground differ from what the controller takes them for.
+        partner: Who walks with the robot.
+        arm: Its arm that moves.
+        guide: Who leads it by that.
+    """
+
+    name: str
+    description: str
+    robot: str
+    terrain: Terrain
+    walk: Walk
+    sensing: Sensing
+    push: Push
+    control: Control
+    controller: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    plant: Plant = field(default_factory=Plant)
+    partner: PartnerSettings = field(default_factory=PartnerSettings)
+    arm: ArmSettings = field(default_factory=ArmSettings)
+    guide: GuideSettings = field(default_factory=GuideSettings)
+
+    def for_body(self, body: BodyScale) -> Scene:
+        """The scene for a robot: what it states as shares of a body is told for this one.
+
+        Args:
+            body: How large the robot is.
+
+        Returns:
+            The scene.
+
+        Raises:
+            SceneError: If a share comes to a number that is not allowed; the message names it.
+        """
+        sections: dict[str, Any] = {}
+        for name in SECTIONS:
+            try:
+                sections[name] = getattr(self, name).for_body(body)
+            except InputError as error:
+                words = str(error).removeprefix("setting ")
+                raise SceneError(f"scene '{self.name}': [{name}] {words}, with robot '{self.robot}'") from None
+        return replace(self, **sections)
+
+
+def builtin_scenes() -> tuple[str, ...]:
+    """Names of the built-in scenes."""
+    return tuple(sorted(p.stem for p in _FOLDER.glob("*.toml")))
+
+
+def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, Any]:
+    """Apply `key=value` settings to a scene's tables.
+
+    Args:
+        source: The scene as read from TOML.
+        settings: Each "section.key=value" or, where the key is unique, "key=value"; values are TOML, bare words texts.
+            A scene's own key goes before one of the controller's parts.
+
+    Returns:
+        A changed copy.
+
+    Raises:
+        SceneError: If a key is unknown or a setting is not of that form.
+
+    Example:
+        >>> override({"walk": {"steps": 20}}, ["steps=4", "control.feedback=false"])
+        {'walk': {'steps': 4}, 'control': {'feedback': False}}
+    """
+    result = {k: dict(v) if isinstance(v, Mapping) else v for k, v in source.items()}
+    if isinstance(result.get("plant"), str):
+        result["plant"] = {"draw": result["plant"]}
+    pairs: list[tuple[str, str]] = []
+    for setting in settings:
+        key, text = split_setting(setting)
+        key = _ALIASES.get(key, key)
+        if key in ("kind", "terrain.kind"):  # first: it decides which other keys there are
+            terrain = result.setdefault("terrain", {})
+            if isinstance(terrain, dict):
+                terrain["kind"] = text
+        else:
+            pairs.append((key, text))
+    keys = {name: kind.names() for name, kind in (SECTIONS | _terrain_kind(result)).items()}
+    parts = {name: controller_keys(name) for name in CONTROLLER_TABLES}
+    for key, text in pairs:
+        if key == "robot":
+            result["robot"] = text
+            continue
+        owner, name = owner_of(key, text, keys, parts)
+        table = result.setdefault(owner, {})
+        if not isinstance(table, dict):
+            raise SceneError(f"scene section '{owner}' is not a table")
+        table[name] = value_of(text)
+    return result
+
+
+def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
+    """The dataclass of a scene's terrain, as its section."""
+    table = source.get("terrain", {})
+    kind = table.get("kind", "flat") if isinstance(table, Mapping) else "flat"
+    if not isinstance(kind, str) or kind not in TERRAIN_KINDS:
+        raise SceneError(f"terrain.kind is {kind!r}; allowed: {', '.join(TERRAIN_KINDS)}")
+    return {"terrain": TERRAIN_KINDS[kind]}
+
+
+def setting_name(scene: Scene, key: str) -> str:
+    """Full name of a setting's key.
+
+    Args:
+        scene: A scene that has the setting; its kind of terrain decides which keys there are.
+        key: Any name that the setting is given by.
+
+    Returns:
+        "section.key", or "robot".
+
+    Raises:
+        SceneError: If the scene has no such key.
+
+    Example:
+        >>> setting_name(load_scene("flat"), "t_ss")
+        'walk.single_support'
+    """
+    full = _ALIASES.get(key.strip(), key.strip())
+    if full == "robot":
+        return full
+    section, _, name = full.rpartition(".")
+    for owner in (section,) if section else SECTIONS:
+        if owner in SECTIONS and name in getattr(scene, owner).names():
+            return f"{owner}.{name}"
+    owners = [s for s in CONTROLLER_TABLES if name in controller_keys(s) and section in ("", s)]
+    if len(owners) == 1:
+        return f"{owners[0]}.{name}"
+    raise SceneError(f"scene '{scene.name}' has no setting '{key}'")
+
+
+def scene_file(name: str | os.PathLike[str]) -> Path:
+    """File of a scene.
+
+    Args:
+        name: A built-in name (`builtin_scenes()`) or the path of a scene TOML.
+
+    Returns:
+        Its path.
+
+    Raises:
+        SceneError: If there is none.
+
+    Example:
+        >>> scene_file("flat").name
+        'flat.toml'
+    """
+    path = Path(name)
+    if path.suffix == ".toml":
+        if not os.path.exists(path):
+            raise SceneError(f"scene file {path} does not exist")
+    else:
+        path = _FOLDER / f"{name}.toml"
+        if os.sep in str(name) or not is_file(path):
+            raise SceneError(f"unknown scene '{name}'; allowed: {', '.join(builtin_scenes())}, or a scene .toml file")
+    return path
+
+
+def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None) -> Scene:
+    """Load a scene by its built-in name or from a TOML file.
+
+    Args:
+        name: A built-in name (`builtin_scenes()`) or the path of a scene TOML.
+        settings: `key=value` settings that override the file's.
+        robot: Robot to use instead of the file's.
+
+    Returns:
+        The scene.
+
+    Raises:
+        SceneError: If the name is unknown or a field is not valid; the message names it.
+
+    Example:
+        >>> load_scene("flat", ["steps=4"]).walk.steps
+        4
+    """
+    path = scene_file(name)
+    return scene_of(read_toml(path, SceneError, f"scene file {path}"), path, settings, robot)
+
+
+def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = (), robot: str | None = None) -> Scene:
+    """Make a scene of what a TOML file holds.
+
+    Args:
+        source: What it holds.
+        path: The file, for names and messages.
+        settings: `key=value` settings that override the file's.
+        robot: Robot to use instead of the file's.
+
+    Returns:
+        The scene.
+
+    Raises:
+        SceneError: If a field is not valid; the message names it.
+    """
+    given = set(source)
+    source = override(source, settings)
+    where = f"scene '{path.stem}'"
+    refuse_unknown_keys(source, ("name", "description", "robot", *SECTIONS, *CONTROLLER_TABLES), where, SceneError)
+    if given.isdisjoint(_LEAST):
+        raise SceneError(f"scene file {path} names neither ground nor gait; it needs [terrain] or [walk], or both")
+    for key in ("name", "description", "robot"):
+        if not isinstance(source.get(key, ""), str):
+            raise SceneError(f"{where}: '{key}' is not a text")
+    parts: dict[str, Any] = {
+        section: kind.from_table(source.get(section, {}), f"{where}: [{section}]", SceneError)
+        for section, kind in (SECTIONS | _terrain_kind(source)).items()
+    }
+    return Scene(
+        name=source.get("name", path.stem),
+        description=source.get("description", ""),
+        robot=robot or source.get("robot", "h1"),
+        controller={
+            name: check_controller_table(name, source[name], f"{where}: [{name}]", SceneError)
+            for name in CONTROLLER_TABLES
+            if name in source
+        },
+        **parts,
+    )

@@ -1,0 +1,126 @@
+"""Joint servos: position set-points with velocity and torque feed-forward, interpolated at the servo's own rate."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.controller import Command
+from plantar.kernels.joints.setpoints import Setpoints
+from plantar.sides import Side
+from plantar.sim.model.leg_model import LegModel
+from plantar.sim.model.world import World
+from plantar.sim.plant.draw import TruePlant
+from plantar.sim.plant.drives import TrueDrives
+
+__all__ = ["LegServos"]
+
+_SPEED_SHARE = 0.9  # of a joint's speed limit that its set-point may have: the joint itself overshoots by up to a tenth
+_REACH_ERROR = 0.02  # rad, or m on a leg of 0.6 m, of a joint solution; the motion of one control period leaves 8 mm
+_LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, three times what the robots' knees can
+_YIELDING: dict[tuple[bool, bool], tuple[Side, ...]] = {
+    (False, False): (),
+    (True, False): ("left",),
+    (False, True): ("right",),
+    (True, True): ("left", "right"),
+}
+"""Feet that miss their targets first, for whether the left and the right one carry nothing."""
+_SLOW = 0.0247  # rad/beat from which a joint moves against its friction: 0.1 rad/s on a leg of 0.6 m
+
+
+class LegServos:
+    """Turns commands of the walking controller into servo set-points.
+
+    A servo computes torque = kp (u - q) - kv q'. With u = q_d + ((kv + d) q'_d + tau_ff) / kp, where d is the joint's
+    own damping and its friction counts as load, it follows q_d without lag and holds the expected load without error.
+    Between control ticks u moves on at q'_d: held set-points would make a saw tooth of kp q'_d dt in every torque.
+    Where a joint would have to be faster than the robot's speed limits, all joints move on by the same smaller share of
+    their way, and make up for it later.
+
+    Args:
+        world: The world.
+        legs: Kinematics of the robot.
+        period: Control period in s.
+        plant: In what the true drives differ from what these servos are taken to be; None for nothing.
+
+    Attributes:
+        out_of_reach_since: Time in s at which something was first asked for that the legs do not reach; None if never.
+    """
+
+    def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:
+        self._world = world
+        self._legs = legs
+        self._friction = world.joint_friction
+        self._rubs = bool(world.joint_friction.any())
+        self._slow = _SLOW / world.body.beat
+        limits = np.array([*world.robot.velocity_limits] * 2)
+        self._setpoints = Setpoints(
+            world.data.ctrl,
+            world.servos,
+            world.stiffness,
+            world.damping + world.joint_damping,
+            1.0 / (_SPEED_SHARE * limits * period),
+            period,
+            world.period,
+            *(legs.joints, legs.torques),
+        )
+        self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)
+        self._velocity = np.asarray(self._setpoints.velocity)  # views of what the kernel writes
+        self._reference = np.asarray(self._setpoints.reference)
+        self.out_of_reach_since: float | None = None
+
+    def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
+        """Hold a posture.
+
+        Args:
+            joints: Joint angles (k,) in rad.
+            torques: Feed-forward torques (k,) in N m.
+        """
+        self._setpoints.hold(joints, torques)
+        self._write()
+
+    def command(self, command: Command) -> NDArray[np.float64]:
+        """Solve a command for the joints; returns the joint reference (k,) in rad, within the speed limits."""
+        left, right = command.feet["left"], command.feet["right"]
+        missed = self._legs.follow(
+            command.com,
+            command.rotation_torso,
+            {"left": left.position, "right": right.position},
+            {"left": left.rotation, "right": right.rotation},
+            yielding=_YIELDING[left.force.item(2) <= 0.0, right.force.item(2) <= 0.0],
+            largest_step=_LARGEST_STEP,
+        )
+        if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
+            self.out_of_reach_since = float(self._world.data.time)
+        self._legs.carry(
+            {"left": left.force, "right": right.force},
+            {
+                "left": (*left.center_of_pressure.tolist(), left.position.item(2)),
+                "right": (*right.center_of_pressure.tolist(), right.position.item(2)),
+            },
+        )
+        setpoints = self._setpoints
+        setpoints.go_to()
+        # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
+        friction = self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None
+        setpoints.load(friction, command.joint_offsets)
+        return self._reference.copy()
+
+    def drive(self) -> None:
+        """Write the set-points of one physics step."""
+        if self._drives is None:
+            self._setpoints.drive()
+        else:
+            self._write()
+            self._setpoints.advance()
+
+    def _write(self) -> None:
+        """Hand the set-points to the servos, as far as these get them."""
+        if self._drives is None:
+            self._setpoints.write()
+            return
+        data, w = self._world.data, self._world
+        setpoint = np.array(self._setpoints.setpoint)
+        data.ctrl[w.servos] = self._drives.followed(
+            float(data.time), setpoint, data.qpos[w.joint_qpos], data.qvel[w.joint_qvel]
+        )

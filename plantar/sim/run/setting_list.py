@@ -1,0 +1,81 @@
+"""What settings there are: every dotted name that a scene, `--set`, a sweep or a robot file takes."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+
+from plantar.errors import InputError
+from plantar.gait.controller_tables import CONTROLLER_TABLES, controller_settings_described
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.settings.schema import Setting
+from plantar.sim.companion.experiment import experiment_names
+from plantar.sim.companion.scene import companion_tables
+from plantar.sim.run.scene import SECTIONS
+from plantar.sim.terrain import TERRAIN_KINDS
+
+__all__ = ["settings_listed", "settings_of_robot"]
+
+
+def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -> dict[str, Setting]:
+    """The settings by their dotted names.
+
+    Args:
+        name: A table such as "estimator" or "terrain.beam", a setting's dotted name, or its last part; None lists all.
+        body: The body for which defaults that are shares of one are told in SI.
+
+    Returns:
+        What there is to say of each; those of a kind of terrain stand under "terrain.KIND.", which a scene writes as
+        `terrain.kind` and the last part; those of an experiment under its name.
+
+    Raises:
+        InputError: If there is no such table or setting; the message names the nearest.
+
+    Example:
+        >>> settings_listed("estimator.gravity")["estimator.gravity"][1:4]
+        ('0.2002', '1/s', 'a number 0 to 50')
+    """
+    tables: dict[str, tuple[Setting, ...]] = {
+        section: kind.described(body) for section, kind in SECTIONS.items() if section != "terrain"
+    }
+    tables |= {f"terrain.{kind}": ground.described(body) for kind, ground in TERRAIN_KINDS.items()}
+    tables |= {table: controller_settings_described(table, body) for table in CONTROLLER_TABLES}
+    for kind in experiment_names():
+        tables |= {f"{kind}.{table}": own.described(body) for table, own in companion_tables(kind).items()}
+    every = {f"{table}.{told.name}": told for table, settings in tables.items() for told in settings}
+    if name is None:
+        return every
+    found = {
+        full: told
+        for full, told in every.items()
+        if full == name or full.startswith(f"{name}.") or full.endswith(f".{name}")
+    }
+    if not found:
+        words = {*tables, *every, *(told.name for told in every.values())}
+        near = get_close_matches(name, sorted(words), 4)
+        hint = f"nearest: {', '.join(near)}; " if near else ""
+        raise InputError(f"no setting or table '{name}'; {hint}tables: {', '.join(tables)}")
+    return found
+
+
+def settings_of_robot(name: str | None, robot: str | None) -> dict[str, Setting]:
+    """The settings by their dotted names, with the numbers of a robot.
+
+    Args:
+        name: A table, a setting's dotted name, or its last part; None lists all.
+        robot: Name or file of the robot; None takes the reference body, which is H1's.
+
+    Returns:
+        What there is to say of each.
+
+    Raises:
+        InputError: If there is no such table or setting.
+        RobotError: If the robot is unknown or its model cannot be read.
+    """
+    if robot is None:
+        return settings_listed(name)
+    from plantar.sim.model.body import body_of
+    from plantar.sim.model.world import build_leg_model
+    from plantar.sim.robots import load_robot
+
+    found = load_robot(robot)
+    return settings_listed(name, body_of(found, build_leg_model(found).model))

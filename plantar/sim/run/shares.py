@@ -1,0 +1,59 @@
+"""What a scene's shares of a body come to for the robot that walks in it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from plantar.settings.body_scale import BodyScale, si_unit
+from plantar.settings.schema import Settings
+from plantar.sim.run.scene import SECTIONS, Scene
+
+__all__ = ["body_told", "shares_told"]
+
+
+def body_told(body: BodyScale) -> dict[str, float]:
+    """A body as plain JSON values.
+
+    Args:
+        body: How large the robot is.
+
+    Returns:
+        What its shares are shares of, by name and unit.
+    """
+    return {
+        "mass_kg": round(body.mass, 4),
+        "weight_N": round(body.weight, 3),
+        "leg_m": round(body.leg, 6),
+        "sole_m": round(body.sole, 6),
+        "sole_width_m": round(body.sole_width, 6),
+        "beat_s": round(body.beat, 6),
+        "pace_s": round(body.pace, 6),
+    }
+
+
+def shares_told(scene: Scene) -> dict[str, dict[str, Any]]:
+    """The settings of a scene that are stated as shares of a body, in SI.
+
+    Args:
+        scene: A scene that counts for a robot (`Scene.for_body`).
+
+    Returns:
+        By dotted name of the setting its "share", its "value" in SI, and the "unit" of that.
+
+    Example:
+        >>> from plantar.sim.run.scene import load_scene
+        >>> shares_told(load_scene("flat"))["walk.length"]
+        {'share': '0.3333 leg', 'value': 0.2, 'unit': 'm'}
+    """
+    return {f"{section}.{name}": told for section in SECTIONS for name, told in _told(getattr(scene, section)).items()}
+
+
+def _told(settings: Settings) -> dict[str, dict[str, Any]]:
+    return {
+        name: {
+            "share": str(share),
+            "value": float(f"{getattr(settings, name):.6g}"),
+            "unit": si_unit(share.unit),
+        }
+        for name, share in settings.stated.items()
+    }

@@ -1,0 +1,112 @@
+"""Put a robot on its feet: solve the standing posture and let the contacts settle before control begins."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError, SceneError
+from plantar.gait.plan.footsteps import Footstep
+from plantar.layouts.layout import Side
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.rotation import level_rotation
+from plantar.sides import SIDES
+from plantar.sim.judging.leg_contact import legs_that_touch
+from plantar.sim.model.leg_model import LegModel
+from plantar.sim.model.world import World, check_stable
+from plantar.sim.run.servos import LegServos
+
+__all__ = ["stand"]
+
+_SETTLING = 500  # physics steps: half a second of H1
+_SINKING_MAX = 1 / 12  # leg, of the base while it settles; soft servos yield by less
+
+
+def stand(
+    world: World,
+    legs: LegModel,
+    servos: LegServos,
+    feet: Mapping[Side, Footstep],
+    centers: Mapping[Side, NDArray[np.float64]],
+    com_height: float,
+    hold: Callable[[], None] | None = None,
+) -> None:
+    """Stand the robot on its footholds, CoM between the sole centres, and let it settle until time 0.
+
+    Args:
+        world: The world; its state is replaced.
+        legs: Kinematics, which start from this posture afterwards.
+        servos: Servos, which hold this posture afterwards.
+        feet: Where the soles stand.
+        centers: Point (2,) of each sole in the world frame in m that carries its half of the weight.
+        com_height: CoM height above the soles in m.
+        hold: Holds what else of the robot moves, and is called before each physics step; None where nothing does.
+
+    Raises:
+        RobotError: If the left foot is to the right of the other.
+        SceneError: If the legs cannot reach that stance or touch each other in it, it does not keep standing there, or
+            the physics becomes unstable.
+    """
+    posture = np.array([*world.robot.posture["left"], *world.robot.posture["right"]])
+    stands = legs.posture(posture).positions
+    if not stands["left"][1] > stands["right"][1]:
+        raise RobotError(
+            f"robot '{world.robot.name}': the foot of [legs.left] is to the right of [legs.right]'s in [posture]; "
+            "x points forward, y to the left"
+        )
+    ground = float(np.mean([feet[s].z for s in SIDES]))
+    middle = np.mean([centers[s] for s in SIDES], axis=0)
+    com = np.array([middle[0], middle[1], ground + com_height])
+    yaw = feet["left"].yaw
+    rotation = level_rotation(yaw)
+    quaternion = np.array([np.cos(0.5 * yaw), 0.0, 0.0, np.sin(0.5 * yaw)])
+    legs.set_configuration(com, quaternion, posture)
+    joints, error = legs.solve(
+        com,
+        rotation,
+        {s: feet[s].position for s in SIDES},
+        {s: feet[s].rotation_sole_to_world for s in SIDES},
+        iterations=50,
+    )
+    if not error < 1e-6:
+        raise SceneError(
+            f"robot '{world.robot.name}' cannot stand with its CoM at {com_height:.3f} m and feet "
+            f"{np.hypot(feet['left'].x - feet['right'].x, feet['left'].y - feet['right'].y):.3f} m apart; "
+            "allowed: what the legs reach from [posture] (degrees), within their joints' limits"
+        )
+    half = np.array([0.0, 0.0, 0.5 * legs.mass * GRAVITY])
+    torques = legs.static_torques(dict.fromkeys(SIDES, half), {s: np.array([*centers[s], ground]) for s in SIDES})
+    data = world.data
+    mujoco.mj_resetData(world.model, data)
+    # The robot comes first; others have their places after it.
+    data.qpos[: len(legs.configuration)] = legs.configuration
+    data.time = -_SETTLING * world.period
+    mujoco.mj_kinematics(world.model, data)
+    mujoco.mj_collision(world.model, data)
+    touching = legs_that_touch(world)
+    if touching is not None:
+        raise SceneError(
+            f"robot '{world.robot.name}' cannot stand with its feet "
+            f"{np.hypot(feet['left'].x - feet['right'].x, feet['left'].y - feet['right'].y):.3f} m apart: "
+            f"{' and '.join(touching)} touch; allowed: a wider stance (walk.stance_width, or the robot's stance_width)"
+        )
+    servos.start(joints, torques)
+    if hold is None:
+        mujoco.mj_step(world.model, data, _SETTLING)
+    else:
+        for _ in range(_SETTLING):
+            hold()
+            mujoco.mj_step(world.model, data)
+    check_stable(data.warning.number)
+    sunk = float(legs.configuration[2] - data.qpos[2])
+    if abs(sunk) > _SINKING_MAX * world.body.leg:
+        settling = _SETTLING * world.period
+        raise SceneError(
+            f"robot '{world.robot.name}' does not keep standing: it came to be {abs(sunk):.2f} m "
+            f"{'lower' if sunk > 0.0 else 'higher'} in its first {settling:g} s; allowed: ground at a height of "
+            f"{ground:g} m (terrain.height) under both feet, and servos that carry the robot"
+        )
+    data.time = 0.0

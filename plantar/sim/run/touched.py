@@ -1,0 +1,183 @@
+"""Who touches the robot in a run: hands that push or lead, a partner, the skin that feels them, and their judge."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.phases import WalkSchedule
+from plantar.sensing.link_skin import BodySkin
+from plantar.settings.body_scale import BodyScale
+from plantar.sides import SIDES, Side
+from plantar.sim.arms.worn_arm import WornArm
+from plantar.sim.judging.guide_truth import GuideTruth
+from plantar.sim.judging.partner_truth import partner_reasons
+from plantar.sim.judging.push_truth import Pushed, PushTruth, step_changes, strides
+from plantar.sim.judging.step_count import Stand
+from plantar.sim.model.world import World
+from plantar.sim.partner.guide import Grip, Guide
+from plantar.sim.partner.hand_pushes import HandPushes
+from plantar.sim.partner.mobile_robot import MobileRobot
+from plantar.sim.partner.touch import Partner, Touch
+from plantar.sim.run.hand_pushing import hand_pushes
+from plantar.sim.run.pushing import direction_name
+from plantar.sim.run.scene import Scene
+
+__all__ = ["Touched"]
+
+
+class Touched:
+    """Hands and partner of a run, from the plan to the verdict.
+
+    Args:
+        scene: The scene, for the same body.
+        skin: Skin of the robot's upper body.
+        body: How large the robot is.
+        schedule: Says the phases of the walk as planned now.
+        feet: Where the feet stand at the start.
+        steps: The footsteps as planned at the start.
+        seed: Chooses what the scene leaves open, and the noise.
+        reach: Height in the world in m at which a partner before the robot has its hand.
+        worn: The robot's arm that moves; None without.
+
+    Attributes:
+        partners: Who touches the robot, to be added to its world.
+        touch: The skin in the world; None before `enter`.
+
+    Raises:
+        SceneError: If the scene pushes at a step that the walk does not have.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        skin: BodySkin,
+        body: BodyScale,
+        schedule: Callable[[], WalkSchedule],
+        feet: Mapping[Side, Footstep],
+        steps: Sequence[Footstep],
+        seed: int,
+        reach: float,
+        worn: WornArm | None = None,
+    ) -> None:
+        self._scene, self._skin, self._body, self._seed = scene, skin, body, seed
+        self._feet, self._steps = feet, steps
+        timing = schedule().timing
+        self._truth = PushTruth(body.mass, body.leg, 2.0 * (timing.single_support + timing.double_support))
+        self.hands: HandPushes | None = None
+        self.partner: MobileRobot | None = None
+        self.touch: Touch | None = None
+        self.partners: list[Partner] = []
+        if scene.partner.kind == "mobile_robot":
+            self.partner = MobileRobot(scene.partner, skin, body, reach, seed)
+            self.partners.append(self.partner)
+        if scene.push.by == "hands" and scene.push.strength > 0.0:
+            self.hands = hand_pushes(scene.push, schedule, (feet, steps), skin, body, seed)
+            self.partners.append(self.hands)
+        self.guide: Guide | None = None
+        self._led: GuideTruth | None = None
+        self._worn = worn
+        if worn is not None and scene.guide.way > 0.0:
+            self.guide = Guide(scene.guide, Grip(*worn.surface(f"{worn.side}_lower_arm")), body, seed)
+            self.partners.append(self.guide)
+
+    def enter(self, world: World) -> Touch:
+        """Find skin and partners in the compiled world.
+
+        Args:
+            world: The world, with the partners in it.
+
+        Returns:
+            The skin in it; `place` puts the partners where they begin.
+        """
+        self.touch = Touch(world, self._skin, self.partners, self._seed)
+        if self.guide is not None and self._worn is not None:
+            way, worn = self.guide.sign * self.guide.settings.way, self._worn
+            grip, starts = self.guide.grip, self.guide.starts
+            self._led = GuideTruth(world, grip.link, grip.point, tuple(worn.joints), worn.posture, way, starts)
+        return self.touch
+
+    def update(self, world: World, zmp: NDArray[np.float64] | None) -> None:
+        """At each control tick.
+
+        Args:
+            world: The world.
+            zmp: True ZMP (2,) in m; None without load.
+        """
+        if self.touch is not None and self.hands is not None:
+            com = world.data.subtree_com[world.torso]
+            self._truth.update(float(world.data.time), com, zmp, self.touch.wrench)
+        if self._led is not None:
+            self._led.update()
+
+    def reasons(self, stands: Sequence[Stand]) -> list[dict[str, Any]]:
+        """Criteria that failed of what the scene asks beside a completed walk.
+
+        Args:
+            stands: The stands of the feet that could be steps.
+
+        Returns:
+            As `plantar.sim.judging.verdict.reasons` gives them.
+        """
+        found: list[dict[str, Any]] = []
+        verdict = self._scene.push.verdict if self.hands is not None else "walk"
+        if verdict == "steps":
+            found += self._truth.steps_reasons(self._pushes(), step_changes(stands, self._feet, self._steps))
+        elif verdict == "stride":
+            found += self._truth.stride_reasons(self._pushes(), strides(stands, self._feet, self._steps))
+        elif verdict == "acceleration":
+            found += self._truth.acceleration_reasons(self._pushes())
+        if self.partner is not None:
+            last = dict(self._feet) | {step.side: step for step in self._steps}
+            way = 0.5 * sum(last[side].x - self._feet[side].x for side in SIDES)
+            found += partner_reasons(self._scene.partner.role, way, self.partner.moved)
+        if self._led is not None:
+            found += self._led.reasons()
+        return found
+
+    def summary(self, stands: Sequence[Stand], walked: float) -> dict[str, Any]:
+        """What hands and partner did, and what came of it, for a run's summary.
+
+        Args:
+            stands: The stands of the feet that could be steps.
+            walked: How far forward in m the robot's CoM came.
+
+        Returns:
+            "push", "partner" and "guide", where the scene has them.
+        """
+        found: dict[str, Any] = {}
+        if self.hands is not None:
+            push, told = self._scene.push, self.hands.summary()
+            for row, measured in zip(told["pushes"], self._truth.accelerations(self._pushes()), strict=True):
+                row |= {name: round(value, 3) for name, value in measured.items()}
+            changes = step_changes(stands, self._feet, self._steps)
+            ways = strides(stands, self._feet, self._steps)
+            found["push"] = {
+                "impulse_Ns": round(push.strength, 4),
+                "dv_m_s": round(push.strength / self._body.mass, 4),
+                "direction": direction_name(push, self._seed),
+                "step_changes_m": [round(change, 4) for change in changes],
+                "strides_m": [[round(v, 4) for v in way.true] for way in ways],
+                **told,
+            }
+        if self.partner is not None:
+            found["partner"] = {**self.partner.summary(), "robot_moved_m": round(walked, 4)}
+        if self.guide is not None and self._led is not None:
+            found["guide"] = {**self.guide.summary(), **self._led.summary(), "robot_moved_m": round(walked, 4)}
+        return found
+
+    def _pushes(self) -> list[Pushed]:
+        """The pushes by hands that came, for the judge."""
+        if self.hands is None:
+            return []
+        full = (1.0 - 1e-9) * self._scene.push.strength
+        return [
+            Pushed(p.step, p.start, p.end, p.delivered[:2], float(np.hypot(*p.impulse)) < full)
+            for p in self.hands.pushes
+            if p.start < math.inf
+        ]

@@ -1,0 +1,183 @@
+"""Simulated proximity of a sole: one ray a taxel against the ground, and what the electronics deliver of it.
+
+Rays run along each taxel's -z, out of the body, and meet ground geoms alone (their own geom group), never the robot.
+They are the dearest of the sensors, so none is cast for a sole that nobody asks about, nor for one that is farther from
+the highest ground than its sensors reach.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError, RobotError
+from plantar.kernels.sensors.sole_rays import SoleRays
+from plantar.layouts.layout import SoleLayout
+from plantar.sim.plant.colours import GroundColours
+from plantar.sim.sensing.white_noise import white_noise
+from plantar.sim.terrain import GROUND_GROUP
+
+__all__ = ["ProximitySensor", "SoleProximity"]
+
+_LIFT = 0.02  # m inside the foot at which rays begin, so that a taxel that is pressed into the ground still sees it
+_GROUPS = np.array([1 if i == GROUND_GROUP else 0 for i in range(6)], dtype=np.uint8)
+_SIMPLE = tuple(
+    int(getattr(mujoco.mjtGeom, f"mjGEOM_{s}")) for s in ("PLANE", "SPHERE", "ELLIPSOID", "CYLINDER", "BOX")
+)
+
+
+class SoleProximity:
+    """Distances from the taxels of one sole to the ground.
+
+    Args:
+        model: The MjModel; its ground geoms are those of group `GROUND_GROUP`.
+        layout: The sole.
+        site: Name of the site that is the sole frame.
+        sensing_range: Range of the sensors in m.
+        ground_top: Height in m that no ground exceeds; a sole that is farther above it casts no rays.
+        colours: How light the ground is where; None for as light as the sensors were calibrated on.
+
+    Raises:
+        RobotError: If the model has no such site.
+        InputError: If the range is not a finite value above 0.
+    """
+
+    def __init__(
+        self,
+        model: Any,
+        layout: SoleLayout,
+        site: str,
+        sensing_range: float = 0.05,
+        ground_top: float = math.inf,
+        colours: GroundColours | None = None,
+    ) -> None:
+        if not (math.isfinite(sensing_range) and sensing_range > 0.0):
+            raise InputError(f"proximity range is {sensing_range} m; allowed: a finite value above 0")
+        self.layout = layout
+        self.range = sensing_range
+        self._model = model
+        self._site = int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, site))
+        if self._site < 0:
+            raise RobotError(f"the model has no site named {site!r}")
+        axes = layout.rotations[:, :, 2]
+        self._start = np.ascontiguousarray(layout.positions + _LIFT * axes)
+        self._way = np.ascontiguousarray(-axes)
+        self._reach = float(np.linalg.norm(layout.positions[:, :2], axis=1).max())
+        self._top = ground_top
+        self._colours = colours
+        ids = np.flatnonzero(model.geom_group == GROUND_GROUP)
+        kinds = model.geom_type[ids].astype(np.int32)
+        self._simple = bool(np.isin(kinds, _SIMPLE).all())
+        self._solids = ids.astype(np.int32), kinds, model.geom_size[ids], model.geom_rbound[ids]
+        self._data: Any = None  # in which the rays are cast
+        self._rays: SoleRays | None = None
+
+    def _rays_in(self, data: Any) -> SoleRays:
+        """The rays, from where the sole is in the data."""
+        if self._rays is None or data is not self._data:
+            self._data = data
+            place = data.site_xpos[self._site], data.site_xmat[self._site].reshape(3, 3)
+            ground = self._solids, data.geom_xpos, data.geom_xmat
+            self._rays = SoleRays(self._start, self._way, _LIFT, self.range, *place, *ground)
+        return self._rays
+
+    def within_range(self, data: Any) -> bool:
+        """Whether any ground can be in range: no taxel is higher above the highest ground than its range.
+
+        Args:
+            data: The MjData.
+        """
+        return bool(self._rays_in(data).lies_below(self._reach, self._top + self.range))
+
+    def distances(self, data: Any) -> NDArray[np.float64]:
+        """Distance (n,) from each taxel to the ground in m as its colour shows it, free of noise; inf where nothing is
+        in range.
+
+        A taxel that is up to 20 mm inside the ground has a negative distance.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+        """
+        return np.array(self.look(data).distances)
+
+    def look(self, data: Any) -> SoleRays:
+        """Cast the rays where any ground can be in range.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+
+        Returns:
+            The rays, whose `distances` are those of `distances` until they are cast anew.
+        """
+        rays = self._rays_in(data)
+        if not self.within_range(data):
+            rays.see_nothing()
+            return rays
+        if self._simple:
+            rays.cast()
+        else:
+            rays.aim()
+            geom = np.empty(1, dtype=np.int32)
+            for i, (start, way) in enumerate(zip(rays.starts, rays.ways, strict=True)):
+                rays.lengths[i] = mujoco.mj_ray(self._model, data, start, way, _GROUPS, 1, -1, geom)
+        rays.measure()
+        if self._colours is not None:
+            distances, met = rays.distances, rays.starts + rays.lengths[:, None] * rays.ways
+            distances *= self._colours.stretch(met)
+        return rays
+
+
+class ProximitySensor:
+    """Proximity as its electronics deliver it: noisy, biased, with dead taxels.
+
+    Args:
+        proximity: The noise-free sensor.
+        noise_std: Standard deviation of the white noise on each distance in m.
+        bias: What is added to every distance in m.
+        rng: Source of the noise; it advances by one sample at each `read`, whether rays are cast or not.
+        dead: Indices of dead taxels: they read NaN.
+    """
+
+    def __init__(
+        self,
+        proximity: SoleProximity,
+        noise_std: float,
+        bias: float,
+        rng: np.random.Generator,
+        dead: Collection[int] = (),
+    ) -> None:
+        self.proximity = proximity
+        self.noise_std = noise_std
+        self.bias = bias
+        self.dead = np.array(sorted({int(i) for i in dead}), dtype=np.int64)
+        self.cast = 0
+        self.skipped = 0
+        self._count = len(proximity.layout)
+        self._noise = white_noise(rng, bias, noise_std, self._count)
+
+    def read(self, data: Any, wanted: bool, everything: bool = False) -> NDArray[np.float64] | None:
+        """One sample.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+            wanted: Whether somebody asks about this sole.
+            everything: Cast the rays in any case.
+
+        Returns:
+            Distances (n,) in m, inf where nothing is in range, NaN for a dead taxel; None where nobody asks.
+        """
+        row, count = self._noise.advance(), self._count
+        if not (wanted or everything):
+            self.skipped += count
+            return None
+        rays = self.proximity.look(data)
+        self.cast += count
+        if not wanted:
+            return None
+        sample: NDArray[np.float64] = rays.tell(self._noise, row, self.dead)
+        return sample

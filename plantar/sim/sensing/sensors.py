@@ -1,0 +1,235 @@
+"""What the robot's sensors deliver: encoders, IMU, ankles and soles, with their noise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.controller import Sensors
+from plantar.gait.estimate.ankle_sensor import AnkleSensor
+from plantar.kernels.sensors.sensed_body import SensedBody
+from plantar.sensing.link_skin import SkinReading
+from plantar.sensing.reading import Reading
+from plantar.sides import SIDES, Side
+from plantar.sim.model.contact_truth import ContactReader, FootContacts
+from plantar.sim.model.world import World
+from plantar.sim.plant.colours import GroundColours
+from plantar.sim.plant.delay import Delay
+from plantar.sim.plant.draw import TruePlant
+from plantar.sim.plant.taxels import TaxelErrors
+from plantar.sim.robots.robot import Robot
+from plantar.sim.sensing.proximity import ProximitySensor, SoleProximity
+from plantar.sim.sensing.settings import Sensing
+from plantar.sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
+from plantar.sim.sensing.white_noise import white_noise
+
+__all__ = ["SensorSuite", "ankle_sensors"]
+
+_RUBBER = 0.013  # of a sole's length that its rubber is thick: 3 mm for H1
+
+
+class SensorSuite:
+    """Reads all sensors of a world.
+
+    Args:
+        world: The world.
+        sensing: Rates, noise and delay.
+        seed: Seed of all noise; each sensor draws from its own stream.
+        proximity: Whether the soles have proximity sensors that somebody uses.
+        force_torque: Whether the ankles have force-torque sensors that somebody uses.
+        plant: What sensors read wrong that are not as they are taken to be; None for nothing.
+
+    Attributes:
+        body_skin: Reads the skin of the upper body; None for a robot without, or before there is one.
+        body_links: Reads where links with skin are on the base that move against it; None for a robot without.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        sensing: Sensing,
+        seed: int,
+        *,
+        proximity: bool = False,
+        force_torque: bool = False,
+        plant: TruePlant | None = None,
+    ) -> None:
+        self._world = world
+        self._sensing = sensing
+        streams = np.random.SeedSequence([seed, 0x5E]).spawn(7)
+        self._imu_to_base = _imu_to_base(world)
+        k = len(world.joint_qpos)
+        noise = np.repeat([sensing.encoder_noise, sensing.gyro_noise, sensing.accelerometer_noise], [k, 3, 3])
+        sensed = world.data.sensordata
+        self._body = SensedBody(
+            world.data.qpos,
+            world.joint_qpos,
+            sensed[world.gyro : world.gyro + 3],
+            sensed[world.accelerometer : world.accelerometer + 3],
+            white_noise(np.random.default_rng(streams[2]), 0.0, noise, k + 6),
+            *((np.empty(0), np.empty(0)) if plant is None else (plant.encoder_offsets, plant.gyro_bias)),
+        )
+        self._ankle_noise = np.random.default_rng(streams[6]) if force_torque else None
+        chance = np.random.default_rng(streams[5])
+        dead = {side: _dead_taxels(len(world.robot.layouts[side]), sensing.dead_taxels, chance) for side in SIDES}
+        self.proximity: dict[Side, ProximitySensor] = {}
+        if proximity:
+            colours = GroundColours(plant) if plant is not None and plant.reflectance else None
+            self.proximity = {
+                side: _proximity(world, sensing, side, dead[side], np.random.default_rng(stream), colours)
+                for side, stream in zip(SIDES, streams[3:5], strict=True)
+            }
+        self.skins = {
+            side: SkinSensor(
+                _skin(world, sensing, side, 0.0 if plant is None else plant.rubber),
+                SkinElectronics(sensing.skin_rate, sensing.force_noise, sensing.delay_periods, dead[side]),
+                np.random.default_rng(stream),
+                self.proximity.get(side),
+                _errors(world, plant, side),
+            )
+            for side, stream in zip(SIDES, streams[:2], strict=True)
+        }
+        self._contacts = ContactReader(world.model, world.data, [self.skins[side].skin.geom_ids for side in SIDES])
+        self._line: Delay[Sensors] | None = Delay(plant.sensor_delay) if plant and plant.sensor_delay else None
+        self.skin_every = max(1, round(1.0 / (sensing.skin_rate * world.period)))
+        self.readings: dict[Side, Reading] = {}
+        self.body_skin: Callable[[], SkinReading] | None = None
+        self.body_links: Callable[[], Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]] | None = None
+
+    def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[FootContacts, ...]:
+        """Read the soles, which is due every `skin_every` physics steps.
+
+        Args:
+            near: Soles whose proximity somebody asks for.
+            everything: Measure proximity that nobody asks for too; readings stay the same.
+
+        Returns:
+            The contacts of both soles from which the skins were read, until they are read anew.
+        """
+        data = self._world.data
+        feet = self._contacts.read()
+        for side, contacts in zip(SIDES, feet, strict=True):
+            self.readings[side] = self.skins[side].read(data, contacts, near=side in near, everything=everything)
+        return feet
+
+    def read_body(self) -> Sensors:
+        """Read encoders and IMU, with the soles' latest readings: what of it has arrived by now."""
+        read = self._read_now()
+        if self._line is None:
+            return read
+        return self._line.passed(read.time, read).changed(time=read.time)
+
+    def _read_now(self) -> Sensors:
+        """What encoders and IMU read at this instant, with the soles' latest readings."""
+        joints, gyro, specific = self._body.read()
+        if self._imu_to_base is not None:
+            gyro, specific = self._imu_to_base.dot(gyro), self._imu_to_base.dot(specific)
+        return Sensors(
+            time=self._world.data.time,
+            joint_positions=joints,
+            gyro=gyro,
+            accelerometer=specific,
+            readings=dict(self.readings),
+            ankles=self._ankles(),
+            skin=None if self.body_skin is None else self.body_skin(),
+            links={} if self.body_links is None else self.body_links(),
+        )
+
+    def _ankles(self) -> dict[Side, NDArray[np.float64]]:
+        """Wrench (6,) that each foot exerts on its leg, in the sensor's frame; nothing without sensors."""
+        if self._ankle_noise is None:
+            return {}
+        s, data = self._sensing, self._world.data.sensordata
+        wrenches: dict[Side, NDArray[np.float64]] = {}
+        scale = np.array([s.ankle_force_noise] * 3 + [s.ankle_torque_noise] * 3)
+        noise = scale * self._ankle_noise.standard_normal((2, 6))
+        for row, (side, (force, torque)) in zip(noise, self._world.ankle_wrench.items(), strict=True):
+            # MuJoCo gives what the leg does to the foot.
+            row[:3] -= data[force : force + 3]
+            row[3:] -= data[torque : torque + 3]
+            wrenches[side] = row
+        return wrenches
+
+
+def _dead_taxels(count: int, share: float, chance: np.random.Generator) -> list[int]:
+    """The taxels of a sole that are dead, by chance."""
+    return chance.permutation(count)[: round(share * count)].tolist()  # type: ignore[no-any-return]
+
+
+def _skin(world: World, sensing: Sensing, side: Side, foam: float) -> SoleSkin:
+    """The skin of one sole under so much foam in m more than its rubber, free of noise."""
+    geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
+    site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole + foam
+    layer = sensing.layer + foam if sensing.taxels == "elastic" else None
+    return SoleSkin(
+        world.model,
+        world.robot.layouts[side],
+        site,
+        geoms,
+        rubber=rubber,
+        reach=world.reach,
+        layer=layer,
+        rim_stiffness=world.robot.rim_stiffness,
+    )
+
+
+def _errors(world: World, plant: TruePlant | None, side: Side) -> TaxelErrors | None:
+    """What the taxels of one sole make of the forces on them."""
+    if plant is None:
+        return None
+    return TaxelErrors(world.robot.layouts[side], plant, side)
+
+
+def _proximity(
+    world: World,
+    sensing: Sensing,
+    side: Side,
+    dead: Collection[int],
+    rng: np.random.Generator,
+    colours: GroundColours | None,
+) -> ProximitySensor:
+    """The proximity sensors of one sole."""
+    site, layout = world.robot.legs[side].sole_site, world.robot.layouts[side]
+    rays = SoleProximity(world.model, layout, site, sensing.proximity_range, world.ground_top, colours)
+    return ProximitySensor(rays, sensing.proximity_noise, sensing.proximity_bias, rng, dead)
+
+
+def _imu_to_base(world: World) -> NDArray[np.float64] | None:
+    """Rotation (3, 3) from the frame that the IMU is mounted in to that of the base; None where they are the same."""
+    model = world.model
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    base = data.xmat[model.body_rootid[world.torso]].reshape(3, 3)
+    rotation = base.T @ data.site(world.robot.imu_site).xmat.reshape(3, 3)
+    return None if np.allclose(rotation, np.eye(3), atol=1e-9) else rotation
+
+
+def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
+    """Where each ankle's force-torque sensor sits and what hangs below it.
+
+    Args:
+        model: The MjModel of the robot.
+        robot: The robot.
+
+    Returns:
+        The sensors, for the controller.
+    """
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    sensors: dict[Side, AnkleSensor] = {}
+    for side in SIDES:
+        sole, site = model.site(robot.legs[side].sole_site).id, model.site(f"{side}_ankle_force_torque").id
+        body = model.site_bodyid[site]
+        origin, rotation = data.site_xpos[sole], data.site_xmat[sole].reshape(3, 3)
+        sensors[side] = AnkleSensor(
+            position=rotation.T @ (data.site_xpos[site] - origin),
+            rotation=rotation.T @ data.site_xmat[site].reshape(3, 3),
+            mass=float(model.body_subtreemass[body]),
+            com=rotation.T @ (data.subtree_com[body] - origin),
+        )
+    return sensors

@@ -1,0 +1,291 @@
+"""Simulated sole skin: the force on each taxel from MuJoCo's contacts, and what the electronics deliver of it.
+
+A rigid box under an eccentric load lifts a corner by micrometres, where rubber stays pressed. Give the sole's geoms a
+`gap` of 1 mm: MuJoCo then reports such corners, and those within REACH belong to the patch.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError, RobotError
+from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
+from plantar.kernels.contacts.pressed_sole import PressedSole
+from plantar.kernels.sensors.noise_rows import NoiseRows
+from plantar.kernels.sensors.taxel_sample import TaxelSample
+from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.same_time import SAME_TIME
+from plantar.sensing.reading import Reading
+from plantar.sim.model.contact_truth import REACH, ContactSet, FootContacts, foot_contacts
+from plantar.sim.plant.taxels import TaxelErrors
+from plantar.sim.sensing.blind_rim import BlindRim
+from plantar.sim.sensing.elastic_pressure import ElasticPressure
+from plantar.sim.sensing.proximity import ProximitySensor
+from plantar.sim.sensing.sole_pressure import SolePressure
+from plantar.sim.sensing.white_noise import white_noise
+
+__all__ = ["SkinElectronics", "SkinSensor", "SoleSkin"]
+
+
+class SoleSkin:
+    """The skin of one sole in a simulation.
+
+    Args:
+        model: The MjModel.
+        layout: The sole.
+        site: Name of the site that is the sole frame, for example "left_sole".
+        geoms: Names of the sole's collision geoms.
+        rubber: Thickness in m of the sole's rubber, see `SolePressure`.
+        reach: Largest gap in m between sole and ground that the rubber closes.
+        layer: Thickness in m of an elastic layer that spreads the load, see `ElasticPressure`; springs do where None.
+        rim_stiffness: Stiffness of the sole beside the taxels over theirs, see `BlindRim`; 0 where they carry all.
+
+    Raises:
+        RobotError: If the model has no such site or geom.
+        LayoutError: If a taxel does not face the ground.
+
+    Attributes:
+        springs: What contacts press on where each cell is a spring of its own that carries all; else None.
+    """
+
+    def __init__(
+        self,
+        model: Any,
+        layout: SoleLayout,
+        site: str,
+        geoms: Sequence[str],
+        *,
+        rubber: float = 3e-3,
+        reach: float = REACH,
+        layer: float | None = None,
+        rim_stiffness: float = 0.0,
+    ) -> None:
+        self.model = model
+        self.layout = layout
+        self.site_id = _id_of(model, mujoco.mjtObj.mjOBJ_SITE, "site", site)
+        self.geom_ids = frozenset(_id_of(model, mujoco.mjtObj.mjOBJ_GEOM, "geom", g) for g in geoms)
+        if not self.geom_ids:
+            raise RobotError("the sole has no collision geom; name at least one")
+        self.pressure: SolePressure | ElasticPressure = (
+            SolePressure(layout, rubber=rubber)
+            if layer is None
+            else ElasticPressure(layout, thickness=layer, rubber=rubber)
+        )
+        self._rim = BlindRim(layout, rim_stiffness, rubber) if rim_stiffness > 0.0 else None
+        self.springs: PressedSole | None = None
+        if isinstance(self.pressure, SolePressure) and self._rim is None:
+            self.springs = self.pressure.springs
+        self._reach = reach
+        self._data: Any = None  # in which contacts are seen from the sole
+        self._in_sole = ContactsInSole()
+
+    def __len__(self) -> int:
+        return len(self.layout)
+
+    @property
+    def pressed(self) -> int:
+        """How often forces were spread over its taxels."""
+        return int(self._in_sole.pressed)
+
+    @property
+    def in_air(self) -> int:
+        """How often there was nothing to spread."""
+        return int(self._in_sole.in_air)
+
+    def contacts(self, data: Any) -> ContactSet:
+        """The sole's contacts with the world, see `foot_contacts`."""
+        return foot_contacts(self.model, data, self.geom_ids)
+
+    def taxel_forces(self, data: Any, contacts: FootContacts | None = None) -> NDArray[np.float64]:
+        """Normal force on each taxel, free of noise.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+            contacts: The sole's contacts where they are known already.
+
+        Returns:
+            Forces (n,) in N, none negative; zeros for a sole in the air.
+        """
+        if data is not self._data:
+            self._look_in(data)
+        if contacts is None:
+            contacts = self.contacts(data).gathered()
+        if self.springs is not None:
+            self.springs.stand(contacts, self._in_sole, self._reach)
+            return np.array(self.springs.forces)
+        out = np.zeros(len(self.layout))
+        self._in_sole.turn(contacts)
+        for fz, tx, ty, patch in contacts.pair_loads(self._in_sole.vectors, self._reach):
+            if fz > 0.0:
+                part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
+                out += part if self._rim is None else part * self._rim.share(patch)
+        return out
+
+    def sampled(self, data: Any, contacts: FootContacts | None, sample: TaxelSample) -> NDArray[np.float64]:
+        """What electronics read of the springs, without an array of the forces in between.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+            contacts: The sole's contacts where they are known already.
+            sample: Samples the taxels.
+
+        Returns:
+            Readings (n,) in N.
+        """
+        if data is not self._data:
+            self._look_in(data)
+        if contacts is None:
+            contacts = self.contacts(data).gathered()
+        read: NDArray[np.float64] = sample.of_contacts(self.springs, contacts, self._in_sole, self._reach)
+        return read
+
+    def _look_in(self, data: Any) -> None:
+        """See contacts from where the sole is in the data."""
+        self._data = data
+        self._in_sole.look_from(data.site_xpos[self.site_id], data.site_xmat[self.site_id].reshape(3, 3))
+
+
+@dataclass(frozen=True)
+class SkinElectronics:
+    """What a skin's electronics do to its forces.
+
+    Attributes:
+        rate_hz: Sampling rate in Hz.
+        noise_std_N: Standard deviation of the white noise on each taxel in N (0.15 kg by default, T Table 2).
+        delay_periods: Whole sampling periods between taking a sample and delivering it; until the first one arrives
+            the first sample is delivered.
+        dead: Indices of dead taxels: they read NaN.
+
+    Raises:
+        InputError: If a value is outside what is allowed.
+    """
+
+    rate_hz: float = 250.0
+    noise_std_N: float = 0.15 * GRAVITY
+    delay_periods: int = 0
+    dead: Collection[int] = ()
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.rate_hz) and self.rate_hz > 0.0):
+            raise InputError(f"skin rate is {self.rate_hz} Hz; allowed: a finite value above 0")
+        if not (math.isfinite(self.noise_std_N) and self.noise_std_N >= 0.0):
+            raise InputError(f"skin noise is {self.noise_std_N} N; allowed: a finite value of 0 or more")
+        if int(self.delay_periods) != self.delay_periods or self.delay_periods < 0:
+            raise InputError(f"skin delay is {self.delay_periods} periods; allowed: whole numbers of 0 or more")
+
+
+class SkinSensor:
+    """A skin as its electronics deliver it: sampled, noisy, clipped to its range, late.
+
+    A sample is taken at the first physics step at or after each multiple of the period, counted from the first call;
+    between samples the last one stands.
+
+    Args:
+        skin: The noise-free skin.
+        electronics: Rate, noise, delay and dead taxels.
+        rng: Source of the noise; the same seed and calls give the same noise. None needs electronics without noise.
+        proximity: Proximity of the same sole, sampled together with the forces; None where the skin has none.
+        errors: What the taxels make of the forces; None for taxels that read what is on them.
+
+    Raises:
+        InputError: If there is noise and no source of it, or a dead taxel does not exist.
+    """
+
+    def __init__(
+        self,
+        skin: SoleSkin,
+        electronics: SkinElectronics | None = None,
+        rng: np.random.Generator | None = None,
+        proximity: ProximitySensor | None = None,
+        errors: TaxelErrors | None = None,
+    ) -> None:
+        electronics = electronics or SkinElectronics()
+        if rng is None and electronics.noise_std_N > 0.0:
+            raise InputError("skin noise needs a random generator; pass rng=numpy.random.default_rng(seed)")
+        if any(not 0 <= int(i) < len(skin) for i in electronics.dead):
+            raise InputError(
+                f"dead taxels {sorted(electronics.dead)} name one that does not exist; allowed: 0 to {len(skin) - 1}"
+            )
+        self.skin = skin
+        self.period = 1.0 / electronics.rate_hz
+        self.noise_std = electronics.noise_std_N
+        self.delay_periods = int(electronics.delay_periods)
+        self.dead = np.array(sorted({int(i) for i in electronics.dead}), dtype=np.int64)
+        self.range = skin.layout.ranges.get("force", DEFAULT_RANGES["force"])
+        self.proximity = proximity
+        count = len(skin)
+        noise = NoiseRows(lambda: np.zeros((1, count)))
+        if rng is not None and self.noise_std > 0.0:
+            noise = white_noise(rng, 0.0, self.noise_std, count)
+        self._sample = TaxelSample(noise, count, *self.range, self.dead)
+        self._errors = errors
+        self._direct = isinstance(skin, SoleSkin) and skin.springs is not None and errors is None
+        self._queue: deque[Reading] = deque(maxlen=self.delay_periods + 1)
+        self._start = 0.0
+        self._taken = 0
+
+    def reset(self) -> None:
+        """Forget all samples; the noise goes on where it is."""
+        self._queue.clear()
+        self._taken = 0
+
+    def read(
+        self, data: Any, contacts: FootContacts | None = None, *, near: bool = True, everything: bool = False
+    ) -> Reading:
+        """What the electronics deliver at this instant; call it at every physics step.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+            contacts: The sole's contacts where they are known already.
+            near: Whether somebody asks for this sole's proximity.
+            everything: Measure proximity in any case; the reading holds it only where it is asked for.
+
+        Returns:
+            The reading; its time is that of the sample in s, so `data.time - reading.time` is its age. The same object
+            comes back until a newer sample arrives.
+        """
+        now = float(data.time)
+        if not self._queue:
+            self._start, self._taken = now, 0
+        if now >= self._start + self._taken * self.period - SAME_TIME:
+            # Count on from now: steps longer than the period skip samples, they do not pile up.
+            self._taken = int((now - self._start) / self.period + 1e-6) + 1
+            distance = None if self.proximity is None else self.proximity.read(data, near, everything)
+            if self._direct:
+                force = self.skin.sampled(data, contacts, self._sample)
+            else:
+                force = self._told(now, data, contacts, distance)
+            self._queue.append(Reading.taken_over(now, force, distance))
+        return self._queue[0]
+
+    def _told(
+        self, now: float, data: Any, contacts: FootContacts | None, distance: NDArray[np.float64] | None
+    ) -> NDArray[np.float64]:
+        """Force (n,) on each taxel in N as it is sampled with the taxels' errors; what they silence of the distances
+        becomes NaN, too."""
+        force = self.skin.taxel_forces(data, contacts)
+        if self._errors is not None:
+            force = self._errors.felt(force, now)
+        sample: NDArray[np.float64] = self._sample.of(force)
+        if self._errors is not None:
+            self._errors.silence(now, sample, distance)
+        return sample
+
+
+def _id_of(model: Any, kind: Any, word: str, name: str) -> int:
+    found = int(mujoco.mj_name2id(model, kind, name))
+    if found < 0:
+        count = model.nsite if word == "site" else model.ngeom
+        names = [mujoco.mj_id2name(model, kind, i) for i in range(count)]
+        known = ", ".join(n for n in names if n) or "none"
+        raise RobotError(f"the model has no {word} named {name!r}; it has: {known}")
+    return found

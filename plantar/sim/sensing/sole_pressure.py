@@ -1,0 +1,267 @@
+"""Spread a normal load over the taxels of a sole (model "contact patches").
+
+The sole collides as a rigid box, which is cheap and tips over exactly at its edge, but carries its load on a few
+corner points. A rubber sole carries it on an area. So the contact points of each geom pair span a patch of the sole
+plane, and the pair's normal wrench (fz, tx, ty), which is exact, is spread over the cells that the patch covers as the
+load of an elastic foundation that cannot pull (Winkler), each cell a piston with a stiff cap:
+
+    f_i = A_i max(0, a + b x_i + c y_i)      with a, b, c such that the forces have the pair's wrench,
+
+A_i the covered area of cell i and (x_i, y_i) its centroid. Where a cell is covered whole, that is the taxel's own
+position, and the taxels' centre of pressure is the true one; where an edge cuts a cell, the taxel still reports at its
+centre, as a real one does. A load beyond the outermost covered centroids goes to the nearest point among them; a
+contact along a line or at a point presses on the strip or square that the rubber's thickness makes of it; a contact
+on the sole's bare rim is carried by the cells nearest to it. In every case the taxel forces add up to the true normal
+force.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError, LayoutError
+from plantar.geometry.cell_cutting import CellCutter
+from plantar.geometry.polygon import area as polygon_area
+from plantar.geometry.polygon import convex_hull
+from plantar.kernels.contacts.foot_contacts import FootContacts
+from plantar.kernels.contacts.pressed_patch import PressedPatch
+from plantar.kernels.contacts.pressed_sole import PressedSole
+from plantar.layouts.layout import SoleLayout
+from plantar.sim.sensing.contact_patch import patch_polygon, reach_of
+
+__all__ = ["SolePressure"]
+
+_GRID = 1e-4  # m: patches that agree within this are the same patch
+_MOST_PATCHES = 256
+_LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing
+
+
+class SolePressure:
+    """Spreads a normal load over the taxels of a sole. Geometry is computed once a patch; no MuJoCo in here.
+
+    Args:
+        layout: The sole.
+        rubber: Thickness in m of the sole's rubber: half width of what a line or point contact presses on.
+
+    Raises:
+        LayoutError: If a taxel does not face the ground.
+        InputError: If the thickness is not above 0.
+
+    Attributes:
+        springs: The cells, each a spring, that contacts press on.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+        >>> pressure = SolePressure(layout)
+        >>> force = pressure.spread([(0.0, -0.05), (0.1, -0.05), (0.1, 0.05), (0.0, 0.05)], 100.0, (0.05, 0.0))
+        >>> round(float(force.sum()), 9), bool(force[layout.positions[:, 0] < -0.02].max() == 0)
+        (100.0, True)
+    """
+
+    def __init__(self, layout: SoleLayout, *, rubber: float = 3e-3) -> None:
+        import shapely  # 0.2 s: only where a skin is made
+
+        if not (math.isfinite(rubber) and rubber > 0.0):
+            raise InputError(f"rubber thickness is {rubber} m; allowed: a finite value above 0")
+        facing = layout.rotations[:, 2, 2]
+        if len(layout) == 0 or not (facing > 0.1).all():
+            raise LayoutError("layout field 'rotations' holds a taxel that does not face the ground, or none at all")
+        self.layout = layout
+        self.rubber = rubber
+        self._cells = np.array([shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))])
+        self._area = shapely.area(self._cells)
+        # Cells that do not touch each other, such as round ones, cover a part of what lies between them only.
+        self._hull = None if any(layout.neighbours) else shapely.MultiPoint(layout.vertices[:, :2]).convex_hull
+        self._least = _LEAST_SHARE * self._area
+        self._tree: Any = None  # of the cells, for patches on the bare rim
+        self._cutter = CellCutter(layout)
+        self._gain = None if (facing == 1.0).all() else 1.0 / facing
+        gains = np.ones(len(layout)) if self._gain is None else self._gain
+        self.springs = PressedSole(gains, _GRID, _MOST_PATCHES, self._make_patch, _spread_slowly)
+
+    def spread(
+        self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]
+    ) -> NDArray[np.float64]:
+        """Taxel forces of a load on a patch.
+
+        Args:
+            patch: Contact points (x, y) in the sole frame in m; the patch is their convex hull.
+            force: Normal force in N; 0 or less loads nothing.
+            center_of_pressure: Point (2,) in the sole frame in m where the load acts.
+
+        Returns:
+            Forces (n,) in N, none negative, whose vertical parts add up to `force`.
+        """
+        if not (0.0 < force < math.inf) or not len(patch):
+            return np.zeros(len(self.layout))
+        out: NDArray[np.float64] = self.springs.spread(patch, force, *center_of_pressure)
+        return out
+
+    def press(self, contacts: FootContacts, vectors: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
+        """Taxel forces of all contacts of a foot; those of the same pair of geoms span a patch together.
+
+        Args:
+            contacts: The contacts.
+            vectors: Position, force and torque of each in turn in the sole frame (at least 3 k, 3).
+            reach: Gap in m beyond which a contact that carries nothing is left out.
+
+        Returns:
+            Forces (n,) in N, none negative.
+        """
+        out: NDArray[np.float64] = self.springs.press(contacts, vectors, reach)
+        return out
+
+    def along_taxels(self, force: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Forces along the taxels' own axes of vertical ones.
+
+        Args:
+            force: Vertical force (n,) on each taxel in N.
+
+        Returns:
+            Forces (n,) in N, the larger the more a taxel leans.
+        """
+        return force if self._gain is None else np.asarray(force * self._gain)
+
+    def _make_patch(self, points: NDArray[np.float64]) -> PressedPatch:
+        polygon, lines = patch_polygon(points, self.rubber)
+        measure = self._cutter.cut(lines)[0]
+        area = measure[:, 0]
+        if area.sum() > 0.5 * self._within_cells(polygon):
+            cells = np.flatnonzero(area > self._least)
+            area = area[cells]
+            points = measure[cells, 1:] / area[:, None]
+        else:  # on the bare rim beside the cells
+            cells, area, points = self._nearest_cells(polygon)
+        area = np.asarray(area / area.sum(), dtype=np.float64)
+        centre = area @ points
+        off = points - centre
+        scale = max(float(np.abs(off).max()), 1e-3)
+        u = np.empty((len(points), 3))
+        u[:, 0], u[:, 1:] = 1.0, off / scale
+        return PressedPatch(
+            cells,
+            (float(centre[0]), float(centre[1])),
+            scale,
+            area,
+            u,
+            # One cell, or cells in a row, have no stiffness in some direction: what the load asks there is dropped.
+            _pseudo_inverse((area * u.T) @ u, 1e-9),
+            np.ascontiguousarray(reach_of(convex_hull(u[:, 1:]))),
+        )
+
+    def _within_cells(self, polygon: NDArray[np.float64]) -> float:
+        """Area in m^2 of a patch that the cells cover together, wherever it is."""
+        if self._hull is None:
+            return polygon_area(polygon)
+        import shapely
+
+        within = shapely.Polygon(polygon).intersection(self._hull).area
+        return float(within * float(self._area.sum()) / self._hull.area)
+
+    def _nearest_cells(
+        self, polygon: NDArray[np.float64]
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+        """The cells (m,) nearest to a patch's edge, how many of its points each has (m,), and their means (m, 2)."""
+        import shapely
+
+        rim = shapely.get_coordinates(shapely.segmentize(shapely.Polygon(polygon), 0.5 * self.rubber))
+        if self._tree is None:
+            self._tree = shapely.STRtree(self._cells)
+        nearest = self._tree.nearest(shapely.points(rim))
+        count = np.bincount(nearest)
+        cells = np.flatnonzero(count)
+        share = count[cells].astype(np.float64)
+        return cells, share, np.column_stack([np.bincount(nearest, v)[cells] for v in rim.T]) / share[:, None]
+
+
+def _spread_slowly(shape: PressedPatch, force: float, out: NDArray[np.float64]) -> None:
+    """Spread the load that a patch could not spread from the cells that carried it last over `out` (n,): first from
+    those that would carry it if all were held, then from those that `_damped` finds."""
+    u, area, carried = np.asarray(shape.u), np.asarray(shape.area), np.asarray(shape.carried)
+    inverse, load = np.asarray(shape.inverse), np.array([1.0, shape.x, shape.y])
+    if not carried.any():
+        carried[:] = u @ (inverse @ load) > 0.0
+        if shape.part(force, out):
+            return
+    pressure = _damped(u, area, inverse, load)
+    carried[:] = pressure > 0.0
+    if not shape.part(force, out):
+        share = pressure * area
+        out[np.asarray(shape.cells)] = force * share / share.sum()
+
+
+def _damped(
+    u: NDArray[np.float64], area: NDArray[np.float64], inverse: NDArray[np.float64], load: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Pressures (m,) of a unit load by Newton's method with a line search on the convex problem
+
+        minimise  1/2 sum_i A_i max(0, u_i . field)^2 - load . field
+
+    whose gradient is the pressure's wrench minus the load.
+    """
+    weighted = area[:, None] * u
+    products = np.column_stack([weighted, weighted[:, 1:2] * u[:, 1:], weighted[:, 2] * u[:, 2]])
+    field = inverse @ load
+    pressure = np.maximum(u @ field, 0.0)
+    residual = pressure @ weighted - load
+    error = _largest(residual)
+    ridge = 1e-9
+    for _ in range(40):
+        if error < 1e-10:
+            break
+        step = _solve_symmetric(((pressure > 0.0) @ products).tolist(), residual.tolist(), ridge)
+        start, value, slope, rate = field, math.nan, float(residual @ step), 1.0
+        for _ in range(12):
+            field = start - rate * step
+            previous, pressure = pressure, np.maximum(u @ field, 0.0)
+            residual = pressure @ weighted - load
+            largest = _largest(residual)
+            if largest < 0.9 * error:
+                break
+            # A full step may overshoot where cells come on or off: then the objective itself must go down enough.
+            if math.isnan(value):
+                value = 0.5 * float(previous**2 @ area) - float(load @ start)
+            if 0.5 * float(pressure**2 @ area) - float(load @ field) <= value - 1e-4 * rate * slope:
+                break
+            rate *= 0.5
+        else:
+            ridge *= 100.0  # the active cells are nearly in a row: steps are too long, not just too bold
+        error = largest
+    return np.asarray(pressure)
+
+
+def _pseudo_inverse(matrix: NDArray[np.float64], least: float) -> NDArray[np.float64]:
+    """Pseudo-inverse of a symmetric matrix (n, n) without negative eigenvalues, in a fifth of `np.linalg.pinv`'s time;
+    eigenvalues below a share of the largest one count as zero."""
+    values, vectors = np.linalg.eigh(matrix)
+    values, vectors = values[::-1], np.ascontiguousarray(vectors[:, ::-1])
+    limit = least * values[0]
+    inverse = np.array([1.0 / value if value > limit else 0.0 for value in values.tolist()])
+    return np.asarray(vectors @ (inverse[:, None] * vectors.T))
+
+
+def _largest(residual: NDArray[np.float64]) -> float:
+    return max(abs(float(v)) for v in residual.tolist())
+
+
+def _solve_symmetric(m: list[float], b: list[float], share: float) -> NDArray[np.float64]:
+    """Solve a symmetric 3 x 3 system given as (11, 12, 13, 22, 23, 33), made regular by a share of its trace."""
+    ridge = share * (m[0] + m[3] + m[5]) + 1e-300
+    a, d, f = m[0] + ridge, m[3] + ridge, m[5] + ridge
+    c, e, g = m[1], m[2], m[4]  # [[a, c, e], [c, d, g], [e, g, f]]
+    i00, i01, i02 = d * f - g * g, e * g - c * f, c * g - d * e
+    i11, i12, i22 = a * f - e * e, c * e - a * g, a * d - c * c
+    determinant = a * i00 + c * i01 + e * i02
+    return np.array(
+        [
+            (i00 * b[0] + i01 * b[1] + i02 * b[2]) / determinant,
+            (i01 * b[0] + i11 * b[1] + i12 * b[2]) / determinant,
+            (i02 * b[0] + i12 * b[1] + i22 * b[2]) / determinant,
+        ]
+    )

@@ -1,0 +1,381 @@
+"""What would go wrong with a robot in a scene, measured without physics: each with the value that works."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from plantar.gait.plan.footsteps import Footstep, straight_plan
+from plantar.settings.body_scale import BodyScale
+from plantar.sides import SIDES, Side
+from plantar.sim.model.body import body_of
+from plantar.sim.model.leg_model import LegModel
+from plantar.sim.model.world import build_leg_model
+from plantar.sim.robots.robot import Robot
+from plantar.sim.robots.robot_file import load_robot
+from plantar.sim.run.controller_settings import CONTROL_PERIOD, controller_settings
+from plantar.sim.run.scene import Scene, load_scene
+from plantar.sim.sensing.sensors import ankle_sensors
+from plantar.sim.survey.fitted_gait import HELD, MISSED, ROLL_MOST
+from plantar.sim.survey.joint_inertia import joint_inertia
+from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
+from plantar.sim.survey.robot_text import roll_pitch_yaw
+from plantar.sim.survey.servo_gains import LEAST_STIFFNESS, servo_gains
+from plantar.sim.survey.sole_frame import rested
+
+__all__ = ["Finding", "RobotCheck", "check_robot"]
+
+_STEPS = 8  # of a longer walk: the others are as these
+_BENT = math.radians(8.0)  # of a knee: below it inverse kinematics damps, and the CoM is no longer free
+_SPARE = math.radians(0.5)  # of a joint's range that feedback needs
+_TILT = math.radians(2.0)  # of a sole against the foot that it hangs on: a shoe gives way by about as much
+_BELOW = 2e-3  # m of a foot below its shoe's inner face: printer tolerance and rounded edges
+_APART = 0.05  # of the sole's width between two soles side by side
+_HIGHEST = 1.0  # of a torque limit
+_CHATTERS = 2.0  # rad of a free swing in a control period: a third of a turn, which answers steps with blows
+_DAMPED = 0.4  # of critical: less rings on after each landing
+_MOVING = 1.2  # of a torque limit: what is missing for some ticks, the other joints make up for
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that was measured.
+
+    Attributes:
+        name: What.
+        value: What it is.
+        limit: What it may be at most or has to be at least.
+        unit: Unit of both.
+        holds: Whether it is within.
+        text: The same in words, with the value that works where it is not.
+    """
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    holds: bool
+    text: str
+
+
+@dataclass(frozen=True)
+class RobotCheck:
+    """What was measured of a robot in a scene.
+
+    Attributes:
+        robot: Name of the robot.
+        scene: Name of the scene.
+        findings: Each thing that was measured.
+    """
+
+    robot: str
+    scene: str
+    findings: tuple[Finding, ...]
+
+    @property
+    def holds(self) -> bool:
+        """Whether nothing would go wrong."""
+        return all(f.holds for f in self.findings)
+
+    @property
+    def failures(self) -> list[str]:
+        """What would go wrong, a line each."""
+        return [f"{f.name}: {f.text}" for f in self.findings if not f.holds]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain JSON values."""
+        found = [asdict(f) for f in self.findings]
+        return {"robot": self.robot, "scene": self.scene, "holds": self.holds, "findings": found}
+
+    def text(self) -> str:
+        """The same for people."""
+        lines = [f"  {'ok  ' if f.holds else 'FAIL'} {f.name}: {f.text}" for f in self.findings]
+        end = "nothing found that would go wrong" if self.holds else "something would go wrong"
+        return "\n".join([f"{self.robot} in {self.scene}: {end}", *lines])
+
+
+def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
+    """Measure what would go wrong with a robot.
+
+    Args:
+        file: Robot file, or the name of a built-in robot.
+        scene: Name or file of the scene whose plan it has to walk.
+
+    Returns:
+        What was measured.
+
+    Raises:
+        RobotError: If the robot cannot be read or simulated.
+        SceneError: If the scene cannot be read.
+    """
+    robot = load_robot(file)
+    return _Checked(robot, load_scene(scene, robot=str(file))).result()
+
+
+class _Checked:
+    """A robot while it is checked.
+
+    Args:
+        robot: The robot.
+        scene: The scene.
+    """
+
+    def __init__(self, robot: Robot, scene: Scene) -> None:
+        self.robot = robot
+        self.legs: LegModel = build_leg_model(robot)
+        self.body: BodyScale = body_of(robot, self.legs.model)
+        self.scene = scene.for_body(self.body)
+        self.names = robot.legs["left"].joints
+        self.walked = self._walked()
+
+    def result(self) -> RobotCheck:
+        """What was measured."""
+        stands = settled(self.robot, self.legs, self.walked.feet, self.walked.com_height)
+        model, configuration = self.legs.model, self.legs.configuration
+        reach = plan_reach(self.robot, self.legs, self.walked)
+        found = [*self._reach(reach, stands), self._apart(), *self._gains(model, configuration)]
+        found += [*self._soles(model), *self._torques(reach)]
+        return RobotCheck(self.robot.name, self.scene.name, tuple(found))
+
+    def _walked(self) -> Walked:
+        """The scene's walk as it is planned; one at a velocity by steps in place."""
+        walk, robot = self.scene.walk, self.robot
+        steps = walk.steps if walk.velocities(0) is None else _STEPS
+        feet, plan = self._planned(min(steps, _STEPS), 1.0)
+        settings = controller_settings(self.scene, robot, self.body, ankle_sensors(self.legs.model, robot))
+        return Walked(
+            feet,
+            plan,
+            settings.timing,
+            walk.swing_height,
+            settings.com_height,
+            settings.trunk_lean,
+            settings.landing.approach_height,
+            settings.landing.approach_speed,
+        )
+
+    def _planned(self, count: int, share: float) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
+        """So many footsteps of a share of the scene's length, and where the feet stand before."""
+        walk = self.scene.walk
+        return straight_plan(
+            count,
+            length=share * walk.length,
+            sideways=share * walk.sideways,
+            width=walk.stance_width or self.robot.stance_width,
+            first="left" if walk.first == "left" else "right",
+        )
+
+    def _reach(self, reach: PlanReach, stands: float) -> list[Finding]:
+        """Whether the legs reach what the plan asks of them."""
+        holds = max(reach.missed, stands) <= MISSED and reach.knee >= _BENT
+        bend = math.degrees(reach.knee)
+        text = f"the straightest knee is bent by {bend:.0f} degrees {reach.straightest:.1f} s into the walk"
+        text += f", feet and CoM are missed by {1e3 * reach.missed:.1f} mm or mrad"
+        if not holds:
+            works = self._working_height()
+            text += f"; allowed: {math.degrees(_BENT):.0f} degrees or more and {1e3 * MISSED:.0f} mm; "
+            text += self._working_length() if works is None else f"com_height = {works:.3f} works"
+        spare = min(float(reach.spare.min()), math.pi)
+        joint = self.names[int(reach.spare.argmin())]
+        held = spare >= _SPARE or not holds
+        told = f"{joint} comes within {math.degrees(spare):.1f} degrees of its limit"
+        if not held:
+            told += (
+                f"; allowed: {math.degrees(_SPARE):.1f} or more: another com_height or stance_width, or a wider range"
+            )
+        most = self._roll_most()
+        roll, level = math.degrees(reach.roll), reach.roll <= most or not holds
+        said = f"a sole that carries alone is off level by {roll:.1f} degrees"
+        if not level:
+            said += f"; allowed: {math.degrees(most):.3g}; legs with an ankle that rolls work, or a scene that stands"
+        return [
+            Finding("level soles", round(roll, 2), round(math.degrees(most), 2), "degrees", level, said),
+            Finding("reach", round(bend, 2), math.degrees(_BENT), "degrees", holds, text),
+            Finding("joint range", round(math.degrees(spare), 2), math.degrees(_SPARE), "degrees", held, told),
+        ]
+
+    def _roll_most(self) -> float:
+        """How far in rad a sole that carries alone may be off level.
+
+        The legs of a robot that rocks lean with their soles, which carry on their outer edge then: up to where the CoM
+        comes over the middle of the sole, it swings back.
+        """
+        if not self.robot.rocks:
+            return ROLL_MOST
+        feet = self.walked.feet
+        return math.atan(0.5 * (feet["left"].y - feet["right"].y) / self.walked.com_height)
+
+    def _working_height(self) -> float | None:
+        """The greatest height in m at which the knees stay bent by twice what is needed; None where none is found."""
+        low = self.walked.com_height
+        for _ in range(12):
+            low -= 0.03 * self.body.leg
+            found = plan_reach(self.robot, self.legs, replace(self.walked, com_height=low))
+            if found.missed <= MISSED and found.knee >= 2.0 * _BENT:
+                return low + self.robot.com_height - self.walked.com_height
+        return None
+
+    def _working_length(self) -> str:
+        """How long steps may be that the legs reach at their height, in words."""
+        walk = self.scene.walk
+        for share in (0.8, 0.6, 0.4, 0.2):
+            feet, plan = self._planned(len(self.walked.steps), share)
+            found = plan_reach(self.robot, self.legs, replace(self.walked, feet=feet, steps=plan))
+            if found.missed <= MISSED and found.knee >= _BENT:
+                return f"walk.length = {share * walk.length:.3f} with walk.sideways = {share * walk.sideways:.3f} works"
+        return "no height and no shorter step works: see [posture] and the joints' limits"
+
+    def _apart(self) -> Finding:
+        """Whether the soles keep apart side by side."""
+        outlines = {s: self.robot.layouts[s].outline[:, 1] for s in SIDES}
+        feet = self.walked.feet
+        gap = float(feet["left"].y + outlines["left"].min() - feet["right"].y - outlines["right"].max())
+        least = _APART * self.body.sole_width
+        text = f"the soles stand {1e3 * gap:.0f} mm apart"
+        if gap < least:
+            width = feet["left"].y - feet["right"].y + 0.25 * self.body.sole_width - gap
+            text += f"; allowed: {1e3 * least:.0f} mm or more; stance_width = {width:.3f} works"
+        return Finding("stance", round(1e3 * gap, 1), round(1e3 * least, 1), "mm", gap >= least, text)
+
+    def _gains(self, model: Any, configuration: Any) -> list[Finding]:
+        """Whether servos are soft enough for what they swing and stiff enough for what they carry."""
+        robot, body = self.robot, self.body
+        inertia = joint_inertia(robot, model, configuration)
+        stiffness, damping = np.array(robot.stiffness), np.array(robot.damping)
+        works, damped = servo_gains(inertia, body.mass, robot.com_height, body.beat, CONTROL_PERIOD)
+        swing = np.sqrt(stiffness / inertia.swing) * CONTROL_PERIOD
+        allowed = _CHATTERS * np.maximum(1.0, np.sqrt(works / stiffness))
+        quick = np.where(stiffness <= 1.05 * works, 0.0, swing)
+        j = int(quick.argmax() if quick.any() else swing.argmax())
+        holds = bool(quick[j] <= allowed[j])
+        text = f"{self.names[j]} swings by {swing[j]:.2f} rad in a control period of {1e3 * CONTROL_PERIOD:g} ms"
+        if not holds:
+            text += (
+                f" ({stiffness[j]:g} N m/rad on {inertia.swing[j]:.3g} kg m^2): it chatters; allowed: "
+                f"{_CHATTERS:g} rad; stiffness = {works[j]:g} and damping = {damped[j]:g} work"
+            )
+        least = LEAST_STIFFNESS * body.weight * robot.com_height
+        k = int(stiffness.argmin())
+        held = bool(stiffness[k] >= 0.95 * least)
+        told = f"{self.names[k]} has {stiffness[k]:g} N m/rad"
+        if not held:
+            told += (
+                f": too soft to stand on; allowed: {LEAST_STIFFNESS:g} m g h = {least:.3g} or more; {works[k]:g} works"
+            )
+        ratio = (damping + inertia.damping) / (2.0 * np.sqrt(stiffness * inertia.swing))
+        d = int(ratio.argmin())
+        calm = bool(ratio[d] >= _DAMPED)
+        said = f"{self.names[d]} is damped by {ratio[d]:.2f} of critical while it swings"
+        if not calm:
+            said += f"; allowed: {_DAMPED:g} or more; damping = {damped[d]:g} works"
+        return [
+            Finding("stiff servos", round(float(swing[j]), 3), _CHATTERS, "rad", holds, text),
+            Finding("soft servos", float(stiffness[k]), round(least, 2), "N m/rad", held, told),
+            Finding("damping", round(float(ratio[d]), 3), _DAMPED, "1", calm, said),
+        ]
+
+    def _soles(self, model: Any) -> list[Finding]:
+        """Whether each sole lies flat under its foot, and nothing of the foot is below the shoe's inner face."""
+        if self.robot.kind == "biped":
+            return []
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        found = []
+        for side in SIDES:
+            parts = _foot_parts(model, self.robot.legs[side].foot_body, self.robot.legs[side].sole_site)
+            site = model.site(self.robot.legs[side].sole_site).id
+            to_sole = data.site_xmat[site].reshape(3, 3).T
+            foot = rested(model, data, parts, to_sole)
+            if foot is None:
+                continue
+            lowest = float((foot.surface.reshape(-1, 3) @ -foot.normal).min())
+            tilt = math.acos(min(1.0, -float(foot.normal[2]))) if foot.share >= 0.25 else 0.0
+            text = f"it is tilted by {math.degrees(tilt):.1f} degrees against the foot"
+            if tilt > _TILT:
+                turn = np.array(self.robot.sole_rotations[side]) @ _levelled(foot.normal)
+                field = "rotation" if side == "left" else "rotation_right"
+                text += f"; allowed: {math.degrees(_TILT):g}; {field} = {roll_pitch_yaw(turn)} works"
+            found.append(
+                Finding(
+                    f"{side} sole", round(math.degrees(tilt), 2), math.degrees(_TILT), "degrees", tilt <= _TILT, text
+                )
+            )
+            place = float((to_sole @ data.site_xpos[site])[2])
+            inner = place + self.robot.shoe_thickness
+            below = inner - (lowest if tilt <= _TILT else float(foot.surface[..., 2].min()))
+            told = f"the foot reaches {1e3 * below:.1f} mm below the shoe's inner face"
+            if below > _BELOW:
+                z = float(self.robot.sole_origins[side][2]) - below
+                told += (
+                    f"; allowed: {1e3 * _BELOW:g}; origin with z = {z:.4f} works"
+                    if tilt <= _TILT
+                    else "; turn it first"
+                )
+            elif below < -0.25 * self.body.sole_width:
+                told = f"the shoe hangs {-1e3 * below:.0f} mm below the foot"
+            holds = -0.25 * self.body.sole_width <= below <= _BELOW
+            found.append(Finding(f"under the {side} foot", round(1e3 * below, 2), 1e3 * _BELOW, "mm", holds, told))
+        return found
+
+    def _torques(self, reach: PlanReach) -> list[Finding]:
+        """Whether the motors hold the robot on one leg, and over the plan, with the trunk upright and leaning."""
+        limits = np.array(self.robot.effort_limits or (self.robot.biped.effort_limits if self.robot.biped else ()))
+        if not len(limits):
+            text = "the robot's file gives no effort_limits: not checked"
+            return [Finding("torque", float(reach.carrying.max()), math.inf, "N m", True, text)]
+        lean = self.walked.lean
+        other = plan_reach(self.robot, self.legs, replace(self.walked, lean=0.0 if lean else self.robot.trunk_lean))
+        upright, leaning = (other, reach) if lean else (reach, other)
+        found = []
+        for name, now, asked in (("upright", upright, not lean), ("leaning", leaning, bool(lean))):
+            share = now.carrying / limits
+            j = int(share.argmax())
+            holds = bool(share[j] <= _HIGHEST) or not asked
+            text = f"{self.names[j]} needs {now.carrying[j]:.3g} N m of {limits[j]:.3g} to carry the robot on one leg"
+            if not asked:
+                text += " (not in this scene)"
+            if not holds:
+                text += f"; allowed: {100.0 * _HIGHEST:.0f} %; {self._relief(other, limits, j, name)}"
+            elif share[j] > HELD and asked:
+                text += f": more than {100.0 * HELD:.0f} % leaves little to balance with"
+            value = round(float(now.carrying[j]), 3)
+            found.append(Finding(f"torque {name}", value, float(limits[j]), "N m", holds, text))
+        moving = reach.torque / limits
+        m = int(moving.argmax())
+        text = f"{self.names[m]} needs {reach.torque[m]:.3g} N m of {limits[m]:.3g} with what moving takes"
+        fits = bool(moving[m] <= _MOVING)
+        if not fits:
+            text += f"; allowed: {100.0 * _MOVING:.0f} % for moments; longer single_support or lower com_height helps"
+        found.append(Finding("torque moving", round(float(reach.torque[m]), 3), float(limits[m]), "N m", fits, text))
+        return found
+
+    def _relief(self, other: PlanReach, limits: Any, joint: int, name: str) -> str:
+        """What makes a torque fit."""
+        if other.carrying[joint] <= limits[joint]:
+            return "walk.lean = true works" if name == "upright" else "walk.lean = false works"
+        for higher in (0.03, 0.06, 0.1):
+            height = self.walked.com_height + higher * self.body.leg
+            found = plan_reach(self.robot, self.legs, replace(self.walked, com_height=height))
+            if found.missed <= MISSED and found.knee >= _BENT and found.carrying[joint] <= limits[joint]:
+                return f"com_height = {self.robot.com_height + higher * self.body.leg:.3f} works"
+        return f"no height or lean does; a motor of {other.carrying[joint] / HELD:.3g} N m works"
+
+
+def _foot_parts(model: Any, name: str, site: str) -> set[int]:
+    """Ids of the bodies that move with a foot, without its shoe."""
+    foot, shoe = model.body(name).id, int(model.site(site).bodyid[0])
+    top = int(model.body_weldid[foot])
+    return {b for b in range(model.nbody) if int(model.body_weldid[b]) == top and b != shoe}
+
+
+def _levelled(normal: Any) -> Any:
+    """Rotation (3, 3) from a sole frame on the plane with an outward normal (3,) to the sole frame as it is."""
+    up = -np.asarray(normal)
+    forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
+    forward /= float(np.linalg.norm(forward))
+    return np.stack([forward, np.cross(up, forward), up], axis=1)

@@ -1,0 +1,243 @@
+"""From a model file to a robot that walks: survey, shoes, numbers, robot file and picture, in this order."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import MappingProxyType
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.atomic import write_text
+from plantar.errors import RobotError
+from plantar.geometry.polygon import area
+from plantar.layouts.layout_file import read_layout
+from plantar.sides import SIDES
+from plantar.sim.robots.robot import LegNames, Robot
+from plantar.sim.robots.robot_file import load_robot
+from plantar.sim.run.controller_settings import CONTROL_PERIOD
+from plantar.sim.survey.fitted_gait import FittedGait, fit_gait
+from plantar.sim.survey.model_copy import add_rotors, write_model_copy
+from plantar.sim.survey.robot_picture import draw_robot
+from plantar.sim.survey.robot_text import robot_text
+from plantar.sim.survey.servo_gains import rotor_inertia
+from plantar.sim.survey.survey import Survey, survey_model
+
+__all__ = ["Introduced", "MakeShoes", "ShoesMade", "introduce"]
+
+_SHOE_DENSITY = 15.5  # kg/m^2 of a shoe that was not built: those built for feet of 130 and 230 mm have 15.3 and 15.5
+_CONTACT_DAMPING = 2.0
+"""With 1 the soles of light feet rattle on a beam's edges: G1, two iCubs and Romeo cross it with 5 of 20 fresh seeds,
+with 2 they do with 19. With 4, soles creep while a foot swings, and G1 comes over no obstacle."""
+_LICENCES = ("LICENSE*", "LICENCE*", "COPYING*", "NOTICE*")
+_NO_NAME = re.compile(r"[^A-Za-z0-9_.-]+")
+
+
+class ShoesMade(Protocol):
+    """What is to be known of the shoes that were built."""
+
+    @property
+    def thickness(self) -> float:
+        """Outer contact face below the bare sole in m."""
+        ...
+
+    @property
+    def mass(self) -> float | None:
+        """Mass of one in kg; None where it is not known."""
+        ...
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was found, assumed and decided."""
+        ...
+
+
+MakeShoes = Callable[[str, NDArray[np.float64], Path, float], ShoesMade]
+"""Builds the shoes from the robot's name, the surface (n, 3, 3) of the left foot in the frame of its bare sole in m, a
+folder to write to, and the robot's mass in kg."""
+
+
+@dataclass(frozen=True)
+class Introduced:
+    """A robot that was introduced.
+
+    Attributes:
+        robot: The robot.
+        survey: What was found in its model.
+        fitted: The numbers of its walk.
+        shoes: Its shoes.
+        files: Names of all files that were written.
+    """
+
+    robot: Robot
+    survey: Survey
+    fitted: FittedGait
+    shoes: ShoesMade
+    files: tuple[str, ...]
+
+    def as_dict(self, output: Path) -> dict[str, Any]:
+        """Plain JSON values; files are named as they are below a folder."""
+        robot, survey = self.robot, self.survey
+        return {
+            "name": robot.name,
+            "mass_kg": round(self.fitted.body.mass, 3),
+            "leg_length_m": self.fitted.body.leg,
+            "legs": {s: list(robot.legs[s].joints) for s in SIDES},
+            "feet": {s: robot.legs[s].foot_body for s in SIDES},
+            "sole_turn_deg": {s: round(float(np.degrees(survey.soles[s].turn)), 2) for s in SIDES},
+            "torso": robot.torso_body,
+            "imu": None if survey.imu is None else survey.imu[1],
+            "com_height_m": robot.com_height,
+            "stance_width_m": robot.stance_width,
+            "single_support_s": robot.single_support,
+            "double_support_s": robot.double_support,
+            "taxels": len(robot.layouts["left"]),
+            "stiffness": list(robot.stiffness),
+            "damping": list(robot.damping),
+            "effort_limits": list(robot.effort_limits),
+            "notes": [*survey.notes, *self.fitted.notes, *self.shoes.notes],
+            "files": [str(output / name) for name in self.files],
+        }
+
+    def text(self, output: Path) -> str:
+        """The same for people."""
+        robot, survey, body = self.robot, self.survey, self.fitted.body
+        turns = " and ".join(f"{np.degrees(survey.soles[s].turn):.1f}" for s in SIDES)
+        joints, taxels, file = robot.legs["left"].joints, len(robot.layouts["left"]), output / "robot.toml"
+        size = f"{1e3 * body.sole:.0f} x {1e3 * body.sole_width:.0f} mm"
+        return "\n".join(
+            [
+                f"{robot.name}: {body.mass:.3g} kg, {len(joints)} joints a leg; paced as a leg of {body.leg:.3f} m",
+                *(f"  {s} leg: {' '.join(robot.legs[s].joints)}, foot {robot.legs[s].foot_body}" for s in SIDES),
+                f"  soles: {size}, {taxels} taxels each; turned in their bodies by {turns} degrees",
+                f"  walks with its CoM at {robot.com_height:.3f} m, feet {robot.stance_width:.3f} m apart, "
+                f"{robot.single_support:g} + {robot.double_support:g} s a step",
+                *(f"  note: {note}" for note in (*survey.notes, *self.fitted.notes)),
+                f"made {file}: look at {output / 'robot.png'}, then",
+                f"  plantar robot check {file}",
+                f"  plantar sim flat --robot {file}",
+            ]
+        )
+
+
+def introduce(
+    file: str | os.PathLike[str],
+    folder: Path,
+    make_shoes: MakeShoes,
+    progress: Callable[[float, str], None] | None = None,
+) -> Introduced:
+    """Write a robot file, a copy of the model, shoes and a picture for a robot.
+
+    Args:
+        file: MJCF or URDF file of the robot.
+        folder: An existing folder.
+        make_shoes: Builds the shoes.
+        progress: Receives fraction and text.
+
+    Returns:
+        The robot, and what it rests on.
+
+    Raises:
+        RobotError: If the file holds no robot that can walk on two legs; the message says why.
+        FootError: If a foot cannot carry taxels.
+    """
+    tell = progress or (lambda fraction, text: None)
+    path = Path(file)
+    with TemporaryDirectory() as scratch:
+        tell(0.0, "reading the model")
+        survey = survey_model(path, Path(scratch))
+        name = _NO_NAME.sub("_", survey.source.name).strip("_") or "robot"
+        imu = None if survey.imu is None else (*survey.imu, "imu")
+        upright = write_model_copy(survey.source.model, survey.legs, folder, name, survey.held, imu)
+    tell(0.1, "building the shoes")
+    shoes = make_shoes(name, survey.soles["left"].triangles, folder, survey.mass)
+    tell(0.6, "fitting the walk")
+    draft = _draft(survey, shoes, folder, name, upright)
+    fitted = _fitted(draft)
+    write_text(folder / "robot.toml", robot_text(survey, fitted, shoes.notes, shoes.mass is not None))
+    _copy_licences(path, folder)
+    robot = load_robot(folder / "robot.toml")
+    tell(0.9, "drawing the robot")
+    draw_robot(robot, folder / "robot.png")
+    files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+    return Introduced(robot, survey, fitted, shoes, tuple(files))
+
+
+def _fitted(draft: Robot) -> FittedGait:
+    """The robot with the numbers of its walk; joints too light for any servo get a rotor in the copy of the model."""
+    fitted = fit_gait(draft)
+    assumed = rotor_inertia(fitted.inertia, fitted.body.mass, fitted.robot.com_height, CONTROL_PERIOD)
+    if draft.model_file is None or not assumed.any():
+        return fitted
+    joints = [(name, float(v)) for s in SIDES for name, v in zip(draft.legs[s].joints, assumed, strict=True)]
+    add_rotors(draft.model_file, {name: value for name, value in joints if value > 0.0})
+    return fit_gait(draft, assumed)
+
+
+def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: str) -> Robot:
+    """The robot with its names, soles and limits; the numbers of its walk are still to be found."""
+    joints = {s: tuple(survey.joint_names(s)) for s in SIDES}
+    thickness = shoes.thickness
+    layouts = {s: read_layout(folder / f"layout_{s}.json") for s in SIDES}
+    efforts = survey.efforts
+    if survey.foot_name("left") == survey.foot_name("right"):
+        raise RobotError(f"{survey.source.file}: both feet are called '{survey.foot_name('left')}'")
+    return Robot(
+        name=name,
+        description=f"{name}: {survey.mass:.3g} kg, {len(joints['left'])} joints a leg",
+        kind="mjcf",
+        biped=None,
+        model_file=folder / "model.xml",
+        foot=None,
+        shoe_thickness=thickness,
+        shoe_mass=shoes.mass
+        if shoes.mass is not None
+        else round(_SHOE_DENSITY * abs(area(layouts["left"].outline)), 4),
+        rim_stiffness=0.0,
+        contact_damping=_CONTACT_DAMPING,
+        sole_origins=MappingProxyType(
+            {s: survey.soles[s].origin - thickness * survey.soles[s].rotation[:, 2] for s in SIDES}
+        ),
+        sole_rotations=MappingProxyType({s: survey.soles[s].rotation for s in SIDES}),
+        effort_limits=tuple(1e5 if e is None else min(e, 1e5) for e in efforts) if any(efforts) else (),
+        velocity_limits=survey.speeds,
+        layouts=layouts,
+        legs={s: LegNames(joints[s], survey.foot_name(s), f"{s}_sole") for s in SIDES},
+        torso_body=upright,
+        imu_site="imu",
+        posture={s: (0.0,) * len(joints[s]) for s in SIDES},
+        com_height=1.0,
+        stance_width=0.2,
+        leg_length=0.0,
+        largest_crouch=0.0,
+        largest_crouch_partial=0.0,
+        trunk_lean=0.0,
+        single_support=0.9,
+        double_support=0.3,
+        approach_support=0.0,
+        pace=1.0,
+        ankle_reach=1.0,
+        rocks=False,
+        stiffness=(1000.0,) * len(joints["left"]),
+        damping=(10.0,) * len(joints["left"]),
+        balance={"law": "com_admittance"},
+        controller={},
+        path=folder / "robot.toml",
+    )
+
+
+def _copy_licences(model: Path, folder: Path) -> None:
+    """What the model's author allows goes with the copy."""
+    for place in (model.parent, model.parent.parent):
+        found = [p for pattern in _LICENCES for p in sorted(place.glob(pattern)) if p.is_file()]
+        for licence in found:
+            shutil.copyfile(licence, folder / f"model-{licence.name}")
+        if found:
+            return

@@ -1,0 +1,303 @@
+"""The legs of a model: two like chains of hinges from the body to what is lowest, found without a look at names."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError
+from plantar.sides import Side
+from plantar.sim.survey.body_surface import geom_triangles, resting_plane, shapes_of
+
+__all__ = ["LEAST_JOINTS", "Leg", "Legs", "find_legs"]
+
+LEAST_JOINTS = 5
+"""Hinges that a leg has at least: a sole has six degrees of freedom, one of which narrow feet do without."""
+
+_NEAR_FLOOR = 0.15  # of the height of its joint: how far a part of the foot may be above the sole
+_FLAT = 0.25  # share of its silhouette that the plane has that a foot rests on
+_AS_LOW = 0.1  # of the robot's height: how far two feet of a pair may differ
+_AXES_APART = math.cos(math.radians(20.0))  # how far the line between the feet may be off an axis
+_AHEAD = 0.03  # of the foot's length: what tells toes from heel
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Leg:
+    """One leg.
+
+    Attributes:
+        joints: Ids of its hinges from hip to ankle.
+        foot: Id of the body that the last one moves.
+        parts: Ids of all bodies that move with the foot, its toes among them.
+        toes: Names of hinges below the foot, which are held.
+        ankle: Point (3,) of the model's world in m that the foot turns about.
+    """
+
+    joints: tuple[int, ...]
+    foot: int
+    parts: frozenset[int]
+    toes: tuple[str, ...]
+    ankle: Array
+
+
+@dataclass(frozen=True)
+class Legs:
+    """Both legs, and how the model has to be turned to stand upright and look along x.
+
+    Attributes:
+        by_side: The legs.
+        pelvis: Id of the body that both hang on.
+        rotation: Rotation (3, 3) from the model's world to one with x forward, y left, z up.
+        notes: How that was found.
+    """
+
+    by_side: dict[Side, Leg]
+    pelvis: int
+    rotation: Array
+    notes: tuple[str, ...]
+
+
+def find_legs(model: Any, data: Any, where: str) -> Legs:
+    """Find the legs.
+
+    Args:
+        model: The model with all of its joints.
+        data: Its state in the posture of the file, with kinematics.
+        where: The file, for messages.
+
+    Returns:
+        The legs.
+
+    Raises:
+        RobotError: If there are not just two legs of five hinges or more; the message says what there is.
+    """
+    tree = _Tree(model, data)
+    up, how = _upwards(tree, where)
+    pair = _pair(tree, up, where)
+    lower = [_leg(tree, up, chain, where) for chain in pair]
+    rotation, notes = _facing(tree, up, lower, where)
+    across = [float((rotation @ leg.ankle)[1]) for leg in lower]
+    left, right = lower if across[0] > across[1] else lower[::-1]
+    return Legs({"left": left, "right": right}, tree.pelvis(pair), rotation, (*how, *notes))
+
+
+class _Tree:
+    """Links of a model that move against each other, each with its surface.
+
+    Args:
+        model: The model.
+        data: Its state.
+    """
+
+    def __init__(self, model: Any, data: Any) -> None:
+        self.model, self.data = model, data
+        self.links = sorted({int(i) for i in model.body_weldid})
+        self.bodies = {i: frozenset(np.flatnonzero(model.body_weldid == i).tolist()) for i in self.links}
+        self.above = {i: int(model.body_weldid[model.body_parentid[i]]) for i in self.links if i > 0}
+        self.points: dict[int, Array] = {}
+        for i in self.links:
+            shapes = [g for group in shapes_of(model, self.bodies[i]) for g in group]
+            if i > 0 and shapes:
+                self.points[i] = np.concatenate([geom_triangles(model, data, g).reshape(-1, 3) for g in shapes])
+
+    def chain(self, link: int) -> list[int]:
+        """A link and those that it hangs on, without the world."""
+        found = []
+        while link > 0:
+            found.append(link)
+            link = self.above[link]
+        return found
+
+    def joints(self, link: int) -> list[int]:
+        """Joints between a link and the one above it, without a free one."""
+        first, count = int(self.model.body_jntadr[link]), int(self.model.body_jntnum[link])
+        return [j for j in range(first, first + count) if self.model.jnt_type[j] != mujoco.mjtJoint.mjJNT_FREE]
+
+    def hinges(self, links: list[int]) -> list[int]:
+        """Hinges of some links in their order."""
+        return [j for i in links for j in self.joints(i) if self.model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE]
+
+    def below(self, link: int) -> list[int]:
+        """A link and all that hangs on it."""
+        return [i for i in self.links if link in self.chain(i)]
+
+    def pelvis(self, pair: tuple[list[int], list[int]]) -> int:
+        """The body that both chains hang on; the first body of the robot where that is the world."""
+        top = self.above[pair[0][0]]
+        if top > 0:
+            return top
+        moving = [int(self.model.body_parentid[chain[0]]) for chain in pair]
+        return next((b for b in moving if b > 0), pair[0][0])
+
+
+def _upwards(tree: _Tree, where: str) -> tuple[Array, tuple[str, ...]]:
+    """Which way is up (3,) in the model's world: away from what hangs farthest from the body."""
+    model, data = tree.model, tree.data
+    ends = [i for i in tree.points if len(tree.hinges(tree.chain(i))) >= LEAST_JOINTS]
+    if not ends:
+        raise RobotError(
+            f"{where}: no chain of {LEAST_JOINTS} hinges or more ends in a body with a shape; it has "
+            f"{model.njnt} joints and {model.ngeom} shapes: a robot with legs is needed"
+        )
+    z = np.array([0.0, 0.0, 1.0])
+    com = data.subtree_com[0]
+    lowest = min(float(tree.points[i][:, 2].min()) for i in ends)
+    rest = [p for i, p in tree.points.items() if i not in ends]
+    if lowest < com[2] and (not rest or lowest <= min(float(p[:, 2].min()) for p in rest) + 1e-6):
+        return z, ()
+    best, reach = z, -math.inf
+    for axis in np.concatenate([np.eye(3), -np.eye(3)]):
+        far = max(float((tree.points[i] @ -axis).max()) for i in ends) + float(com @ axis)
+        sole = max(ends, key=lambda i: float((tree.points[i] @ -axis).max()))
+        score = far + (0.2 * far if len(tree.hinges(tree.chain(sole))) <= 8 else 0.0)
+        if score > reach:
+            best, reach = axis, score
+    if best[2] > 0.9:
+        return z, ()
+    return best, (f"the model lies: its {_axis_name(best)} axis points up",)
+
+
+def _axis_name(axis: Array) -> str:
+    i = int(np.abs(axis).argmax())
+    return f"{'-' if axis[i] < 0.0 else ''}{'xyz'[i]}"
+
+
+def _pair(tree: _Tree, up: Array, where: str) -> tuple[list[int], list[int]]:
+    """The links of the two legs from hip to lowest end."""
+    height = {i: float((p @ up).min()) for i, p in tree.points.items()}
+    top = max(float((p @ up).max()) for p in tree.points.values())
+    ends = sorted((i for i in height if len(tree.hinges(tree.chain(i))) >= LEAST_JOINTS), key=height.__getitem__)
+    first = ends[0]
+    limbs: list[tuple[list[int], int, list[int]]] = []  # the lowest end of each limb that reaches as low
+    for other in ends[1:]:
+        one, two = _apart(tree, first, other)
+        counts = [len(tree.hinges(chain)) for chain in (one, two)]
+        if min(counts) < LEAST_JOINTS:
+            continue
+        if height[other] - height[first] > _AS_LOW * (top - height[first]):
+            break
+        if all(min(len(tree.hinges(c)) for c in _apart(tree, other, k[1])) >= LEAST_JOINTS for k in limbs):
+            limbs.append((one, other, two))
+    if len(limbs) != 1:
+        found = ", ".join(tree.model.body(i).name for i in (first, *(k[1] for k in limbs)))
+        what = "only one limb" if not limbs else f"{len(limbs) + 1} limbs"
+        raise RobotError(
+            f"{where}: {what} of {LEAST_JOINTS} hinges or more that share no joint reach the ground ({found}); "
+            "allowed: two legs"
+        )
+    limb = limbs[0][0], limbs[0][2]
+    legs = {j for chain in limb for i in chain for j in tree.below(i)}
+    lower = [i for i in height if i not in legs and height[i] < height[first] - _AS_LOW * (top - height[first])]
+    if lower:
+        raise RobotError(
+            f"{where}: what stands on the ground is no leg: '{tree.model.body(lower[0]).name}' reaches lower than "
+            f"'{tree.model.body(first).name}'; allowed: a robot on two legs of {LEAST_JOINTS} hinges or more"
+        )
+    return limb
+
+
+def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
+    """Links of two chains below the last one that they share, from the top down."""
+    one, two = tree.chain(a)[::-1], tree.chain(b)[::-1]
+    shared = 0
+    while shared < min(len(one), len(two)) and one[shared] == two[shared]:
+        shared += 1
+    return one[shared:], two[shared:]
+
+
+def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
+    """The leg of a chain of links: the foot is the highest one that stands on the floor, too; below it are toes."""
+    model, data = tree.model, tree.data
+    up = _above_sole(tree.points[chain[-1]], up)
+    floor = float((tree.points[chain[-1]] @ up).min())
+    last = len(chain) - 1
+    while last > 0 and len(tree.hinges(chain[:last])) >= LEAST_JOINTS and chain[last - 1] in tree.points:
+        anchor = float(data.xanchor[tree.joints(chain[last - 1])[-1]] @ up)
+        if float((tree.points[chain[last - 1]] @ up).min()) - floor > _NEAR_FLOOR * (anchor - floor):
+            break
+        last -= 1
+    links, foot = chain[: last + 1], chain[last]
+    names = [model.joint(j).name for i in links for j in tree.joints(i)]
+    hinges = tree.hinges(links)
+    if len(hinges) != len(names):
+        other = next(n for n in names if n not in [model.joint(j).name for j in hinges])
+        raise RobotError(f"{where}: joint '{other}' of a leg is no hinge; allowed: hinges")
+    parts = frozenset(b for i in tree.below(foot) for b in tree.bodies[i])
+    toes = tuple(model.joint(j).name for i in tree.below(foot) if i != foot for j in tree.joints(i))
+    return Leg(tuple(hinges), foot, parts, toes, _ankle(data, hinges, tree.points[foot]))
+
+
+def _above_sole(points: Array, up: Array) -> Array:
+    """Direction (3,) that points up from the plane that a foot would rest on, in whatever posture."""
+    side = np.eye(3)[int(np.abs(up).argmin())]
+    level = np.stack([np.cross(side, up), np.cross(up, np.cross(side, up)), up])
+    level /= np.linalg.norm(level, axis=1, keepdims=True)
+    normal, share = resting_plane(points @ level.T)
+    return np.asarray(-normal @ level) if share > _FLAT else up
+
+
+def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:
+    """Where the last two axes of a leg meet, or the middle of the last one over the foot where they are parallel."""
+    a, b = hinges[-1], hinges[-2]
+    p, u, q, v = data.xanchor[a], data.xaxis[a], data.xanchor[b], data.xaxis[b]
+    parallel = float(u @ v)
+    if abs(parallel) > 0.9:
+        middle = 0.5 * (foot.min(axis=0) + foot.max(axis=0))
+        return np.asarray(p + ((middle - p) @ u) * u)
+    across = q - p
+    along = (across @ u - (across @ v) * parallel) / (1.0 - parallel**2)
+    return np.asarray(p + along * u)
+
+
+def _facing(tree: _Tree, up: Array, legs: list[Leg], where: str) -> tuple[Array, tuple[str, ...]]:
+    """Rotation from the model's world to x forward, y left, z up, and what was found."""
+    data = tree.data
+    hips = [data.xanchor[leg.joints[0]] for leg in legs]
+    apart = max((legs[0].ankle - legs[1].ankle, hips[0] - hips[1]), key=lambda d: float(np.linalg.norm(d)))
+    apart = apart - (apart @ up) * up
+    size = float(np.linalg.norm(apart))
+    best = int(np.abs(apart).argmax())
+    if size < 1e-6 or abs(apart[best]) < _AXES_APART * size:
+        raise RobotError(f"{where}: the feet stand neither along x nor along y beside each other; turn the model")
+    across = np.eye(3)[best]
+    forward = np.cross(across, up)
+    votes, told = _forward_votes(tree, legs, forward, up)
+    if votes == 0.0 and abs(forward[0]) > 0.5:
+        votes = float(forward[0])
+    forward = forward if votes >= 0.0 else -forward
+    rotation = np.stack([forward, np.cross(up, forward), up])
+    if np.allclose(rotation, np.eye(3)):
+        return np.eye(3), ()
+    return rotation, (f"the robot looks along the model's {_axis_name(forward)} axis ({told})",)
+
+
+def _forward_votes(tree: _Tree, legs: list[Leg], forward: Array, up: Array) -> tuple[float, str]:
+    """Above 0 where toes and knees say that a direction is forward, below 0 where they say the opposite."""
+    toes = knees = 0.0
+    for leg in legs:
+        foot = np.concatenate([tree.points[i] for i in tree.below(leg.foot) if i in tree.points]) @ forward
+        length = float(np.ptp(foot))
+        ahead = 0.5 * float(foot.min() + foot.max()) - float(leg.ankle @ forward)
+        toes += 0.0 if abs(ahead) < _AHEAD * length else math.copysign(1.0, ahead)
+        knees += _knee_vote(tree, leg, np.cross(up, forward))
+    return 2.0 * toes + knees, "the toes are farther from the ankle than the heel" if toes else "the knees bend so"
+
+
+def _knee_vote(tree: _Tree, leg: Leg, left: Array) -> float:
+    """1 where the knee's range bends it forward for a robot whose left is given, -1 for backward, else 0."""
+    model, data = tree.model, tree.data
+    pitch = [j for j in leg.joints if abs(float(data.xaxis[j] @ left)) > 0.7]
+    if len(pitch) < 3:
+        return 0.0
+    low, high = (model.jnt_range[pitch[-2]] - model.qpos0[model.jnt_qposadr[pitch[-2]]]).tolist()
+    one_sided = high + low
+    if not model.jnt_limited[pitch[-2]] or abs(one_sided) < 0.5 * (high - low):
+        return 0.0
+    return math.copysign(1.0, one_sided * float(data.xaxis[pitch[-2]] @ left))

@@ -1,0 +1,243 @@
+"""A copy of a robot's model as it walks: one floating base that stands upright, the legs' joints, all else held.
+
+The copy is an MJCF that stands by itself in its folder, whatever the model was and wherever its meshes lay: inertias as
+MuJoCo compiled them, feet as they are, other meshes drawn in fewer triangles.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.atomic import write_text
+from plantar.sim.survey.leg_chains import Legs
+from plantar.sim.survey.surface_file import simplified, stl_bytes
+
+__all__ = ["MESH_FOLDER", "UPRIGHT", "add_rotors", "write_model_copy"]
+
+MESH_FOLDER = "meshes"
+"""Folder beside the copy that holds its meshes."""
+
+UPRIGHT = "upright"
+"""Body that is put above one whose own axes are turned: x forward, y left, z up in the robot's posture."""
+
+_CELLS = 40  # along the longest side of a mesh that is only looked at
+_TYPES = {
+    mujoco.mjtGeom.mjGEOM_SPHERE: ("sphere", 1),
+    mujoco.mjtGeom.mjGEOM_CAPSULE: ("capsule", 2),
+    mujoco.mjtGeom.mjGEOM_ELLIPSOID: ("ellipsoid", 3),
+    mujoco.mjtGeom.mjGEOM_CYLINDER: ("cylinder", 2),
+    mujoco.mjtGeom.mjGEOM_BOX: ("box", 3),
+}
+
+
+def write_model_copy(
+    model: Any,
+    legs: Legs,
+    folder: Path,
+    name: str,
+    held: Mapping[str, float],
+    imu: tuple[str, str, str] | None,
+) -> str:
+    """Write the copy and its meshes.
+
+    Args:
+        model: The compiled model with all of its joints.
+        legs: Its legs.
+        folder: Where to write "model.xml" and the meshes.
+        name: Name of the robot.
+        held: Angles in rad by name at which joints are held that are not the legs'; the others as the file has them.
+        imu: What the IMU is, "site" or "body", its name, and the name of the copy's site; None for none.
+
+    Returns:
+        Name of the body that is kept upright.
+    """
+    return _Copy(model, legs, folder, held).written(name, imu)
+
+
+def add_rotors(file: Path, rotors: Mapping[str, float]) -> None:
+    """Give joints of a copy a rotor inertia.
+
+    Args:
+        file: The copy.
+        rotors: Inertia in kg m^2 by the joint's name.
+    """
+    root = ElementTree.fromstring(file.read_text(encoding="utf-8"))
+    for joint in root.iter("joint"):
+        if joint.get("name") in rotors:
+            joint.set("armature", f"{rotors[joint.get('name', '')]:.9g}")
+    write_text(file, ElementTree.tostring(root, encoding="unicode") + "\n")
+
+
+class _Copy:
+    """The copy while it is written.
+
+    Args:
+        model: The compiled model.
+        legs: Its legs.
+        folder: Where it is written.
+        held: Angles in rad of held joints by name.
+    """
+
+    def __init__(self, model: Any, legs: Legs, folder: Path, held: Mapping[str, float]) -> None:
+        self.model, self.legs, self.folder = model, legs, folder
+        self.hinges = {j for leg in legs.by_side.values() for j in leg.joints}
+        self.feet = frozenset(b for leg in legs.by_side.values() for b in leg.parts)
+        self.meshes: dict[int, str] = {}
+        data = mujoco.MjData(model)
+        for joint in range(model.njnt):
+            angle = held.get(model.joint(joint).name)
+            if angle is not None and joint not in self.hinges:
+                data.qpos[model.jnt_qposadr[joint]] = angle
+        mujoco.mj_kinematics(model, data)
+        self.positions, self.rotations = data.xpos, data.xmat.reshape(-1, 3, 3)
+
+    def written(self, name: str, imu: tuple[str, str, str] | None) -> str:
+        """Write it; gives the name of the body that is kept upright."""
+        model, legs = self.model, self.legs
+        root = Element("mujoco", model=name)
+        SubElement(root, "compiler", angle="radian", autolimits="true", meshdir=MESH_FOLDER, balanceinertia="true")
+        assets = SubElement(root, "asset")
+        world = SubElement(root, "worldbody")
+        top = self._top()
+        turned = legs.rotation @ self.rotations[top]
+        upright = model.body(top).name
+        parent = world
+        self.origin = self.positions[top].copy()
+        base = np.array([0.0, 0.0, self._height(top)])
+        if not np.allclose(turned, np.eye(3), atol=1e-4):
+            upright = UPRIGHT if UPRIGHT not in {model.body(i).name for i in range(model.nbody)} else f"{UPRIGHT}_base"
+            parent = SubElement(world, "body", name=upright, pos=_text(base))
+            SubElement(parent, "freejoint", name="root")
+            base = np.zeros(3)
+        self._body(parent, top, base, turned, free=parent is world)
+        if imu is not None:
+            self._imu(root, *imu)
+        if not self.meshes:
+            root.remove(assets)
+        for file in self.meshes.values():
+            SubElement(assets, "mesh", name=Path(file).stem, file=file, inertia="shell")
+        ElementTree.indent(root)
+        write_text(self.folder / "model.xml", ElementTree.tostring(root, encoding="unicode") + "\n")
+        return str(upright)
+
+    def _top(self) -> int:
+        """The first body of the robot: below the world, above both legs."""
+        body = self.legs.pelvis
+        while self.model.body_parentid[body] > 0:
+            body = int(self.model.body_parentid[body])
+        return body
+
+    def _height(self, top: int) -> float:
+        """Height in m at which the lowest ankle is as far above the ground as the legs are long: about standing."""
+        ankles = [float((self.legs.rotation @ leg.ankle)[2]) for leg in self.legs.by_side.values()]
+        return 1.2 * (float((self.legs.rotation @ self.positions[top])[2]) - min(ankles))
+
+    def _body(self, parent: Element, body: int, position: NDArray[np.float64], rotation: Any, free: bool) -> None:
+        """Write a body and all that hangs on it."""
+        model = self.model
+        element = SubElement(
+            parent, "body", name=model.body(body).name, pos=_text(position), quat=_quaternion(rotation)
+        )
+        if free:
+            SubElement(element, "freejoint", name="root")
+        if model.body_mass[body] > 0.0:
+            SubElement(
+                element,
+                "inertial",
+                pos=_text(model.body_ipos[body]),
+                quat=_text(model.body_iquat[body]),
+                mass=f"{model.body_mass[body]:.9g}",
+                diaginertia=_text(np.maximum(model.body_inertia[body], 1e-12)),
+            )
+        first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+        for joint in range(first, first + count):
+            if joint in self.hinges:
+                self._joint(element, joint)
+        for geom in np.flatnonzero(model.geom_bodyid == body).tolist():
+            self._geom(element, geom)
+        for child in np.flatnonzero(model.body_parentid == body).tolist():
+            if child != body and child != 0:
+                back = self.rotations[body].T
+                at = back @ (self.positions[child] - self.positions[body])
+                self._body(element, child, at, back @ self.rotations[child], free=False)
+
+    def _joint(self, element: Element, joint: int) -> None:
+        model = self.model
+        dof = int(model.jnt_dofadr[joint])
+        told = {"pos": _text(model.jnt_pos[joint]), "axis": _text(model.jnt_axis[joint])}
+        if model.jnt_limited[joint]:
+            told["range"] = _text(model.jnt_range[joint])
+        if model.qpos0[model.jnt_qposadr[joint]]:
+            told["ref"] = f"{model.qpos0[model.jnt_qposadr[joint]]:.9g}"
+        for key, values in (
+            ("damping", model.dof_damping),
+            ("armature", model.dof_armature),
+            ("frictionloss", model.dof_frictionloss),
+        ):
+            if values[dof]:
+                told[key] = f"{values[dof]:.9g}"
+        SubElement(element, "joint", {"name": model.joint(joint).name, **told})
+
+    def _geom(self, element: Element, geom: int) -> None:
+        model = self.model
+        kind, body = int(model.geom_type[geom]), int(model.geom_bodyid[geom])
+        told = {"pos": _text(model.geom_pos[geom]), "quat": _text(model.geom_quat[geom])}
+        if kind == mujoco.mjtGeom.mjGEOM_MESH:
+            told |= {"type": "mesh", "mesh": Path(self._mesh(int(model.geom_dataid[geom]), body in self.feet)).stem}
+        elif kind in _TYPES:
+            name, sizes = _TYPES[mujoco.mjtGeom(kind)]
+            told |= {"type": name, "size": _text(model.geom_size[geom][:sizes])}
+        else:
+            return
+        collides = bool(model.geom_contype[geom] or model.geom_conaffinity[geom])
+        drawn = (model.geom_contype == 0) & (model.geom_conaffinity == 0) & (model.geom_bodyid == body)
+        if not collides or kind == mujoco.mjtGeom.mjGEOM_MESH:  # legs collide by simple shapes, soles by their boxes
+            told |= {"contype": "0", "conaffinity": "0"}
+        told["group"] = "3" if collides and drawn.any() else "1"
+        material = int(model.geom_matid[geom])
+        told["rgba"] = _text(model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom])
+        SubElement(element, "geom", told)
+
+    def _mesh(self, mesh: int, whole: bool) -> str:
+        """File of a mesh as MuJoCo has it; one that is not of a foot loses what is not seen from afar."""
+        if mesh not in self.meshes:
+            model = self.model
+            first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+            face, faces = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
+            corners = model.mesh_vert[first : first + count].astype(float)
+            triangles = corners[model.mesh_face[face : face + faces]]
+            fewer = triangles if whole else simplified(triangles, _CELLS)
+            triangles = fewer if len(fewer) >= 4 else triangles
+            (self.folder / MESH_FOLDER).mkdir(exist_ok=True)
+            self.meshes[mesh] = f"mesh_{mesh}.stl"
+            (self.folder / MESH_FOLDER / self.meshes[mesh]).write_bytes(stl_bytes(triangles))
+        return self.meshes[mesh]
+
+    def _imu(self, root: Element, kind: str, name: str, site: str) -> None:
+        """Put the IMU's site where it is."""
+        model = self.model
+        body = model.body(name).id if kind == "body" else int(model.site(name).bodyid[0])
+        at, turn = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+        if kind == "site":
+            at, turn = model.site(name).pos, model.site(name).quat
+        wearer = next(e for e in root.iter("body") if e.get("name") == model.body(body).name)
+        SubElement(wearer, "site", name=site, pos=_text(at), quat=_text(turn))
+
+
+def _text(values: Any) -> str:
+    return " ".join(f"{float(v) + 0.0:.9g}" for v in values)
+
+
+def _quaternion(rotation: NDArray[np.float64]) -> str:
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, np.ascontiguousarray(rotation).ravel())
+    return _text(quaternion / math.sqrt(float(quaternion @ quaternion)))

@@ -1,0 +1,313 @@
+"""A robot's model as its author left it, MJCF or URDF: read, with what its file says of motors and sensors kept."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError
+from plantar.files.model_files import check_model, mesh_of_urdf, parsed_model
+from plantar.sim.robots.model_file import forget_own_simulation
+from plantar.sim.survey.surface_file import mesh_for_mujoco
+
+__all__ = ["ModelSource", "read_model"]
+
+_URDF_COMPILER = {
+    "strippath": "false",
+    "discardvisual": "false",
+    "fusestatic": "false",
+    "balanceinertia": "true",
+    "boundmass": "1e-9",
+    "boundinertia": "1e-12",
+}
+"""How MuJoCo shall read a URDF: with what is drawn, link by link, and with links that have no mass."""
+
+_LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
+
+
+@dataclass(frozen=True)
+class ModelSource:
+    """A compiled model and what its file says beside bodies, joints and shapes.
+
+    Attributes:
+        file: The file.
+        name: The model's name.
+        model: The compiled model with all of its joints, nothing driven, nothing constrained.
+        efforts: Largest torque in N m of each joint whose motor or joint the file limits, by the joint's name.
+        speeds: Largest speed in rad/s of each joint that the file limits, by name.
+        imus: Sites and bodies that may be the IMU, as "site" or "body" and the name, the likeliest first: what carries
+            a gyro, what carries an accelerometer, what is called IMU.
+        coupled: Pairs of joint names of which the file lets the first follow the second.
+        loops: Pairs of bodies that the file ties together beside the tree of joints.
+        upper_posture: Joint angles of the file's first keyframe by name; empty where it has none.
+        notes: What was left out or changed in reading.
+    """
+
+    file: Path
+    name: str
+    model: Any
+    efforts: Mapping[str, float]
+    speeds: Mapping[str, float]
+    imus: tuple[tuple[str, str], ...]
+    coupled: tuple[tuple[str, str], ...]
+    loops: tuple[tuple[str, str], ...]
+    upper_posture: Mapping[str, float]
+    notes: tuple[str, ...]
+
+
+@dataclass
+class _Said:
+    """What a file says, collected before it is taken out of the model."""
+
+    efforts: dict[str, float] = field(default_factory=dict)
+    speeds: dict[str, float] = field(default_factory=dict)
+    coupled: list[tuple[str, str]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+def read_model(file: Path, folder: Path) -> ModelSource:
+    """Read a robot's model.
+
+    Args:
+        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file, or a scene that includes the robot.
+        folder: A folder for meshes that have to be converted.
+
+    Returns:
+        The model.
+
+    Raises:
+        RobotError: If it cannot be read, or names files that lie where they may not.
+    """
+    check_model(file, RobotError)
+    said = _Said()
+    try:
+        root = parsed_model(file, RobotError)
+        if root.tag == "robot":
+            spec = mujoco.MjSpec.from_string(_urdf_text(root, file, folder, said))
+        else:
+            spec = mujoco.MjSpec.from_file(str(file))
+    except RobotError:
+        raise
+    except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
+        raise RobotError(f"{file}: cannot be read: {' '.join(str(error).split())}") from None
+    _name_all(spec)
+    _drop_other_things(spec, said.notes)
+    _drop_unreadable(spec, file, folder, said.notes)
+    keyframe = _first_keyframe(spec)
+    loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS]
+    said.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
+    _collect_efforts(spec, said)
+    imus = _imus_of(spec)
+    forget_own_simulation(spec)
+    model = _compiled(spec, file)
+    return ModelSource(
+        file=file,
+        name=spec.modelname if spec.modelname not in ("", "MuJoCo Model") else file.stem,
+        model=model,
+        efforts=said.efforts,
+        speeds=said.speeds,
+        imus=imus,
+        coupled=tuple(said.coupled),
+        loops=tuple(_bodies_of(model, pair) for pair in loops),
+        upper_posture=_angles_of(model, keyframe),
+        notes=tuple(said.notes),
+    )
+
+
+def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, said: _Said) -> str:
+    """A URDF as MuJoCo reads it: meshes by their full names in kinds that it knows, its own settings."""
+    for link in root.iter("link"):
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            mesh = shape.find("geometry/mesh")
+            if mesh is None:
+                continue
+            path = mesh_of_urdf(file, mesh.get("filename", ""), RobotError, f"{file}: <{shape.tag}>")
+            found = mesh_for_mujoco(path, folder)
+            if found is None:
+                said.notes.append(f"{shape.tag} mesh {path.name} of link {link.get('name')} cannot be read; left out")
+                link.remove(shape)
+            else:
+                mesh.set("filename", str(found.resolve()))
+    for own in root.findall("mujoco"):
+        root.remove(own)
+    locked = [name for joint in root.findall("joint") if (name := _locked(joint, file))]
+    if locked:
+        said.notes.append(
+            f"held, as their limits leave no range (lower and upper are 0 where a URDF leaves them out): "
+            f"{', '.join(locked)}"
+        )
+    for joint in root.findall("joint"):
+        name, limit, mimic = joint.get("name", ""), joint.find("limit"), joint.find("mimic")
+        if mimic is not None:
+            said.coupled.append((name, mimic.get("joint", "")))
+        for key, found_limits in (("effort", said.efforts), ("velocity", said.speeds)):
+            value = _number(None if limit is None else limit.get(key))
+            if value > 0.0:
+                found_limits[name] = value
+    ElementTree.SubElement(ElementTree.SubElement(root, "mujoco"), "compiler", _URDF_COMPILER)
+    return ElementTree.tostring(root, encoding="unicode")
+
+
+def _locked(joint: ElementTree.Element, file: Path) -> str:
+    """Name of a joint whose limits leave no range, which is fixed then; empty for any other.
+
+    MuJoCo would take it as one without limits.
+
+    Raises:
+        RobotError: If the limits contradict each other, or hold it at another angle than 0.
+    """
+    name, limit = joint.get("name", ""), joint.find("limit")
+    if joint.get("type") not in ("revolute", "prismatic") or limit is None:
+        return ""
+    lower, upper = _number(limit.get("lower")), _number(limit.get("upper"))
+    if lower < upper:
+        return ""
+    if lower > upper or lower != 0.0:
+        raise RobotError(
+            f"{file}: joint '{name}' has limits from {lower:g} to {upper:g}; allowed: lower below upper, "
+            "or a joint of type fixed"
+        )
+    joint.set("type", "fixed")
+    return name
+
+
+def _number(text: str | None) -> float:
+    """A number, 0 where it is none or not finite."""
+    try:
+        value = float(text or "0")
+    except ValueError:
+        return 0.0
+    return value if math.isfinite(value) else 0.0
+
+
+def _name_all(spec: Any) -> None:
+    """Give every body and joint a name: what follows finds them by it."""
+    for kind, elements in (("body", spec.bodies), ("joint", spec.joints)):
+        taken = {e.name for e in elements}
+        for i, element in enumerate(elements):
+            if not element.name:
+                name = f"{kind}_{i}"
+                element.name = name if name not in taken else f"{name}_of_the_model"
+
+
+def _drop_other_things(spec: Any, notes: list[str]) -> None:
+    """Take out what a scene holds beside the robot, tables and balls: of what stands in the world the robot has most
+    hinges."""
+    things = list(spec.worldbody.bodies)
+    if len(things) < 2:
+        return
+    hinges = [sum(j.type == mujoco.mjtJoint.mjJNT_HINGE for j in _joints_below(thing)) for thing in things]
+    robot = things[hinges.index(max(hinges))]
+    others = [thing for thing in things if thing is not robot]
+    notes.append(f"left out, as they are no part of the robot: {', '.join(thing.name for thing in others)}")
+    for thing in others:
+        spec.delete(thing)
+
+
+def _joints_below(body: Any) -> list[Any]:
+    """Joints of a body and of all that hangs on it."""
+    return [*body.joints, *(joint for child in body.bodies for joint in _joints_below(child))]
+
+
+def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> None:
+    """Take out textures, and meshes that cannot be read with the shapes made of them."""
+    for material in spec.materials:
+        material.textures = [""] * len(material.textures)
+    for part in ("textures", "skins", "hfields", "flexes"):
+        for element in list(getattr(spec, part)):
+            spec.delete(element)
+    for geom in [g for g in spec.geoms if g.type in (mujoco.mjtGeom.mjGEOM_HFIELD, mujoco.mjtGeom.mjGEOM_SDF)]:
+        spec.delete(geom)
+    for mesh in list(spec.meshes):
+        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX  # holds for open and flat surfaces, too
+        if not mesh.file:
+            continue
+        place = Path(mesh.file)
+        path = place if place.is_absolute() else file.parent / spec.meshdir / place
+        found = mesh_for_mujoco(path, folder)
+        if found is not None:
+            if found != path:
+                mesh.file = str(found.resolve())
+            continue
+        users = [g for g in spec.geoms if g.meshname == mesh.name]
+        notes.append(f"mesh {place.name} cannot be read; the {len(users)} shape(s) made of it are left out")
+        for geom in users:
+            spec.delete(geom)
+        spec.delete(mesh)
+
+
+def _first_keyframe(spec: Any) -> NDArray[np.float64] | None:
+    keys = [key for key in spec.keys if len(key.qpos)]
+    return np.array(keys[0].qpos) if keys else None
+
+
+def _angles_of(model: Any, qpos: NDArray[np.float64] | None) -> dict[str, float]:
+    """Angles of the hinges in a keyframe by name; none where it is of another model."""
+    if qpos is None or len(qpos) != model.nq or not np.isfinite(qpos).all():
+        return {}
+    hinges = [i for i in range(model.njnt) if model.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE]
+    return {model.joint(i).name: float(qpos[model.jnt_qposadr[i]]) for i in hinges}
+
+
+def _collect_efforts(spec: Any, said: _Said) -> None:
+    """Largest torque of each joint: of its motor by force or control range, or of the joint itself."""
+    for joint in spec.joints:
+        limited = joint.actfrclimited != mujoco.mjtLimited.mjLIMITED_FALSE
+        if limited and joint.actfrcrange[0] < joint.actfrcrange[1]:
+            said.efforts[joint.name] = float(np.abs(joint.actfrcrange).max())
+    for motor in spec.actuators:
+        if motor.trntype not in (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT):
+            continue
+        gear = abs(float(motor.gear[0])) or 1.0
+        limits = []
+        if motor.forcelimited != mujoco.mjtLimited.mjLIMITED_FALSE and motor.forcerange[0] < motor.forcerange[1]:
+            limits.append(gear * float(np.abs(motor.forcerange).max()))
+        direct = motor.biastype == mujoco.mjtBias.mjBIAS_NONE and motor.gaintype == mujoco.mjtGain.mjGAIN_FIXED
+        if (
+            direct
+            and motor.ctrllimited != mujoco.mjtLimited.mjLIMITED_FALSE
+            and motor.ctrlrange[0] < motor.ctrlrange[1]
+        ):
+            limits.append(gear * abs(float(motor.gainprm[0])) * float(np.abs(motor.ctrlrange).max()))
+        if limits:
+            said.efforts[motor.target] = min([*limits, said.efforts.get(motor.target, math.inf)])
+
+
+def _imus_of(spec: Any) -> tuple[tuple[str, str], ...]:
+    """What carries a gyro, what carries an accelerometer, and sites and bodies that are called IMU."""
+    found = []
+    for kind in (mujoco.mjtSensor.mjSENS_GYRO, mujoco.mjtSensor.mjSENS_ACCELEROMETER):
+        found += [("site", s.objname) for s in spec.sensors if s.type == kind and spec.site(s.objname) is not None]
+    for what, elements in (("site", spec.sites), ("body", spec.bodies)):
+        found += [(what, e.name) for e in elements if "imu" in e.name.lower()]
+    return tuple(dict.fromkeys(found))
+
+
+def _compiled(spec: Any, file: Path) -> Any:
+    for attempt in ("as it is", "without collisions of meshes"):
+        try:
+            return spec.compile()
+        except ValueError as error:
+            problem = error
+        for geom in spec.geoms if attempt == "as it is" else ():  # flat and broken meshes have no convex hull
+            if geom.type == mujoco.mjtGeom.mjGEOM_MESH:
+                geom.contype = geom.conaffinity = 0
+    raise RobotError(f"{file}: cannot be simulated: {' '.join(str(problem).split())}") from None
+
+
+def _bodies_of(model: Any, pair: tuple[str, str]) -> tuple[str, str]:
+    """The bodies of two ends that are bodies or sites."""
+    names = []
+    for name in pair:
+        site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, name) if name else -1
+        body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name) if name else 0
+        names.append(model.body(body if body >= 0 else int(model.site_bodyid[site])).name)
+    return names[0], names[1]

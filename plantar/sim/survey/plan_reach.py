@@ -1,0 +1,278 @@
+"""What a walk's plan asks of the legs, without physics: knees, joint ranges and torques over all its instants."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.contact.foot_contacts import middle_of_sole
+from plantar.gait.feet.swing import SwingTrajectory
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.phases import PhaseKind, Timing
+from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
+from plantar.mechanics.lip import GRAVITY, pendulum_frequency
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.sides import SIDES, Side
+from plantar.sim.model.body import pitching_joints, stood
+from plantar.sim.model.leg_model import LegModel
+from plantar.sim.robots.robot import Robot
+from plantar.sim.survey.joint_inertia import floating_inertia
+
+__all__ = ["PlanReach", "Walked", "plan_reach", "settled", "standing_feet"]
+
+_INSTANTS = 24  # that are looked at in a single support; a swing foot moves by a twelfth of a step meanwhile at most
+_FIRST = 40  # Newton steps for the standing posture
+_EACH = 3  # Newton steps for each later instant
+_HOPELESS = 0.05  # m or rad by which the legs miss what is asked of them: the rest of the plan is not looked at
+_STEP = 0.15  # rad: largest change in a Newton step, see plantar.sim.model.inverse_kinematics
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Walked:
+    """A walk that is looked at.
+
+    Attributes:
+        feet: Where the feet stand at first.
+        steps: The footsteps.
+        timing: Its durations.
+        swing_height: Clearance of the swing foot in m.
+        com_height: Height of the CoM above the soles in m.
+        lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
+        approach_height: Height in m above the ground from which the swing foot comes down slowly.
+        approach_speed: Speed of that in m/s.
+    """
+
+    feet: Mapping[Side, Footstep]
+    steps: Sequence[Footstep]
+    timing: Timing
+    swing_height: float
+    com_height: float
+    lean: float = 0.0
+    approach_height: float = 0.0
+    approach_speed: float = 0.06
+
+
+@dataclass(frozen=True)
+class PlanReach:
+    """What a plan asks of the legs.
+
+    Attributes:
+        missed: Largest error in m or rad by which the legs miss what is asked of them.
+        knee: Least bend of a knee in rad; negative where one would bend backwards.
+        straightest: Time in s of that.
+        spare: Least distance of each joint of a leg to its limits in rad, both legs taken together.
+        torque: Largest torque in N m that each joint of a leg needs, both legs taken together: to carry, and to move
+            itself against its own damping and the inertia of what it swings.
+        carrying: The same without what moving takes.
+        roll: Largest angle in rad by which a sole that carries alone is off level: of legs without ankle roll.
+    """
+
+    missed: float
+    knee: float
+    straightest: float
+    spare: Array
+    torque: Array
+    carrying: Array
+    roll: float
+
+
+def standing_feet(width: float) -> dict[Side, Footstep]:
+    """Feet side by side, so far apart in m."""
+    return {s: Footstep(s, 0.0, (0.5 if s == "left" else -0.5) * width, 0.0) for s in SIDES}
+
+
+def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_height: float) -> float:
+    """Stand the legs on their feet, from the robot's posture.
+
+    Args:
+        robot: The robot.
+        legs: Its kinematics, which hold the posture that was found.
+        feet: Where the soles stand.
+        com_height: CoM height in m.
+
+    Returns:
+        The error in m or rad that is left.
+    """
+    middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.ankle_reach)) for s in SIDES], axis=0)
+    com = np.array([middle[0], middle[1], feet["left"].z + com_height])
+    posture = np.array([*robot.posture["left"], *robot.posture["right"]])
+    legs.set_configuration(com, np.array([1.0, 0.0, 0.0, 0.0]), posture)
+    _, missed = legs.solve(
+        com,
+        np.eye(3),
+        {s: feet[s].position for s in SIDES},
+        {s: feet[s].rotation_sole_to_world for s in SIDES},
+        iterations=_FIRST,
+        largest_step=_STEP,
+    )
+    return missed
+
+
+def plan_reach(
+    robot: Robot, legs: LegModel, walked: Walked, bears: Callable[[float, float, Array], bool] = lambda *_: True
+) -> PlanReach:
+    """Go through a walk as it is planned, on level ground, and see what the legs have to do.
+
+    Args:
+        robot: The robot.
+        legs: Its kinematics.
+        walked: The walk.
+        bears: Asked after each instant, of `missed`, `knee` and `spare` so far, which only get worse; the rest of a
+            walk for which it says no is not looked at.
+
+    Returns:
+        What it asks of them. The torques of a walk that was not looked at to its end are infinite.
+    """
+    middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
+    begin = 0.5
+    plan = WalkPlan(
+        walked.feet, walked.steps, walked.timing, middles, pendulum_frequency(walked.com_height), begin=begin
+    )
+    missed = settled(robot, legs, walked.feet, walked.com_height)
+    probe = _Probe(robot, legs)
+    knee, when = probe.knees(legs), 0.0
+    low = probe.spare(legs)
+    every = walked.timing.single_support / _INSTANTS
+    angles, static = [], []
+    edged, never = 0.0, np.full(len(robot.legs["left"].joints), math.inf)
+    feet = dict(walked.feet)
+    omega2 = GRAVITY / walked.com_height
+    height = np.mean([feet[s].z for s in SIDES])
+    centre = 0.5 * (feet["left"].y + feet["right"].y)
+    for time in np.arange(begin, plan.schedule.walking_end + every, every).tolist():
+        phase, reference = plan.schedule.at(time), plan.at(time)
+        for foot in walked.steps[: phase.step]:
+            feet[foot.side] = foot
+        positions = {s: feet[s].position for s in SIDES}
+        rotations = {s: feet[s].rotation_sole_to_world for s in SIDES}
+        share = dict.fromkeys(SIDES, 0.5)
+        if phase.kind == PhaseKind.SINGLE_SUPPORT and phase.swing is not None:
+            target = walked.steps[phase.step]
+            start = feet[phase.swing]
+            path = SwingTrajectory(
+                start.position,
+                target.position,
+                start.yaw,
+                target.yaw,
+                walked.swing_height,
+                phase.end - phase.start,
+                approach_height=walked.approach_height,
+                approach_speed=walked.approach_speed,
+            )
+            at, yaw = path.at(time - phase.start)
+            if walked.approach_height > 0.0:
+                at[2] = max(at[2], target.z)  # the path goes on below level ground, which stops the foot
+            positions[phase.swing] = at
+            rotations[phase.swing] = rotation_from_angles(yaw)
+            share = {s: 0.0 if s == phase.swing else 1.0 for s in SIDES}
+        else:
+            share = _shares(reference.vrp, feet, middles)
+        com = np.array([*reference.com, height + walked.com_height])
+        roll = walked.lean * (float(reference.com[1]) - centre)
+        torso = rotation_from_angles(0.0, roll=-roll)
+        yielding = [s for s in SIDES if share[s] == 0.0]
+        _, error = legs.solve(com, torso, positions, rotations, iterations=_EACH, yielding=yielding, largest_step=_STEP)
+        missed = max(missed, error)
+        if not missed < _HOPELESS:
+            return PlanReach(missed, knee, time - begin, -never, never, never, math.pi)
+        bend = probe.knees(legs)
+        if bend < knee:
+            knee, when = bend, time - begin
+        low = np.minimum(low, probe.spare(legs))
+        if not bears(missed, knee, low):
+            return PlanReach(missed, knee, when, low, never, never, math.pi)
+        push = legs.mass * np.array([*(omega2 * (reference.com - reference.vrp)), GRAVITY])
+        points = {s: np.array([*vrp_of_step(feet[s], middles[s]), feet[s].z]) for s in SIDES}
+        for s in SIDES:
+            if share[s] == 1.0:
+                points[s] = np.array([*reference.vrp, feet[s].z])
+        static.append(legs.static_torques({s: share[s] * push for s in SIDES}, points))
+        angles.append(probe.angles(legs))
+        edged = max([edged, *(probe.tilt(s) for s in SIDES if share[s] == 1.0)])
+    moved = np.gradient(np.array(angles), every, axis=0)
+    moving = probe.damping * moved + probe.swinging * np.gradient(moved, every, axis=0)
+    carrying = np.abs(np.array(static))
+    torque = np.abs(np.array(static) + moving)
+    joints = len(robot.legs["left"].joints)
+    return PlanReach(
+        missed,
+        knee,
+        when,
+        low,
+        torque.max(axis=0).reshape(2, joints).max(axis=0),
+        carrying.max(axis=0).reshape(2, joints).max(axis=0),
+        edged,
+    )
+
+
+def _shares(vrp: Array, feet: Mapping[Side, Footstep], middles: Mapping[Side, Array]) -> dict[Side, float]:
+    """Share of the load of each foot for a VRP between them."""
+    left, right = (vrp_of_step(feet[s], middles[s]) for s in SIDES)
+    along = left - right
+    part = float(np.clip((vrp - right) @ along / max(float(along @ along), 1e-12), 0.0, 1.0))
+    return {"left": part, "right": 1.0 - part}
+
+
+class _Probe:
+    """Reads knees and joint ranges off a solution.
+
+    Args:
+        robot: The robot.
+        legs: Its kinematics.
+    """
+
+    def __init__(self, robot: Robot, legs: LegModel) -> None:
+        model = legs.model
+        self._data = stood(robot, model)
+        ids = [model.joint(n).id for s in SIDES for n in robot.legs[s].joints]
+        self._places = model.jnt_qposadr[ids]
+        dofs = model.jnt_dofadr[ids]
+        self.damping = model.dof_damping[dofs]
+        self.swinging = floating_inertia(model, legs.configuration)[dofs]
+        free = model.jnt_limited[ids] == 0
+        self._low = np.where(free, -math.inf, model.jnt_range[ids, 0])
+        self._high = np.where(free, math.inf, model.jnt_range[ids, 1])
+        self._model = model
+        self._torso = model.body(robot.torso_body).id
+        self._soles = {s: model.site(robot.legs[s].sole_site).id for s in SIDES}
+        self._pitch: list[tuple[int, int, int]] = []
+        for side in SIDES:
+            pitch = pitching_joints(robot, side, model, self._data)
+            if len(pitch) >= 3:
+                self._pitch.append((pitch[0], pitch[-2], pitch[-1]))
+
+    def knees(self, legs: LegModel) -> float:
+        """Least bend of a knee in rad: the angle from thigh to shank about the torso's y axis."""
+        self._data.qpos[:] = legs.configuration
+        mujoco.mj_kinematics(self._model, self._data)
+        across = self._data.xmat[self._torso].reshape(3, 3)[:, 1]
+        bends = []
+        for hip, knee, ankle in self._pitch:
+            thigh = self._data.xanchor[knee] - self._data.xanchor[hip]
+            shank = self._data.xanchor[ankle] - self._data.xanchor[knee]
+            axis = self._data.xaxis[knee] * math.copysign(1.0, float(self._data.xaxis[knee] @ across))
+            thigh, shank = thigh - (thigh @ axis) * axis, shank - (shank @ axis) * axis
+            (a, b, c), (d, e, f) = thigh.tolist(), shank.tolist()
+            around = np.array([b * f - c * e, c * d - a * f, a * e - b * d])  # np.cross takes ten times as long
+            bends.append(math.atan2(float(around @ axis), float(thigh @ shank)))
+        return min(bends, default=math.pi)
+
+    def tilt(self, side: Side) -> float:
+        """Angle in rad of a sole against level ground, in the posture whose knees were read last."""
+        return math.acos(min(1.0, float(self._data.site_xmat[self._soles[side], 8])))
+
+    def angles(self, legs: LegModel) -> Array:
+        """Angles (k,) in rad of the joints of both legs in the posture that the legs hold."""
+        return np.asarray(legs.configuration[self._places])
+
+    def spare(self, legs: LegModel) -> Array:
+        """Distance of each joint of a leg to its limits in rad, the lesser one of both legs."""
+        angles = legs.configuration[self._places]
+        return np.asarray(np.minimum(angles - self._low, self._high - angles).reshape(2, -1).min(axis=0))

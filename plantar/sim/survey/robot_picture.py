@@ -1,0 +1,78 @@
+"""A picture of a robot that stands, from the front and the side, with the frames of its soles."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from plantar.sides import SIDES
+from plantar.sim.figures.render import Camera, Line, View, save_picture
+from plantar.sim.model.world import World, build_leg_model, build_world
+from plantar.sim.robots.robot import Robot
+from plantar.sim.survey.plan_reach import settled, standing_feet
+from plantar.sim.terrain import Ground
+
+__all__ = ["draw_robot"]
+
+_VIEWS = ((180.0, -8.0), (90.0, -8.0), (145.0, -30.0))  # azimuth and elevation in degrees: front, side, from above
+_WIDTH, _HEIGHT = 640, 900
+_BONE = (0.25, 0.27, 0.3, 1.0)
+_COLOURS = ((0.85, 0.2, 0.2, 1.0), (0.2, 0.65, 0.25, 1.0), (0.2, 0.35, 0.85, 1.0))
+
+
+def draw_robot(robot: Robot, path: Path) -> Path:
+    """Draw the robot in its posture; red, green and blue lines are x, y and z of each sole's frame.
+
+    Args:
+        robot: The robot.
+        path: PNG file to write.
+
+    Returns:
+        The path.
+
+    Raises:
+        InputError: If nothing can be rendered here; the message names the cause.
+    """
+    legs = build_leg_model(robot)
+    settled(robot, legs, standing_feet(robot.stance_width), robot.com_height)
+    world = build_world(robot, Ground((), 0.0, 0.8))
+    data = world.data
+    data.qpos[:] = legs.configuration
+    mujoco.mj_forward(world.model, data)
+    tall = float(data.subtree_com[world.torso, 2]) * 2.0
+    length = 1.3 * float(robot.layouts["left"].outline[:, 0].max())  # ahead of the toes
+    lines = _bones(robot, world)
+    for side in SIDES:
+        lines += _axes(data, world.sole_sites[side], length)
+    pictures = []
+    for azimuth, elevation in _VIEWS:
+        above = float(data.xpos[world.torso, 2])
+        view = View(1.35 * tall, azimuth, elevation, above - 0.45 * tall)
+        if elevation < -20.0:
+            view = View(0.75 * tall, azimuth, elevation, above - 0.1 * tall)
+        camera = Camera(world.model, world.torso, _WIDTH, _HEIGHT, view)
+        try:
+            pictures.append(camera.picture(data, lines))
+        finally:
+            camera.close()
+    return save_picture(np.concatenate(pictures, axis=1), path)
+
+
+def _bones(robot: Robot, world: World) -> list[Line]:
+    """Lines from joint to joint of each leg, and between the hips: all that is seen of a model without shapes."""
+    model, data = world.model, world.data
+    chains = {s: [data.xanchor[model.joint(n).id].copy() for n in robot.legs[s].joints] for s in SIDES}
+    ends = [(chains["left"][0], chains["right"][0])]
+    ends += [pair for chain in chains.values() for pair in pairwise(chain)]
+    sizes = [float(np.linalg.norm(b - a)) for a, b in ends]
+    radius = 0.03 * max(sizes)
+    return [Line(a, b, radius, _BONE) for (a, b), size in zip(ends, sizes, strict=True) if size > 1e-3]
+
+
+def _axes(data: mujoco.MjData, site: int, length: float) -> list[Line]:
+    """The axes of a frame, so long in m."""
+    start, rotation = data.site_xpos[site].copy(), data.site_xmat[site].reshape(3, 3)
+    return [Line(start, start + length * rotation[:, i], 0.03 * length, colour) for i, colour in enumerate(_COLOURS)]

@@ -1,0 +1,317 @@
+"""The robot file that is written: every value with a word on how it was found."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gravity import GRAVITY
+from plantar.mechanics.rotation import vector_from_rotation
+from plantar.sides import SIDES, Side
+from plantar.sim.robots.robot import Robot
+from plantar.sim.run.controller_settings import CONTROL_PERIOD
+from plantar.sim.survey.fitted_gait import KNEE_LEAST, QUICK_HELD, STEP_SHARE, FittedGait
+from plantar.sim.survey.rocking_gait import LEAN_MOST
+from plantar.sim.survey.servo_gains import SAMPLED, STIFFNESS
+from plantar.sim.survey.survey import Survey
+
+__all__ = ["robot_text", "roll_pitch_yaw"]
+
+_WIDTH = 110  # characters of a comment
+
+
+def roll_pitch_yaw(rotation: NDArray[np.float64]) -> list[float]:
+    """Roll, pitch and yaw in degrees of a rotation (3, 3), about fixed axes in this order.
+
+    Example:
+        >>> roll_pitch_yaw(np.eye(3))
+        [0.0, 0.0, 0.0]
+    """
+    pitch = math.atan2(-float(rotation[2, 0]), float(np.hypot(rotation[0, 0], rotation[1, 0])))
+    roll = math.atan2(float(rotation[2, 1]), float(rotation[2, 2]))
+    yaw = math.atan2(float(rotation[1, 0]), float(rotation[0, 0]))
+    return [round(math.degrees(v), 4) + 0.0 for v in (roll, pitch, yaw)]
+
+
+def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], weighed: bool) -> str:
+    """Text of a robot file.
+
+    Args:
+        survey: What was found in the model.
+        fitted: The robot with the numbers of its walk.
+        shoe_notes: What is to be said of the shoes.
+        weighed: Whether they were built, and their mass is known.
+
+    Returns:
+        TOML that `plantar.sim.robots.load_robot` reads.
+    """
+    robot = fitted.robot
+    lines = [
+        *_told(
+            f"Written by plantar robot from {survey.source.file.name}. SI units, angles in degrees. Change what you "
+        ),
+        *_told("know better: plantar robot check ROBOT.toml measures what would go wrong."),
+        f"name = {json.dumps(robot.name)}",
+        f"description = {json.dumps(robot.description)}",
+        "",
+        "[model]",
+        *_told("A copy of the model: one floating base, the legs' joints, all others held."),
+        *(line for note in (*survey.notes, *fitted.notes) for line in _told(f"Note: {note}.")),
+        'kind = "mjcf"',
+        'file = "model.xml"',
+        "",
+        *_shoe(survey, robot, shoe_notes, weighed),
+    ]
+    for side in SIDES:
+        lines += ["", *_leg(robot, side)]
+    for part in (
+        _torso(survey, robot),
+        _posture(robot),
+        _gait(fitted),
+        _servo(survey, fitted),
+        _balance(fitted),
+        _landing(),
+        *([_rocking()] if fitted.robot.rocks else []),
+    ):
+        lines += ["", *part]
+    return "\n".join(lines) + "\n"
+
+
+def _told(text: str) -> list[str]:
+    """Comment lines of a text."""
+    lines = [""]
+    for word in text.split():
+        if len(lines[-1]) + len(word) > _WIDTH:
+            lines.append("")
+        lines[-1] += f" {word}"
+    return [f"#{line}" for line in lines]
+
+
+def _numbers(values: Iterable[float], digits: int) -> str:
+    """A list of numbers of so many significant digits."""
+    return "[" + ", ".join(f"{float(v) + 0.0:.{digits}g}" for v in values) + "]"
+
+
+def _places(values: Iterable[float], decimals: int) -> str:
+    """A list of numbers of so many decimals."""
+    return "[" + ", ".join(f"{round(float(v), decimals) + 0.0:.10g}" for v in values) + "]"
+
+
+def _shoe(survey: Survey, robot: Robot, notes: Sequence[str], weighed: bool) -> list[str]:
+    """Where the soles are."""
+    left, right = (robot.sole_origins[s] for s in SIDES)
+    turns = {s: roll_pitch_yaw(robot.sole_rotations[s]) for s in SIDES}
+    lines = ["[shoe]", *_told("; ".join((*survey.soles["left"].notes, *notes)) + ".")]
+    lines += [
+        'layout = "layout_{side}.json"',
+        *_told("Sole frame in the left foot's body: below the ankle, at the shoe's outer face."),
+        f"origin = {_places(left, 6)}",
+    ]
+    angle = math.degrees(float(np.linalg.norm(vector_from_rotation(robot.sole_rotations["left"]))))
+    if angle > 1e-3:
+        lines += _told(f"The body's frame is turned by {angle:.1f} degrees against the sole: its roll, pitch and yaw.")
+        lines.append(f"rotation = {_places(turns['left'], 4)}")
+    unlike = not np.allclose(left * (1.0, -1.0, 1.0), right, atol=1e-4)
+    twisted = not np.allclose(np.array(turns["left"]) * (-1.0, 1.0, -1.0), turns["right"], atol=1e-2)
+    if unlike or twisted:
+        lines += _told("The right foot's body does not mirror the left one's.")
+    if unlike:
+        lines.append(f"origin_right = {_places(right, 6)}")
+    if twisted:
+        lines.append(f"rotation_right = {_places(turns['right'], 4)}")
+    how = "of the shoe that was built" if weighed else "15.5 kg/m^2 of contact face, as built shoes have"
+    lines.append(f"thickness = {robot.shoe_thickness:g}  # m, of the planned shoe")
+    lines.append(f"mass = {robot.shoe_mass:.3g}  # kg, {how}")
+    lines += _told(
+        "Damping ratio of the sole on the ground. A contact is as stiff as suits the foot, but carries the robot: with "
+        "1 light feet rattle between the edges of what they stand on, at some 60 Hz."
+    )
+    lines.append(f"contact_damping = {robot.contact_damping:g}")
+    return lines
+
+
+def _leg(robot: Robot, side: Side) -> list[str]:
+    names = ", ".join(json.dumps(n) for n in robot.legs[side].joints)
+    return [
+        f"[legs.{side}]",
+        *_told("The hinges between the body and what stands lowest on this side, from hip to ankle."),
+        f"joints = [{names}]",
+        f"foot_body = {json.dumps(robot.legs[side].foot_body)}",
+    ]
+
+
+def _torso(survey: Survey, robot: Robot) -> list[str]:
+    pelvis = survey.source.model.body(survey.legs.pelvis).name
+    upright = f"Both legs hang on '{pelvis}'"
+    if robot.torso_body != pelvis:
+        upright += f"; '{robot.torso_body}', rigid with it, has x forward and z up"
+    imu = "the model names no IMU on the body: one at the torso's origin is assumed"
+    if survey.imu is not None:
+        imu = f"the IMU is where the model has its {survey.imu[0]} '{survey.imu[1]}'"
+    return [
+        "[torso]",
+        *_told(f"{upright}; {imu}."),
+        f"body = {json.dumps(robot.torso_body)}",
+        f"imu_site = {json.dumps(robot.imu_site)}",
+    ]
+
+
+def _posture(robot: Robot) -> list[str]:
+    return [
+        "[posture]",
+        *_told("Standing with com_height and stance_width, by inverse kinematics."),
+        *(f"{s} = {_places([math.degrees(v) for v in robot.posture[s]], 2)}" for s in SIDES),
+    ]
+
+
+def _gait(fitted: FittedGait) -> list[str]:
+    robot, body, reach = fitted.robot, fitted.body, fitted.reach
+    leg = "hip over knee to ankle" if not robot.leg_length else "shorter than the leg, see the note above"
+    pace = robot.single_support / math.sqrt(robot.com_height / GRAVITY)
+    return [
+        "[gait]",
+        *_told(
+            f"The greatest height at which motors hold and no knee bends by less than {math.degrees(KNEE_LEAST):.0f} "
+            f"degrees over steps of {STEP_SHARE * body.leg:.3f} m, a third of the leg; the straightest has "
+            f"{math.degrees(reach.knee):.0f}."
+        ),
+        f"com_height = {robot.com_height:g}  # m",
+        f"stance_width = {robot.stance_width:g}  # m, of the ankles: as in the model, or wider to keep the soles apart",
+        f"leg_length = {body.leg:g}  # m, {leg}",
+        *_told("How much lower all joints keep their range and three quarters of their torque."),
+        f"largest_crouch = {robot.largest_crouch:g}  # m",
+        f"largest_crouch_partial = {robot.largest_crouch_partial:g}  # m",
+        f"trunk_lean = {robot.trunk_lean:g}  # rad/m, 0.48 in leg lengths as h1",
+        *_loaded(robot),
+        *_told(
+            f"This pace is {pace:.2f} sqrt(com_height / g)"
+            + (
+                "."
+                if robot.rocks
+                else "; that of h1 is 3.15, more spares the motors, or friction where heavy legs swing."
+            )
+        ),
+        f"single_support = {robot.single_support:g}  # s",
+        f"double_support = {robot.double_support:g}  # s, {robot.double_support / robot.single_support:.2f} of it",
+        *_approaching(robot),
+        *_told(
+            "Beats of a pace, so that quick steps take "
+            + ("its own time." if robot.rocks else f"{100.0 * QUICK_HELD:.0f} % of the motors' torque at most.")
+        ),
+        f"pace = {robot.pace:g}",
+    ]
+
+
+def _approaching(robot: Robot) -> list[str]:
+    """The time of a swing that comes down slowly, where the motors need more than the usual one."""
+    if not robot.approach_support:
+        return []
+    told = _told(
+        "A swing that comes down slowly onto unknown ground has to be there in three fifths of its time; with so much "
+        f"of it that takes {100.0 * QUICK_HELD:.0f} % of the motors' torque at most."
+    )
+    return [*told, f"approach_support = {robot.approach_support:g}  # s"]
+
+
+def _loaded(robot: Robot) -> list[str]:
+    """Where soles are loaded, and whether the robot rocks, where that is not as usual."""
+    lines = []
+    if robot.ankle_reach < 1.0:
+        lines += _told("The ankles cannot bear the weight on the toes; no farther from them is the sole loaded:")
+        lines.append(f"ankle_reach = {robot.ankle_reach:g}  # m")
+    if robot.rocks:
+        lines += _told(
+            f"Without ankle roll it rocks from foot to foot, whatever a scene asks for, so quickly that its legs lean "
+            f"by {math.degrees(LEAN_MOST):g} degrees."
+        )
+        lines.append("rocks = true")
+    return lines
+
+
+def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
+    robot, inertia = fitted.robot, fitted.inertia
+    wanted = STIFFNESS * fitted.body.weight * robot.com_height
+    hertz = np.sqrt(np.array(robot.stiffness) / inertia.swing) / (2.0 * math.pi)
+    lines = [
+        "[servo]",
+        *_told(
+            f"A value a joint. Stiffness: {STIFFNESS:g} m g h = {wanted:.3g} N m/rad, less for light joints, which "
+            f"shall swing by {SAMPLED:g} rad at most in a control period of {1e3 * CONTROL_PERIOD:g} ms. Inertia about "
+            f"each joint while it swings: {_numbers(inertia.swing, 2)} kg m^2, while it carries: "
+            f"{_numbers(inertia.stance, 2)}; bandwidth while it swings: {_numbers(hertz, 2)} Hz. Damping: critical for "
+            "what swings or more, with the model's own."
+        ),
+    ]
+    if fitted.rotors.any():
+        lines += _told(
+            f"The model states no rotor inertia (armature). Assumed in model.xml: {_numbers(fitted.rotors, 2)} kg m^2, "
+            f"without which the least stiffness to stand on would swing a joint by more than {SAMPLED:g} rad in that "
+            "time, and it would chatter on the ground. Put there what the motors have, times the gear ratio squared."
+        )
+    elif not inertia.armature.any():
+        lines += _told(
+            "The model states no rotor inertia (armature): what swings is lighter than the robot's joints are."
+        )
+    lines += [
+        f"stiffness = {_numbers(robot.stiffness, 4)}  # N m/rad",
+        f"damping = {_numbers(robot.damping, 4)}  # N m s/rad",
+    ]
+    if robot.effort_limits:
+        missing = [n for n, e in zip(survey.joint_names("left"), survey.efforts, strict=True) if e is None]
+        how = f" but for {', '.join(missing)}: 1e5 stands for none" if missing else ""
+        lines += _told(f"Of motors or joints, as the model states them{how}.")
+        lines.append(f"effort_limits = {_numbers(robot.effort_limits, 4)}  # N m")
+    else:
+        needed = _numbers(fitted.reach.torque, 2)
+        lines += _told(f"The model states no torque limits, so there are none; level steps need {needed} N m.")
+    if robot.velocity_limits:
+        lines.append(f"velocity_limits = {_numbers(robot.velocity_limits, 4)}  # rad/s, as the model states them")
+    else:
+        lines += _told("The model states no usable speed limits, so there are none.")
+    return lines
+
+
+def _balance(fitted: FittedGait) -> list[str]:
+    return [
+        "[balance]",
+        *_told(f"The law and gains of h1, in the beat sqrt(leg / g) = {fitted.body.beat:.3f} s of these legs."),
+        *(f"{key} = {json.dumps(value)}" for key, value in fitted.robot.balance.items()),
+    ]
+
+
+def _rocking() -> list[str]:
+    """How the attitude of a robot that rocks is estimated; see `plantar.gait.estimate.estimator`."""
+    return [
+        "[estimator]",
+        *_told("Feet that come down on an edge turn, which only the gyro shows: they correct the heading slowly."),
+        "yaw = 0.1  # 1/s",
+        "",
+        "[identification]",
+        *_told("Soles that carry turn as the robot rocks: no bias and no offset is to be told from that."),
+        "gyro = false",
+        "encoders = false",
+        "com = false",
+    ]
+
+
+def _landing() -> list[str]:
+    """How a foot lands; see `plantar.gait.feet.foot_motion`."""
+    return [
+        "[landing]",
+        *_told(
+            "Less than the 0.237 that h1 presses a landed foot with: what the press lowers the foot by stays in legs "
+            "whose servos give, and the robot ends leaning by it (G1 by 0.67 degrees, with this by 0.4)."
+        ),
+        'press_force = "0.15 weight"',
+        *_told(
+            "A swing is ahead of its command where its servos brake it, so each foothold is found a little higher than "
+            "the one before. Expected where the last one was, and not at their average, the ground is not hit hard."
+        ),
+        "ground_share = 1.0",
+        *_told("What a foot was pressed too far, or not far enough, is given back once the robot stands."),
+        'relax_time = "2 beat"',
+    ]

@@ -1,0 +1,86 @@
+"""The gait of legs without ankle roll: quick steps that rock from one foot to the other.
+
+Such a sole is level where its leg is vertical in the frontal plane, so a robot cannot bring its CoM over a foot without
+standing on the edge of it. It need not: a pendulum of height h that is carried at p to the side, p half the feet's
+distance, swings from the middle towards the foot and back in a time T, and comes as near as
+
+    y = p (1 - 1 / cosh(w T / 2)),    w = sqrt(g / h)
+
+(the symmetric orbit of the linear inverted pendulum; Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001).
+The leg leans by atan(y / h) then, and so does the sole. Steps that are quick enough keep that small.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from plantar.gravity import GRAVITY
+from plantar.sides import Side
+from plantar.sim.model.body import rolling_joints, stood
+from plantar.sim.model.leg_model import LegModel
+from plantar.sim.robots.robot import Robot
+
+__all__ = ["LEAN_MOST", "ankle_reach", "has_ankle_roll", "rocking"]
+
+LEAN_MOST = math.radians(2.5)
+"""Lean of a leg in the orbit. What a sole that stands flat does not lean, the body does."""
+
+_NEAR = 0.2
+"""Share of the way to a foot that the CoM sways at most. On an edge a sole carries further outside than planned, and
+throws the CoM back earlier: of three drawn bipeds whose soles' edges are half as far out as their middles none walked
+at a third of the way, and all at a fifth."""
+
+_SINGLE = 0.62  # of the time of a step; with more, feet that land on an edge have no time to come down flat
+_SHORTEST = 0.2  # s: the least that the timing of a walk allows
+
+
+def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
+    """Whether a leg has two joints that roll, in hip and ankle, so that it leans while its sole stays level.
+
+    Args:
+        robot: The robot.
+        legs: Its kinematics.
+        side: Which leg.
+
+    Returns:
+        Whether it has.
+    """
+    return len(rolling_joints(robot, side, legs.model, stood(robot, legs.model))) >= 2
+
+
+def rocking(robot: Robot, com_height: float) -> Robot:
+    """The robot with the time of a step in which its legs lean little.
+
+    Args:
+        robot: The robot.
+        com_height: Height of its CoM in m.
+
+    Returns:
+        The robot.
+    """
+    beat = math.sqrt(com_height / GRAVITY)
+    near = min(_NEAR, com_height * math.tan(LEAN_MOST) / (0.5 * robot.stance_width))
+    step = 2.0 * beat * math.acosh(1.0 / (1.0 - near))
+    single = max(_SHORTEST, round(_SINGLE * step, 3))
+    return replace(
+        robot, rocks=True, single_support=single, double_support=round((1.0 - _SINGLE) / _SINGLE * single, 3)
+    )
+
+
+def ankle_reach(robot: Robot, weight: float, ankle: int) -> float | None:
+    """How far from itself, along the sole, an ankle bears the robot that is too weak to bear it on the toes.
+
+    Args:
+        robot: The robot.
+        weight: Its weight in N.
+        ankle: Which joint of a leg pitches the foot.
+
+    Returns:
+        The distance in m; None where it bears the robot on the toes.
+    """
+    if not robot.effort_limits:
+        return None
+    toe = float(robot.layouts["left"].outline[:, 0].max())
+    reach = robot.effort_limits[ankle] / weight
+    return None if reach >= toe else math.floor(1e4 * reach) / 1e4

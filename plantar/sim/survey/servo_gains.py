@@ -1,0 +1,76 @@
+"""Gains of a leg's servos from what they move, what the robot weighs, and how often they are commanded."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gravity import GRAVITY
+from plantar.sim.survey.joint_inertia import JointInertia
+
+__all__ = ["LEAST_STIFFNESS", "SAMPLED", "STIFFNESS", "rotor_inertia", "servo_gains"]
+
+STIFFNESS = 12.0
+"""Stiffness of a joint over m g h, which is the least at which two ankles of half of it each hold the pendulum up."""
+
+LEAST_STIFFNESS = 3.0
+"""The same at which a robot on one foot still stands with a third of it to spare."""
+
+SAMPLED = 1.5
+"""Phase in rad by which a joint swings on its servo in a control period at most; h1's ankle does so by 1.46."""
+
+_LEAD = 0.076  # damping over stiffness, in beats of the leg; h1 has 0.01875 s
+
+
+def servo_gains(
+    inertia: JointInertia, mass: float, com_height: float, beat: float, period: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Gains of the servos of a leg.
+
+    A joint is as stiff as the walk needs it, 12 m g h, as the robot h1 is; a light one only so far that the foot's own
+    swing, of frequency sqrt(k / I), moves by 1.5 rad in a control period: what is commanded there comes in steps, and a
+    stiffer servo would answer each with a blow. It is damped critically for what it swings, or as h1 is where that is
+    more, less what the joint has of its own.
+
+    Args:
+        inertia: Inertia about each joint of a leg.
+        mass: Mass of the robot in kg.
+        com_height: Height of its CoM in m.
+        beat: Time scale sqrt(leg / g) of its legs in s.
+        period: Control period in s.
+
+    Returns:
+        Stiffness in N m/rad and damping in N m s/rad of each joint of a leg, of two digits.
+    """
+    wanted = STIFFNESS * mass * GRAVITY * com_height
+    least = LEAST_STIFFNESS * mass * GRAVITY * com_height
+    stiffness = np.clip(inertia.swing * (SAMPLED / period) ** 2, least, wanted)
+    damping = np.maximum(2.0 * np.sqrt(stiffness * inertia.swing), _LEAD * beat * stiffness)
+    damping = np.maximum(damping - inertia.damping, 0.02 * damping)
+    return _two_digits(stiffness), _two_digits(damping)
+
+
+def rotor_inertia(inertia: JointInertia, mass: float, com_height: float, period: float) -> NDArray[np.float64]:
+    """Rotor inertia to assume where a model states none and a joint would be too light for its servo.
+
+    The least stiffness that holds the robot up swings a bare foot by more than `SAMPLED` in a control period: it
+    chatters on the ground. Real joints carry their motor's rotor, geared up. What is missing up to that phase is
+    assumed: for Unitree's G1, whose URDF states none, 0.0035 and 0.0066 kg m^2 about the ankle, which has 0.007.
+
+    Args:
+        inertia: Inertia about each joint of a leg.
+        mass: Mass of the robot in kg.
+        com_height: Height of its CoM in m.
+        period: Control period in s.
+
+    Returns:
+        Inertia in kg m^2 to add about each joint of a leg, of two digits; 0 where the model states a rotor's, or where
+        none is missing.
+    """
+    least = LEAST_STIFFNESS * mass * GRAVITY * com_height
+    missing = least * (period / SAMPLED) ** 2 - inertia.swing
+    return _two_digits(np.where(inertia.armature > 0.0, 0.0, np.maximum(missing, 0.0)))
+
+
+def _two_digits(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.array([float(f"{v:.2g}") for v in values])

@@ -1,0 +1,224 @@
+"""The sole of a foot: the plane that the foot would come to rest on, and its frame, whatever the body's frame is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull, QhullError
+
+from plantar.errors import RobotError
+from plantar.sim.survey.body_surface import convex_surface, geom_triangles, resting_plane, shapes_of
+from plantar.sim.survey.leg_chains import Leg
+
+__all__ = ["Rested", "Sole", "find_sole", "rested"]
+
+_RESTS = 0.25  # share of the silhouette that a plane must have to be what the foot rests on
+_LEVEL = math.radians(0.2)  # a sole that is tilted by less is taken as level: rounding of the model's numbers
+_BAND = 0.005  # m: the lowest part of a foot, which is its sole
+_COVERED = 0.4  # of the silhouette by the lowest band; less are balls, bars or a rounded sole
+_MARKER = 0.02  # of the largest shape's size: smaller ones mark a place
+_TOED_OUT = math.radians(8.0)  # between the foot's long side and the robot's forward direction
+_SLENDER = 1.3  # length over width of a foot whose long side is told
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Sole:
+    """The bare sole of a foot. Its frame: x forward, y left, z up, origin on the sole plane below the ankle.
+
+    Attributes:
+        origin: Its origin (3,) in the frame of the foot's body in m.
+        rotation: Rotation (3, 3) from the sole frame to the frame of the foot's body.
+        triangles: The foot's surface (n, 3, 3) in the sole frame in m.
+        low: Least x and y (2,) of the sole in m.
+        high: Greatest x and y (2,) of the sole in m.
+        turn: Angle in rad between the sole's normal and the nearest axis of the body's frame.
+        area: Area of the outline's convex hull in m^2.
+        notes: How it was found.
+    """
+
+    origin: Array
+    rotation: Array
+    triangles: Array
+    low: Array
+    high: Array
+    turn: float
+    area: float
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Rested:
+    """What of a foot's shapes it stands on.
+
+    Attributes:
+        kind: "drawn" or "colliding".
+        surface: Triangles (n, 3, 3) of those shapes in m, in the axes that were asked for.
+        normal: Outward normal (3,) of the plane that they would rest on.
+        share: Area of that plane over the silhouette from above.
+    """
+
+    kind: str
+    surface: Array
+    normal: Array
+    share: float
+
+
+def rested(model: Any, data: Any, parts: Collection[int], rotation: Array) -> Rested | None:
+    """Find the plane that a foot would come to rest on.
+
+    What is drawn counts, or what collides where that is flat below and what is drawn is not.
+
+    Args:
+        model: The model.
+        data: Its state.
+        parts: Ids of the foot's bodies.
+        rotation: Rotation (3, 3) from the model's world to axes with z up.
+
+    Returns:
+        The plane; None for a foot without shapes.
+    """
+    found = []
+    for kind in ("drawn", "colliding"):
+        shapes: list[int] = []
+        for body in parts:  # one that has no shapes of the kind has those of the other
+            drawn, colliding = shapes_of(model, (body,))
+            shapes += (drawn or colliding) if kind == "drawn" else (colliding or drawn)
+        kept = _without_markers(model, shapes)
+        if kept:
+            surface = _surface(model, data, kept, rotation)
+            if len(surface):
+                found.append(Rested(kind, surface, *resting_plane(surface.reshape(-1, 3))))
+    if not found:
+        return None
+    return found[0] if found[0].share >= _RESTS else max(found, key=lambda r: r.share)
+
+
+def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> Sole:
+    """Find the sole of a foot.
+
+    Args:
+        model: The model.
+        data: Its state in the posture of the file.
+        leg: The leg.
+        rotation: Rotation (3, 3) from the model's world to one with x forward, y left, z up.
+        where: The file, for messages.
+
+    Returns:
+        The sole.
+
+    Raises:
+        RobotError: If the foot has no shape that it could stand on.
+    """
+    name = model.body(leg.foot).name
+    found = rested(model, data, leg.parts, rotation)
+    if found is None:
+        raise RobotError(f"{where}: foot '{name}' has no shape to stand on; give its body a mesh, box or sphere")
+    surface, normal = found.surface, found.normal
+    share = 100.0 * min(found.share, 1.0)
+    notes = [f"sole plane: that of the {found.kind} shapes of '{name}', {share:.0f} % of their silhouette"]
+    if found.share < _RESTS:
+        normal = np.array([0.0, 0.0, -1.0])
+        notes[0] = f"'{name}' has no flat sole: its lowest point in the model's posture is taken, level"
+    elif math.acos(min(1.0, -float(normal[2]))) < _LEVEL:
+        normal = np.array([0.0, 0.0, -1.0])
+    sole_to_robot, toe_out = _axes(surface, normal)
+    if toe_out:
+        notes.append(f"the foot's long side is turned by {math.degrees(toe_out):.0f} degrees: the sole frame is, too")
+    local = surface @ sole_to_robot
+    plane = float(local[..., 2].min())
+    points = local.reshape(-1, 3) - (0.0, 0.0, plane)
+    band = points[points[:, 2] <= _BAND]
+    ankle = sole_to_robot.T @ rotation @ leg.ankle
+    origin = np.array([*np.clip(ankle[:2], band[:, :2].min(axis=0), band[:, :2].max(axis=0)), plane])
+    if float(np.abs(origin[:2] - ankle[:2]).max()) > 1e-3:
+        notes.append("the ankle is not above the sole: the origin is the sole's nearest point")
+    triangles = local - origin
+    if _covered(triangles) < _COVERED:
+        triangles = convex_surface(triangles.reshape(-1, 3))
+        notes.append("the foot stands on balls, bars or a rounded sole: its convex hull is the sole")
+    to_body = data.xmat[leg.foot].reshape(3, 3).T @ rotation.T
+    body_origin = to_body @ (sole_to_robot @ origin) - data.xmat[leg.foot].reshape(3, 3).T @ data.xpos[leg.foot]
+    in_body = to_body @ sole_to_robot
+    outline = triangles.reshape(-1, 3)
+    outline = outline[outline[:, 2] <= _BAND][:, :2]
+    return Sole(
+        origin=body_origin,
+        rotation=in_body,
+        triangles=triangles,
+        low=outline.min(axis=0),
+        high=outline.max(axis=0),
+        turn=math.acos(min(1.0, float(np.abs(in_body[:, 2]).max()))),
+        area=_hull_area(outline),
+        notes=tuple(notes),
+    )
+
+
+def _without_markers(model: Any, shapes: list[int]) -> list[int]:
+    """Shapes that are seen and not tiny: invisible or minute ones mark a place and are no part of the foot."""
+    largest = max((float(model.geom_rbound[g]) for g in shapes), default=0.0)
+    return [g for g in shapes if model.geom_rgba[g, 3] > 0.0 and model.geom_rbound[g] > _MARKER * largest]
+
+
+def _surface(model: Any, data: Any, shapes: list[int], rotation: Array) -> Array:
+    """Triangles (n, 3, 3) of some shapes, turned into the robot's axes."""
+    return np.concatenate([geom_triangles(model, data, g) for g in shapes]) @ rotation.T
+
+
+def _axes(surface: Array, normal: Array) -> tuple[Array, float]:
+    """Rotation (3, 3) from the sole's axes to the robot's, and by how much the foot's long side turns it in rad."""
+    up = -normal
+    forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
+    forward /= float(np.linalg.norm(forward))
+    level = np.stack([forward, np.cross(up, forward), up], axis=1)
+    points = surface.reshape(-1, 3) @ level
+    flat = points[points[:, 2] <= points[:, 2].min() + _BAND][:, :2]
+    angle = _long_side(flat)
+    if not _TOED_OUT < abs(angle) < math.radians(50.0):
+        return level, 0.0
+    c, s = math.cos(angle), math.sin(angle)
+    return np.asarray(level @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])), angle
+
+
+def _long_side(points: Array) -> float:
+    """Angle in rad, within a quarter turn, of the long side of the smallest rectangle around points (n, 2)."""
+    try:
+        corners = points[ConvexHull(points).vertices]
+    except (QhullError, ValueError):
+        return 0.0
+    sides = np.roll(corners, -1, axis=0) - corners
+    best, angle, size = math.inf, 0.0, (1.0, 1.0)
+    for a in np.arctan2(sides[:, 1], sides[:, 0]).tolist():
+        turned = corners @ np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]])
+        length, width = np.ptp(turned, axis=0).tolist()
+        if length * width < best:
+            best, angle, size = length * width, a, (length, width)
+    if size[1] > size[0]:
+        angle += 0.5 * math.pi
+    if max(size) < _SLENDER * min(size):
+        return 0.0
+    return math.remainder(angle, math.pi)
+
+
+def _covered(triangles: Array) -> float:
+    """Share of the silhouette that faces of the lowest band cover: small for balls and bars, 1 for a plate."""
+    flat = triangles[(triangles[..., 2] <= _BAND).all(axis=1)][..., :2]
+    a, b = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    down = 0.5 * float(-cross[cross < 0.0].sum())
+    whole = _hull_area(triangles.reshape(-1, 3)[:, :2])
+    return max(down, 0.5 * float(np.abs(cross).sum()) - down) / max(whole, 1e-12)
+
+
+def _hull_area(points: Array) -> float:
+    """Area of the convex hull of points (n, 2) in m^2; 0 where they are on a line."""
+    try:
+        return float(ConvexHull(points).volume)
+    except (QhullError, ValueError):
+        return 0.0

@@ -1,0 +1,181 @@
+"""What a robot's model says of its legs, feet, torso and motors, before anything is decided."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError
+from plantar.sides import SIDES, Side
+from plantar.sim.survey.leg_chains import Legs, find_legs
+from plantar.sim.survey.model_source import ModelSource, read_model
+from plantar.sim.survey.sole_frame import Sole, find_sole
+
+__all__ = ["Survey", "survey_model"]
+
+_SPEEDS = (0.5, 100.0)  # rad/s: what a model says outside of them is a placeholder
+
+
+@dataclass(frozen=True)
+class Survey:
+    """What was found in a model.
+
+    Attributes:
+        source: The model.
+        legs: Its legs.
+        soles: The bare sole of each foot.
+        held: Angles in rad by name at which other joints are held.
+        imu: What the IMU is, "site" or "body", and its name; None where the model has none on the body.
+        efforts: Largest torque in N m of each joint of a leg, the lesser one of both; None where the model has none.
+        speeds: Largest speed in rad/s of each joint of a leg; empty where the model does not say of every one.
+        notes: What a user should know, each a sentence.
+    """
+
+    source: ModelSource
+    legs: Legs
+    soles: Mapping[Side, Sole]
+    held: Mapping[str, float]
+    imu: tuple[str, str] | None
+    efforts: tuple[float | None, ...]
+    speeds: tuple[float, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def mass(self) -> float:
+        """Mass of the robot in kg."""
+        return float(mujoco.mj_getTotalmass(self.source.model))
+
+    def joint_names(self, side: Side) -> list[str]:
+        """Names of the hinges of a leg from hip to ankle."""
+        return [self.source.model.joint(j).name for j in self.legs.by_side[side].joints]
+
+    def foot_name(self, side: Side) -> str:
+        """Name of the body of a foot."""
+        return str(self.source.model.body(self.legs.by_side[side].foot).name)
+
+
+def survey_model(file: Path, folder: Path) -> Survey:
+    """Find legs, soles, IMU and limits of a robot.
+
+    Args:
+        file: MJCF or URDF file.
+        folder: A folder for meshes that have to be converted.
+
+    Returns:
+        What was found.
+
+    Raises:
+        RobotError: If the file cannot be read, or holds no robot on two legs.
+    """
+    source = read_model(file, folder)
+    model = source.model
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    try:
+        legs = find_legs(model, data, str(file))
+    except RobotError as error:
+        raise RobotError("; ".join([str(error), *(n for n in source.notes if n.startswith("held, "))])) from None
+    _refuse_odd_legs(source, legs)
+    soles = {s: find_sole(model, data, legs.by_side[s], legs.rotation, str(file)) for s in SIDES}
+    held, told = _held(source, legs)
+    imu = next((i for i in source.imus if _on_body(model, legs, i)), None)
+    names = {s: [model.joint(j).name for j in legs.by_side[s].joints] for s in SIDES}
+    efforts = tuple(_lesser(source.efforts, pair) for pair in zip(names["left"], names["right"], strict=True))
+    speeds = [_lesser(source.speeds, pair) for pair in zip(names["left"], names["right"], strict=True)]
+    kept = [v for v in speeds if v is not None and _SPEEDS[0] <= v <= _SPEEDS[1]]
+    notes = [*source.notes, *legs.notes, *told, *_coupled_notes(source, names)]
+    for side in SIDES:
+        if legs.by_side[side].toes:
+            notes.append(f"{', '.join(legs.by_side[side].toes)}: below the {side} foot, held (toes)")
+    notes += _unlike(soles)
+    return Survey(
+        source, legs, soles, held, imu, efforts, tuple(kept) if len(kept) == len(speeds) else (), tuple(notes)
+    )
+
+
+def _refuse_odd_legs(source: ModelSource, legs: Legs) -> None:
+    """Refuse legs of unlike numbers of joints, and legs that are closed chains."""
+    counts = {s: len(legs.by_side[s].joints) for s in SIDES}
+    if counts["left"] != counts["right"]:
+        raise RobotError(
+            f"{source.file}: the left leg has {counts['left']} hinges, the right {counts['right']}; allowed: as many"
+        )
+    model = source.model
+    moved = {int(model.jnt_bodyid[j]) for leg in legs.by_side.values() for j in leg.joints}
+    for pair in source.loops:
+        for name in pair:
+            body = model.body(name).id
+            while body > 0 and body not in moved:
+                body = int(model.body_parentid[body])
+            if body > 0:
+                raise RobotError(
+                    f"{source.file}: a leg is a closed chain: '{pair[0]}' and '{pair[1]}' are tied together beside its "
+                    "joints; allowed: legs that are open chains of hinges"
+                )
+
+
+def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]:
+    """Angles at which joints that are not the legs' are held: of the first keyframe, else as the file has them."""
+    model = source.model
+    hinges = {j for leg in legs.by_side.values() for j in leg.joints}
+    held, outside = {}, []
+    for joint in range(model.njnt):
+        if joint in hinges or model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_HINGE:
+            continue
+        name, zero = model.joint(joint).name, float(model.qpos0[model.jnt_qposadr[joint]])
+        angle = source.upper_posture.get(name, zero)
+        if model.jnt_limited[joint]:
+            low, high = model.jnt_range[joint].tolist()
+            if not low - 1e-6 <= angle <= high + 1e-6:
+                outside.append(name)
+                angle = min(high, max(low, angle))
+        if abs(angle - zero) > 1e-9:
+            held[name] = angle
+    notes = []
+    if source.upper_posture and held:
+        notes.append(f"arms, head and waist are held as in the model's first keyframe ({len(held)} joints off zero)")
+    if outside:
+        notes.append(f"held at their limits, which leave zero out: {', '.join(outside[:6])}")
+    return held, notes
+
+
+def _on_body(model: Any, legs: Legs, imu: tuple[str, str]) -> bool:
+    """Whether an IMU does not move against the pelvis but by joints that are held."""
+    kind, name = imu
+    body = model.body(name).id if kind == "body" else int(model.site(name).bodyid[0])
+    moved = {int(model.jnt_bodyid[j]) for leg in legs.by_side.values() for j in leg.joints}
+    while body > 0 and body not in moved:
+        body = int(model.body_parentid[body])
+    return body == 0
+
+
+def _lesser(limits: Mapping[str, float], pair: tuple[str, str]) -> float | None:
+    found = [limits[name] for name in pair if name in limits]
+    return min(found) if found else None
+
+
+def _coupled_notes(source: ModelSource, names: Mapping[Side, list[str]]) -> list[str]:
+    """Joints of the legs that one motor drives together: here each has its own."""
+    legs = {n for side in SIDES for n in names[side]}
+    return [
+        f"'{follower}' follows '{leader}' in the model; here each is driven by itself"
+        for follower, leader in source.coupled
+        if follower in legs
+    ]
+
+
+def _unlike(soles: Mapping[Side, Sole]) -> list[str]:
+    """What is to be said of feet that do not mirror each other."""
+    left, right = soles["left"], soles["right"]
+    mirrored = np.array([[right.low[0], -right.high[1]], [right.high[0], -right.low[1]]])
+    gap: NDArray[np.float64] = np.abs(mirrored - [left.low, left.high])
+    if float(gap.max()) <= 2e-3:
+        return []
+    return [f"the soles differ by up to {1e3 * float(gap.max()):.0f} mm; the shoes are those of the left one, mirrored"]

@@ -1,0 +1,136 @@
+"""Workers of a Dask cluster."""
+
+from __future__ import annotations
+
+import itertools
+import logging
+import threading
+import time
+import uuid
+from collections.abc import Sequence
+from contextlib import suppress
+from queue import Empty, SimpleQueue
+from typing import Any
+
+from plantar.errors import InputError, PlantarError, WorkerError
+from plantar.optional_library import optional_library
+from plantar.sim.sweep.task import Row, Task, failed, run_task
+
+__all__ = ["ClusterWorkers"]
+
+_CONNECT = 4.0  # s until a scheduler that does not answer counts as none
+_ALONE = 30.0  # s without a worker, or without a word of the scheduler, until the sweep gives up; a nanny needs about 5
+_ANSWER = 1.0  # s for one answer; Ctrl-C waits for no longer one
+_LOGS = ("distributed", "distributed.client", "tornado", "tornado.application", "asyncio")
+
+
+class ClusterWorkers:
+    """The workers of a Dask scheduler.
+
+    Dask itself begins the run of a dead worker again on another one, as often as its setting `allowed-failures` says.
+
+    Args:
+        address: Address of the scheduler, as tcp://host:8786.
+
+    Raises:
+        DependencyError: If Dask's `distributed` is not installed.
+        InputError: If no scheduler answers there.
+    """
+
+    def __init__(self, address: str) -> None:
+        with optional_library("distributed", "cluster"):
+            from distributed import Client, KilledWorker
+        for name in _LOGS:  # what they have to say of a scheduler that is gone, one line says
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+        try:
+            self._client = Client(address, timeout=_CONNECT, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise InputError(f"no Dask scheduler answers at {address}: {error}") from None
+        self._killed = KilledWorker
+        self._scheduler = f"the Dask scheduler at {address}"
+        self._names = (f"plantar-{uuid.uuid4().hex}-{i}" for i in itertools.count())
+        self._tasks: dict[Any, Task] = {}
+        self._ended: SimpleQueue[Any] = SimpleQueue()
+        self._error: PlantarError | None = None
+        self._threads = 0
+        self._answered = self._manned = time.monotonic()
+        self._closed = threading.Event()
+        threading.Thread(target=self._watch, daemon=True).start()
+
+    @property
+    def room(self) -> int:
+        """How many more tasks can be taken: two for each thread of a worker, so that none waits for the next one."""
+        return max(1, 2 * self._threads) - len(self._tasks)
+
+    def submit(self, task: Task) -> None:
+        """Give a task to the scheduler."""
+        try:
+            future = self._client.submit(run_task, task, key=next(self._names), pure=False)
+        except Exception as error:  # a client whose scheduler has just gone raises what it happens to meet
+            raise WorkerError(f"{self._scheduler} takes no runs ({type(error).__name__})") from None
+        self._tasks[future] = task
+        future.add_done_callback(self._ended.put)
+
+    def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
+        """Wait until a task ends, or for a time in s."""
+        rows: list[tuple[Task, Row]] = []
+        with suppress(Empty):
+            future = self._ended.get(timeout=timeout)
+            while True:
+                rows += self._outcome(future)
+                future = self._ended.get_nowait()
+        if not rows:
+            self._check()
+        return rows
+
+    def close(self) -> None:
+        """Leave the scheduler, which drops what has not begun."""
+        self._closed.set()
+        with suppress(Exception):
+            self._client.close(timeout=_ANSWER)
+
+    def _outcome(self, future: Any) -> list[tuple[Task, Row]]:
+        """Row of a task that ended, if it gave one."""
+        task = self._tasks[future]
+        try:
+            row: Row = future.result(timeout=_ANSWER)
+        except TimeoutError:  # of the asking; its worker may have died since, and Dask runs it again
+            self._ended.put(future)
+            return []
+        except self._killed as error:
+            row = failed(f"the worker died in this run, {error.allowed_failures + 1} times")
+        except PlantarError as error:
+            self._error = error
+            return []
+        except Exception as error:
+            if future.status == "error":
+                self._error = WorkerError(f"a worker cannot run Plantar ({type(error).__name__}: {error})")
+            else:
+                self._error = WorkerError(f"{self._scheduler} went away")
+            return []
+        del self._tasks[future]
+        return [(task, row)]
+
+    def _check(self) -> None:
+        """Raise where nothing more will come."""
+        now = time.monotonic()
+        if self._error is not None:
+            raise self._error
+        if self._client.status != "running":
+            raise WorkerError(f"{self._scheduler} went away")
+        if now - self._answered > _ALONE:
+            raise WorkerError(f"{self._scheduler} has not answered for {_ALONE:g} s")
+        if now - self._manned > _ALONE:
+            raise WorkerError(f"{self._scheduler} has had no worker for {_ALONE:g} s")
+
+    def _watch(self) -> None:
+        """Ask for the workers once a second, in a thread of its own: the scheduler may take as long as it likes."""
+        while not self._closed.is_set():
+            try:
+                self._threads = sum(self._client.nthreads().values())
+                self._answered = time.monotonic()
+                if self._threads:
+                    self._manned = self._answered
+            except Exception:  # whatever a client meets whose scheduler is gone; `_check` tells
+                self._threads = 0
+            self._closed.wait(1.0)

@@ -1,0 +1,137 @@
+"""What the rows of a sweep depend on beside its settings: the content of files, and versions."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterator, Mapping
+from importlib.metadata import version
+from pathlib import Path
+
+from plantar import __version__
+from plantar.errors import PlantarError, RobotError, SceneError
+from plantar.files.input_file import is_file, open_input
+from plantar.files.structured_text import read_toml
+from plantar.sides import SIDES
+from plantar.sim.robots import load_robot
+from plantar.sim.run.scene import scene_file
+
+__all__ = ["changes", "inputs_of"]
+
+_VERSIONS = ("plantar", "mujoco")
+_NAMED = re.compile(rb"""\b(?:file|filename)\s*=\s*["']([^"']+)["']""")
+_FOLDERS = re.compile(rb"""\b(?:meshdir|texturedir|assetdir)\s*=\s*["']([^"']+)["']""")
+
+
+def inputs_of(scene: str, robot: str) -> dict[str, str]:
+    """Find what a run of a scene with a robot reads.
+
+    Args:
+        scene: Name or file of the scene.
+        robot: Name or file of the robot.
+
+    Returns:
+        Versions of the libraries that decide a motion, and SHA-256 of the scene's file, the robot's, its layouts, its
+        model and what that names; by what each is called in messages, without the folders that lead there.
+
+    Raises:
+        SceneError: If the scene is unknown.
+        RobotError: If the robot is unknown, or not valid.
+
+    Example:
+        >>> sorted(inputs_of("flat", "h1"))[:3]
+        ['layout layout_left.json', 'layout layout_right.json', 'mujoco']
+    """
+    path = scene_file(scene)
+    found = {"plantar": __version__, "mujoco": version("mujoco")}
+    found[f"scene file {path.name}"] = _digest(path, SceneError)
+    companion = "experiment" in read_toml(path, SceneError, f"scene file {path}")
+    files = _files_of_machine(robot) if companion else _files_of(robot)
+    return found | {label: _digest(file, RobotError) for label, file in files}
+
+
+def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
+    """Say how inputs differ.
+
+    Args:
+        before: Inputs as they were.
+        now: Inputs as they are.
+
+    Returns:
+        What changed, in words; empty where nothing did.
+
+    Example:
+        >>> changes({"plantar": "1.0", "layout a": "9f"}, {"plantar": "1.1", "layout a": "e0"})
+        'plantar was 1.0 and is 1.1, layout a has changed'
+    """
+    found = []
+    for label in [*before, *(label for label in now if label not in before)]:
+        old, new = before.get(label), now.get(label)
+        if old == new:
+            continue
+        if new is None or old is None:
+            found.append(f"{label} is {'gone' if new is None else 'new'}")
+        else:
+            found.append(
+                f"{label} was {old} and is {new}" if label in ("plantar", "mujoco") else f"{label} has changed"
+            )
+    return ", ".join(found)
+
+
+def _digest(path: Path, error: type[PlantarError]) -> str:
+    digest = hashlib.sha256()
+    with open_input(path, error) as stream:
+        while block := stream.read(1 << 20):
+            digest.update(block)
+    return digest.hexdigest()
+
+
+def _files_of(robot: str) -> Iterator[tuple[str, Path]]:
+    """The robot's files by what they are called."""
+    loaded = load_robot(robot)
+    yield f"robot file {loaded.path.name}", loaded.path
+    layout = read_toml(loaded.path, RobotError, str(loaded.path))["shoe"]["layout"]
+    for side in SIDES:
+        name = layout.replace("{side}", side)
+        yield f"layout {name}", loaded.path.parent / name
+    if loaded.model_file is not None:
+        yield from _files_of_model(loaded.model_file)
+
+
+def _files_of_machine(machine: str) -> Iterator[tuple[str, Path]]:
+    """The machine's files by what they are called."""
+    from plantar.sim.companion.machine import load_machine  # MuJoCo, which a walk's sweep does not need here
+
+    loaded = load_machine(machine)
+    yield f"machine file {loaded.path.name}", loaded.path
+    yield from _files_of_model(loaded.model_file)
+
+
+def _files_of_model(model: Path) -> Iterator[tuple[str, Path]]:
+    yield f"model {model.name}", model
+    for name, file in _named_by(model).items():
+        yield f"model file {name}", file
+
+
+def _named_by(model: Path) -> dict[str, Path]:
+    """Files that an MJCF or URDF names, and what these name: meshes, height fields, textures and parts."""
+    found: dict[str, Path] = {}
+    folders = [model.parent]
+    waiting = [model]
+    while waiting:
+        file = waiting.pop()
+        with open_input(file, RobotError) as stream:
+            text = stream.read()
+        folders += [model.parent / _text(name) for name in _FOLDERS.findall(text)]
+        for name in dict.fromkeys(map(_text, _NAMED.findall(text))):
+            relative = re.sub(r"^(?:package|file)://[^/]*/", "", name)
+            for path in (folder / relative for folder in (file.parent, *folders)):
+                if name not in found and path != model and is_file(path):
+                    found[name] = path
+                    if path.suffix.lower() in (".xml", ".urdf"):
+                        waiting.append(path)
+    return found
+
+
+def _text(name: bytes) -> str:
+    return name.decode(errors="replace")

@@ -1,0 +1,197 @@
+"""Where does it break: runs along one setting, where they tell most of its limit, until that is known well enough."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from plantar.errors import InputError
+from plantar.sim.sweep.limit_curve import LimitCurve, limit_curve
+from plantar.sim.sweep.plan import Sweep
+from plantar.sim.sweep.runs import Key, Rows, Run, key_of, settings_of
+from plantar.sim.sweep.value_range import ValueRange
+
+__all__ = ["LimitSearch"]
+
+AHEAD = 8
+"""A run is chosen by all outcomes but the newest of these, so that as many workers are at work. It is the same number
+everywhere: the runs of a search do not depend on who ran them."""
+
+_ENDS = 4  # runs at each end of the range before any between
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # its multiples fill (0, 1) evenly, whatever a seed's remainder chooses
+_TURNING = 0.15  # part of the way from all to none, at either side, that is left out: runs there tell little
+_SURE = 0.95
+
+
+@dataclass(frozen=True)
+class LimitSearch:
+    """The value of a setting at which half of the runs are completed, at each point of a grid.
+
+    Attributes:
+        sweep: Scene, grid and the most runs at each point of it, as "seeds": every run has a seed of its own.
+        limit: The setting and its range.
+        within: Width of the limit's 95 % interval, as a share of the limit, at which the search ends.
+
+    Raises:
+        InputError: If the share is not above 0 and below 1, or the setting is given twice.
+        SceneError: If the setting is unknown, or an end of its range not allowed.
+    """
+
+    sweep: Sweep
+    limit: ValueRange
+    within: float = 0.1
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.within < 1.0:
+            raise InputError(f"a limit is to be known within {self.within:g}; allowed: above 0 and below 1")
+        if self.sweep.seeds < 2 * _ENDS:
+            raise InputError(f"number of seeds is {self.sweep.seeds}; allowed for a limit: {2 * _ENDS} or more")
+        object.__setattr__(self, "limit", self.sweep.fitted(self.limit))
+        _ = self.checked
+
+    @cached_property
+    def checked(self) -> Sweep:
+        """The sweep of both ends of the range, which checks them."""
+        ends = (self.limit.text(self.limit.low), self.limit.text(self.limit.high))
+        return self.sweep.with_axes([(self.limit.name, ends)])
+
+    def identity(self) -> dict[str, Any]:
+        """What all rows share."""
+        ends = [self.limit.text(self.limit.low), self.limit.text(self.limit.high)]
+        return self.checked.identity() | {"limit": ends, "first_seed": self.sweep.first_seed}
+
+    def runs(self, rows: Rows) -> Iterator[Run | None]:
+        """The runs, in an order that depends on outcomes alone.
+
+        Args:
+            rows: Rows of the runs that ended, which grow.
+
+        Yields:
+            The next run; None while outcomes have to be waited for.
+        """
+        chains = [self._chain(point, rows) for point in self.sweep.points()]
+        while chains:
+            waiting = True
+            for chain in list(chains):
+                run = next(chain, "end")
+                if run == "end":
+                    chains.remove(chain)
+                    waiting = False
+                elif run is not None:
+                    waiting = False
+                    yield run  # type: ignore[misc]
+            if waiting and chains:
+                yield None
+
+    def found(self, rows: Rows) -> dict[str, Any]:
+        """What the runs come to.
+
+        Args:
+            rows: Rows of the runs that ended.
+
+        Returns:
+            "limits": for each grid point its settings, the setting that was searched ("setting", "unit", "range"), its
+            "limit", the 95 % "interval" of that and the interval's "width" as a share of the limit (None where the
+            limit is not in the range), whether it is known well enough ("reached"), whether larger values hold
+            ("rising"), how well one curve tells the runs ("agreement", `LimitCurve.agreement`), runs, completed, and
+            the errors of runs that could not be.
+        """
+        return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
+
+    def progress(self, rows: Rows) -> tuple[float, str]:
+        """How far the search is, 0 to 1, and in words: the runs that are needed go with the square of 1 / width."""
+        widths = [_width(self.curve(self.tried(point, rows), rows)) for point in self.sweep.points()]
+        widest = max(widths)
+        told = f"{100.0 * widest:.0f} %" if widest < 10.0 else "its range"
+        return min(1.0, (self.within / widest) ** 2), f"{len(rows)} rows (limit known within {told})"
+
+    def tried(self, point: Sequence[str], rows: Rows) -> list[Key]:
+        """Keys of the runs of a grid point that ended.
+
+        Args:
+            point: Settings of the grid point.
+            rows: Rows of the runs that ended.
+
+        Returns:
+            The keys, by their seeds.
+        """
+        values = tuple(settings_of(point).values())
+        return sorted((key for key in rows if key[0][:-1] == values), key=lambda key: key[1])
+
+    def curve(self, keys: Sequence[Key], rows: Rows) -> LimitCurve:
+        """What the outcomes of some runs say; those that could not be say nothing.
+
+        Args:
+            keys: Keys of the runs.
+            rows: Rows of these and others.
+
+        Returns:
+            What is known of the limit.
+        """
+        return limit_curve(*self._outcomes(keys, rows), self.limit.low, self.limit.high)
+
+    def _outcomes(self, keys: Sequence[Key], rows: Rows) -> tuple[list[float], list[bool]]:
+        """The setting's value and whether it was completed, of each run that came to an end."""
+        ran = [key for key in keys if not rows[key]["error"]]
+        return [self.limit.value(key[0][-1]) for key in ran], [rows[key]["completed"] == "True" for key in ran]
+
+    def _chain(self, point: Sequence[str], rows: Rows) -> Iterator[Run | None]:
+        """The runs of a grid point; None while outcomes have to be waited for."""
+        keys: list[Key] = []
+        for number, seed in enumerate(self.sweep.seed_range):
+            if number < 2 * _ENDS:
+                value = self.limit.low if number % 2 == 0 else self.limit.high
+            else:
+                known = number - AHEAD + 1
+                while any(key not in rows for key in keys[:known]):
+                    yield None
+                curve = self.curve(keys[:known], rows)
+                if self._enough(curve):
+                    while any(key not in rows for key in keys):
+                        yield None
+                    curve = self.curve(keys, rows)
+                    if self._enough(curve):
+                        return
+                # All over the curve's flank: runs at the limit alone do not tell how steep the curve is.
+                part = _TURNING + (1.0 - 2.0 * _TURNING) * (number * _GOLDEN % 1.0)
+                value = curve.turned(part, self.limit.low, self.limit.high)
+            run = (*point, f"{self.limit.name}={self.limit.text(value)}"), seed
+            keys.append(key_of(*run))
+            yield run
+        while any(key not in rows for key in keys):
+            yield None
+
+    def _enough(self, curve: LimitCurve) -> bool:
+        inside = curve.inside(self.limit.low, self.limit.high)
+        return inside < 1.0 - _SURE or (inside > _SURE and _width(curve) <= self.within)
+
+    def _found(self, point: Sequence[str], rows: Rows) -> dict[str, Any]:
+        keys = self.tried(point, rows)
+        curve = self.curve(keys, rows)
+        inside = curve.inside(self.limit.low, self.limit.high)
+        there = inside > 1.0 - _SURE
+        ran = [rows[key] for key in keys]
+        return {
+            "settings": settings_of(point),
+            "setting": self.limit.name,
+            "unit": self.limit.unit,
+            "range": [self.limit.low, self.limit.high],
+            "limit": curve.limit if there else None,
+            "interval": list(curve.interval_of_search) if there else None,
+            "width": _width(curve) if there else None,
+            "reached": inside > _SURE and _width(curve) <= self.within,
+            "rising": curve.rising,
+            "agreement": curve.agreement(*self._outcomes(keys, rows)),
+            "runs": len(ran),
+            "completed": sum(row["completed"] == "True" for row in ran),
+            "errors": [row["error"] for row in ran if row["error"]],
+        }
+
+
+def _width(curve: LimitCurve) -> float:
+    """Width of the limit's interval as a share of the limit."""
+    low, high = curve.interval_of_search
+    return (high - low) / max(abs(curve.limit), 1e-12 * (high - low))

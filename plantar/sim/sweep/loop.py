@@ -1,0 +1,158 @@
+"""Many runs: a scene over a grid of settings and seeds, on this machine's cores or on a Dask cluster.
+
+Every finished run is a row that is appended to results.csv at once, so a sweep that was stopped goes on where it was.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from plantar.errors import InputError, WorkerError
+from plantar.plotting import save_figure
+from plantar.sim.sweep.cluster import ClusterWorkers
+from plantar.sim.sweep.figures import figures_of
+from plantar.sim.sweep.inputs import inputs_of
+from plantar.sim.sweep.plan import Plan
+from plantar.sim.sweep.results import open_results
+from plantar.sim.sweep.runs import Key, key_of
+from plantar.sim.sweep.stopping import StopNote, SweepStopped, stop_noted
+from plantar.sim.sweep.task import Row, Task, columns_of
+from plantar.sim.sweep.workers import LocalWorkers, Workers
+
+__all__ = ["run_sweep"]
+
+Progress = Callable[[float, str], None]
+
+_PAUSE = 0.2  # s: how soon a signal is seen where no row comes
+_END = "end"
+
+
+def run_sweep(
+    plan: Plan,
+    folder: str | os.PathLike[str],
+    *,
+    workers: int = 1,
+    scheduler: str | None = None,
+    progress: Progress | None = None,
+) -> dict[str, Any]:
+    """Run what is not in results.csv yet, append each run as it ends, and draw the figures.
+
+    Args:
+        plan: What to run: a `Sweep` over a grid, a `LimitSearch` or a `RandomSearch`.
+        folder: Folder of results.csv; made if needed. A folder of another sweep is refused.
+        workers: Processes on this machine.
+        scheduler: Address of a Dask scheduler that runs them instead.
+        progress: Called with the fraction done and a text.
+
+    Returns:
+        What the plan's `found` says of all rows, and "runs", "resumed", "files".
+
+    Raises:
+        InputError: If the folder cannot be written, holds the results of another sweep, or another process writes to
+            it; if no scheduler answers; if a file that runs depend on has changed since the sweep began, also where
+            it began earlier or a worker runs.
+        WorkerError: If the workers cannot go on. What was kept is in the text.
+        SweepStopped: A KeyboardInterrupt after Ctrl-C or SIGTERM that says what was kept.
+    """
+    if workers < 1:
+        raise InputError(f"number of workers is {workers}; allowed: 1 or more")
+    folder = Path(folder)
+    checked = plan.checked
+    axes, points = checked.axes, checked.points()
+    columns = columns_of(checked.opened(points[0]))
+    inputs = {robot: inputs_of(checked.scene, robot) for robot in dict.fromkeys(map(checked.robot_of, points))}
+    with (
+        stop_noted() as note,
+        _workers(workers, scheduler) as pool,
+        open_results(folder, plan.identity(), inputs, axes, columns) as results,
+    ):
+        before = len(results.rows)
+        wanted: dict[Task, Key] = {}
+        count = 0
+
+        def tasks() -> Iterator[Task | None]:
+            """What is to be run of the plan; a run that has its row already is passed over."""
+            nonlocal count
+            for run in plan.runs(results.rows):
+                if run is None:
+                    yield None
+                    continue
+                count += 1
+                if key_of(*run) in results.rows:
+                    continue
+                point, seed = run
+                robot = checked.robot_of(point)
+                task = Task(
+                    scene=_anywhere(checked.scene),
+                    robot=_anywhere(robot),
+                    settings=(*checked.settings, *point),
+                    seed=seed,
+                    inputs=tuple(inputs[robot].items()),
+                )
+                wanted[task] = key_of(*run)
+                yield task
+
+        try:
+            with note.held():
+                for task, row in _rows_of(tasks(), pool, note):
+                    values, seed = wanted[task]
+                    empty = dict.fromkeys(columns, "")
+                    results.append({**empty, **dict(zip(axes, values, strict=True)), "seed": seed, **row})
+                    if progress is not None:
+                        progress(*plan.progress(results.rows))
+            found = plan.found(results.rows)
+            figures = [
+                str(save_figure(figure, folder / f"{name}.png"))
+                for name, figure in figures_of(plan, found, results.rows).items()
+            ]
+        except (KeyboardInterrupt, InputError, WorkerError) as error:
+            kept = f"kept {plan.progress(results.rows)[1]} in {results.path}; the same command goes on from there"
+            if isinstance(error, KeyboardInterrupt):
+                raise SweepStopped(note.number or signal.SIGINT, kept) from None
+            raise type(error)(f"{error}: {kept}") from None
+        ran = len(results.rows) - before
+    return {**found, "runs": ran, "resumed": count - ran, "files": [str(results.path), *figures]}
+
+
+@contextmanager
+def _workers(count: int, scheduler: str | None) -> Iterator[Workers]:
+    pool = LocalWorkers(count) if scheduler is None else ClusterWorkers(scheduler)
+    try:
+        yield pool
+    finally:
+        pool.close()
+
+
+def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Iterator[tuple[Task, Row]]:
+    """Run tasks, as many at a time as there is room for, until all have given their rows or a signal comes.
+
+    Args:
+        tasks: The tasks; None where the next one depends on rows that are still to come.
+        pool: The workers.
+        note: Whether a signal came.
+    """
+    running, more = 0, True
+    while not note.number:
+        while more and pool.room > 0:
+            task = next(tasks, _END)
+            if isinstance(task, Task):
+                pool.submit(task)
+                running += 1
+            else:
+                more = task is None
+                break
+        if not running:
+            return
+        for task, row in pool.finished(_PAUSE):
+            running -= 1
+            yield task, row
+
+
+def _anywhere(name: str) -> str:
+    """A scene's or robot's name or file as a worker in another folder finds it."""
+    return str(Path(name).absolute()) if Path(name).suffix == ".toml" else name

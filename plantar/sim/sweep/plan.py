@@ -1,0 +1,269 @@
+"""What a sweep runs: a scene, the values of its grid, and seeds; all of it checked before the first run."""
+
+from __future__ import annotations
+
+import itertools
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from plantar.errors import InputError, SceneError
+from plantar.sim.run.scene import Scene
+from plantar.sim.run.scene_kind import full_setting_name, open_scene, robot_file_of
+from plantar.sim.sweep.grid import canonical, is_word, split_values
+from plantar.sim.sweep.intervals import wilson_interval
+from plantar.sim.sweep.runs import Rows, Run, key_of, settings_of
+from plantar.sim.sweep.task import criteria_of
+from plantar.sim.sweep.value_range import ValueRange
+
+if TYPE_CHECKING:
+    from plantar.sim.companion.scene import CompanionScene
+
+__all__ = ["Plan", "Sweep", "point_told"]
+
+
+class Plan(Protocol):
+    """Which runs a table is to have: all points of a grid, points at random, or points that follow from outcomes."""
+
+    @property
+    def checked(self) -> Sweep:
+        """A sweep with the same axes, whose points were checked."""
+
+    def identity(self) -> dict[str, Any]:
+        """What all rows of one table must share, beside the content of files: JSON values by name."""
+
+    def runs(self, rows: Rows) -> Iterator[Run | None]:
+        """The runs in an order that depends on outcomes alone; None while outcomes have to be waited for.
+
+        Args:
+            rows: Rows of the runs that ended, which grow.
+        """
+
+    def found(self, rows: Rows) -> dict[str, Any]:
+        """What the rows come to."""
+
+    def progress(self, rows: Rows) -> tuple[float, str]:
+        """How far the runs are, 0 to 1, and in words."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What a sweep runs.
+
+    Attributes:
+        scene: Name or file of the scene.
+        grid: For each setting the values to try, as texts; kept in their canonical form.
+        seeds: Number of seeds.
+        robot: Robot to use instead of the scene's, or None.
+        settings: "key=value" settings that hold for all runs.
+        first_seed: The first of the seeds, which follow one another.
+
+    Raises:
+        InputError: If a key or value comes twice, however it is written, or two points are the same scene.
+        SceneError: If a setting is unknown or not allowed.
+        RobotError: If the robot is unknown or its file not valid.
+    """
+
+    scene: str
+    grid: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    seeds: int = 1
+    robot: str | None = None
+    settings: tuple[str, ...] = ()
+    first_seed: int = 0
+
+    def __post_init__(self) -> None:
+        if self.seeds < 1:
+            raise InputError(f"number of seeds is {self.seeds}; allowed: 1 or more")
+        if self.first_seed < 0:
+            raise InputError(f"first seed is {self.first_seed}; allowed: 0 or more")
+        axes = []
+        for name, texts in self.grid:
+            values: dict[str, str] = {}
+            for text in texts:
+                value = canonical(text, word=is_word(name))
+                if value in values:
+                    raise InputError(f"a grid gives '{name}' the same value twice: {values[value]}, {text}")
+                values[value] = text
+            axes.append((name, tuple(values)))
+        object.__setattr__(self, "grid", tuple(axes))
+        self._check_points()
+
+    @classmethod
+    def from_texts(
+        cls,
+        scene: str,
+        grid: Sequence[str],
+        seeds: int,
+        robot: str | None = None,
+        settings: Sequence[str] = (),
+        first_seed: int = 0,
+    ) -> Sweep:
+        """A sweep from the command line's texts.
+
+        Args:
+            scene: Name or file of the scene.
+            grid: Texts of the form "key=a,b,c"; values are TOML, bare words texts, as in "size=[1, 2],[3, 4]".
+            seeds: Number of seeds.
+            robot: Robot to use instead of the scene's.
+            settings: Texts of the form "key=value" that hold for all runs.
+            first_seed: The first of the seeds.
+
+        Returns:
+            The checked sweep.
+
+        Raises:
+            InputError: If a grid text is not of that form, or what it names comes twice.
+            SceneError: If a setting is unknown or not allowed.
+            RobotError: If the robot is unknown or its file not valid.
+        """
+        axes = []
+        for text in grid:
+            key, equals, values = text.partition("=")
+            if not equals or not key.strip() or not values.strip():
+                raise InputError(f"grid {text!r} is not of the form key=a,b,c")
+            axes.append((key.strip(), tuple(split_values(values))))
+        return cls(scene, tuple(axes), seeds, robot, tuple(settings), first_seed)
+
+    @property
+    def seed_range(self) -> range:
+        """The seeds of every point."""
+        return range(self.first_seed, self.first_seed + self.seeds)
+
+    def points(self) -> list[tuple[str, ...]]:
+        """Settings of every grid point."""
+        axes = [[f"{name}={value}" for value in values] for name, values in self.grid]
+        return list(itertools.product(*axes))
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Settings of the grid."""
+        return tuple(name for name, _ in self.grid)
+
+    @property
+    def checked(self) -> Sweep:
+        """This sweep itself: all its points were checked when it was made."""
+        return self
+
+    def runs(self, rows: Rows) -> Iterator[Run]:
+        """Settings and seed of every run: all points for one seed before the next, so that a part shows the whole."""
+        for seed in self.seed_range:
+            for point in self.points():
+                yield point, seed
+
+    def found(self, rows: Rows) -> dict[str, Any]:
+        """What each grid point came to over its seeds.
+
+        Args:
+            rows: Rows of all runs.
+
+        Returns:
+            "points": for each what `point_told` says.
+        """
+        return {
+            "points": [
+                point_told(point, [rows[key_of(point, seed)] for seed in self.seed_range]) for point in self.points()
+            ]
+        }
+
+    def progress(self, rows: Rows) -> tuple[float, str]:
+        """How far the runs are, 0 to 1, and in words."""
+        wanted = [key_of(*run) for run in self.runs(rows)]
+        done = sum(key in rows for key in wanted)
+        return done / len(wanted), f"{done} of {len(wanted)} rows"
+
+    def with_axes(self, axes: Sequence[tuple[str, tuple[str, ...]]]) -> Sweep:
+        """This sweep with more settings in its grid, after those that it has."""
+        return replace(self, grid=(*self.grid, *axes))
+
+    def fitted(self, wanted: ValueRange) -> ValueRange:
+        """A range of whole numbers, if the setting takes no others and its ends are such.
+
+        Args:
+            wanted: The range of a setting.
+
+        Raises:
+            SceneError: If the setting does not take numbers, or not those.
+        """
+        between = wanted.text(wanted.low + (wanted.high - wanted.low) * 0.3819)
+        point = self.points()[0]
+        try:
+            self.opened((*point, f"{wanted.name}={between}"))
+        except SceneError:
+            whole = replace(wanted, whole=True)
+            if wanted.unit or not wanted.low.is_integer() or not wanted.high.is_integer():
+                raise
+            self.opened((*point, f"{whole.name}={whole.text(wanted.low)}"))
+            return whole
+        return wanted
+
+    def opened(self, point: Sequence[str]) -> Scene | CompanionScene:
+        """The scene of a grid point."""
+        return open_scene(self.scene, [*self.settings, *point], self.robot)
+
+    def robot_of(self, point: Sequence[str]) -> str:
+        """Name or file of the robot of a grid point."""
+        return self.opened(point).robot
+
+    def identity(self) -> dict[str, Any]:
+        """What all rows of one table must share, beside the content of files: JSON values by name.
+
+        Points and seeds may be added to a table; other scenes, settings or axes may not.
+        """
+        scene = self.opened(self.points()[0])
+        settings = {}
+        for key, _, value in (s.partition("=") for s in self.settings):
+            name = full_setting_name(scene, key)
+            settings[name] = canonical(value, word=is_word(name))
+        return {
+            "scene": Path(self.scene).name,
+            "robot": None if self.robot is None else Path(self.robot).name,
+            "settings": settings,
+            "axes": list(self.axes),
+        }
+
+    def _check_points(self) -> None:
+        """Load every point's scene and robot, and refuse what is given twice under two names."""
+        files: dict[str, str] = {}
+        given = [s.partition("=")[0] for s in self.settings]
+        seen: dict[str, str] = {}
+        for point in self.points():
+            scene = self.opened(point)
+            origin = dict.fromkeys((full_setting_name(scene, key) for key in given), "--set")
+            if self.robot is not None:
+                origin["robot"] = "--robot"
+            for name, _ in self.grid:
+                full = full_setting_name(scene, name)
+                if full in origin:
+                    raise InputError(f"grid '{name}' gives what {origin[full]} gives already: {full}; give it once")
+                origin[full] = f"grid '{name}'"
+            if scene.robot not in files:
+                files[scene.robot] = str(robot_file_of(scene).resolve())
+            key = repr(replace(scene, robot=files[scene.robot]))
+            text = " ".join(point)
+            if key in seen:
+                raise InputError(f"grid points '{seen[key]}' and '{text}' are the same run; leave one out")
+            seen[key] = text
+
+
+def point_told(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:
+    """What a point came to.
+
+    Args:
+        point: Its settings.
+        ran: The rows of its runs.
+
+    Returns:
+        Its settings, runs, completed, the 95 % Wilson interval of their share, how many runs failed each criterion
+        ("reasons"), and the errors of runs that could not be.
+    """
+    completed = sum(row["completed"] == "True" for row in ran)
+    return {
+        "settings": settings_of(point),
+        "runs": len(ran),
+        "completed": completed,
+        "interval": list(wilson_interval(completed, len(ran))),
+        "reasons": dict(Counter(criterion for row in ran for criterion in criteria_of(row)).most_common()),
+        "errors": [row["error"] for row in ran if row["error"]],
+    }

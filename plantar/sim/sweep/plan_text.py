@@ -1,0 +1,59 @@
+"""What a sweep runs, from the command line's texts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from plantar.errors import InputError
+from plantar.sim.sweep.limit_search import LimitSearch
+from plantar.sim.sweep.plan import Sweep
+from plantar.sim.sweep.random_search import RandomSearch
+from plantar.sim.sweep.value_range import ValueRange
+
+__all__ = ["plan_from_texts"]
+
+_MOST = 1000  # runs of a limit's search
+
+
+def plan_from_texts(
+    scene: str,
+    grid: Sequence[str] = (),
+    seeds: int | None = None,
+    robot: str | None = None,
+    settings: Sequence[str] = (),
+    first_seed: int = 0,
+    *,
+    limit: str | None = None,
+    within: float = 0.1,
+    random: Sequence[str] = (),
+) -> Sweep | LimitSearch | RandomSearch:
+    """Make and check a plan.
+
+    Args:
+        scene: Name or file of the scene.
+        grid: Texts "key=a,b,c".
+        seeds: Number of seeds; with a limit the most at each grid point. None for 1, or 1000 with a limit.
+        robot: Robot to use instead of the scene's.
+        settings: Texts "key=value" that hold for all runs.
+        first_seed: The first of the seeds.
+        limit: Text "key=from:to" of the setting whose limit is searched.
+        within: Width of the limit's 95 % interval, as a share of the limit, at which the search ends.
+        random: Texts "key=from:to" of settings that are drawn.
+
+    Returns:
+        The plan.
+
+    Raises:
+        InputError: If a text is not of its form, something comes twice, or a limit is searched along random points.
+        SceneError: If a setting is unknown or not allowed.
+        RobotError: If the robot is unknown or its file not valid.
+    """
+    if limit is not None and random:
+        raise InputError("a limit is searched along one setting; leave out --random, or use --grid beside --limit")
+    count = seeds if seeds is not None else 1 if limit is None else _MOST
+    sweep = Sweep.from_texts(scene, grid, count, robot, settings, first_seed)
+    if limit is not None:
+        return LimitSearch(sweep, ValueRange.from_text(limit, "limit"), within)
+    if random:
+        return RandomSearch(sweep, tuple(ValueRange.from_text(text, "random") for text in random))
+    return sweep

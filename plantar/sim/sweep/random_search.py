@@ -1,0 +1,83 @@
+"""Runs at random points of the ranges of some settings, each point with a seed of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from plantar.errors import InputError
+from plantar.sim.sweep.plan import Sweep, point_told
+from plantar.sim.sweep.runs import Rows, Run, key_of
+from plantar.sim.sweep.value_range import ValueRange
+
+__all__ = ["RandomSearch"]
+
+
+@dataclass(frozen=True)
+class RandomSearch:
+    """Runs at random points, the same ones at every point of a grid.
+
+    The point of a seed depends on the seed, the settings' names and their ranges alone: more seeds add points.
+
+    Attributes:
+        sweep: Scene, grid, and the seeds: as many points are drawn.
+        ranges: The settings that are drawn, each uniformly from its range.
+
+    Raises:
+        InputError: If no setting is drawn, or one is given twice.
+        SceneError: If a setting is unknown, or an end of its range not allowed.
+    """
+
+    sweep: Sweep
+    ranges: tuple[ValueRange, ...]
+
+    def __post_init__(self) -> None:
+        if not self.ranges:
+            raise InputError("no setting is drawn at random; allowed: one or more")
+        object.__setattr__(self, "ranges", tuple(self.sweep.fitted(wanted) for wanted in self.ranges))
+        _ = self.checked
+
+    @cached_property
+    def checked(self) -> Sweep:
+        """The sweep of the ends of all ranges, which checks them."""
+        return self.sweep.with_axes([(r.name, (r.text(r.low), r.text(r.high))) for r in self.ranges])
+
+    def identity(self) -> dict[str, Any]:
+        """What all rows share."""
+        return self.checked.identity() | {"random": {r.name: [r.text(r.low), r.text(r.high)] for r in self.ranges}}
+
+    def runs(self, rows: Rows) -> Iterator[Run]:
+        """Settings and seed of every run."""
+        for seed in self.sweep.seed_range:
+            share = np.random.default_rng(seed).random(len(self.ranges))
+            drawn = [
+                f"{r.name}={r.text(r.low + s * (r.high - r.low))}" for r, s in zip(self.ranges, share, strict=True)
+            ]
+            for point in self.sweep.points():
+                yield (*point, *drawn), seed
+
+    def found(self, rows: Rows) -> dict[str, Any]:
+        """What the runs come to.
+
+        Args:
+            rows: Rows of the runs that ended.
+
+        Returns:
+            "points": for each grid point its settings, runs, completed, the 95 % interval of their share, how many runs
+            failed each criterion ("reasons"), and the errors of runs that could not be.
+        """
+        told: dict[tuple[str, ...], list[Any]] = {point: [] for point in self.sweep.points()}
+        for point, seed in self.runs(rows):
+            if (row := rows.get(key_of(point, seed))) is not None:
+                told[point[: len(self.sweep.grid)]].append(row)
+        return {"points": [point_told(point, ran) for point, ran in told.items()]}
+
+    def progress(self, rows: Rows) -> tuple[float, str]:
+        """How far the runs are, 0 to 1, and in words."""
+        wanted = [key_of(*run) for run in self.runs(rows)]
+        done = sum(key in rows for key in wanted)
+        return done / len(wanted), f"{done} of {len(wanted)} rows"

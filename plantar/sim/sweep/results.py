@@ -1,0 +1,170 @@
+"""The rows of a sweep: a table that only grows, a row a run, whole rows only, each run once."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, closing, contextmanager
+from pathlib import Path
+from typing import Any
+
+from plantar.atomic import write_text
+from plantar.errors import InputError
+from plantar.files.structured_text import read_json
+from plantar.sim.sweep.grid import canonical, is_word
+from plantar.sim.sweep.inputs import changes
+from plantar.sim.sweep.lock import locked
+from plantar.sim.sweep.runs import Key
+
+__all__ = ["Results", "open_results"]
+
+_BREAKS = re.compile("[\\r\\n\\0]+")
+
+
+class Results:
+    """Rows of results.csv, open to append to. Made by `open_results`.
+
+    Attributes:
+        path: The file.
+        rows: Its rows by the values of their axes and their seed.
+    """
+
+    def __init__(self, path: Path, axes: Sequence[str], columns: Sequence[str]) -> None:
+        self.path = path
+        self.axes = tuple(axes)
+        self.header = (*self.axes, "seed", *columns)
+        self.rows: dict[Key, dict[str, str]] = {}
+        head = _line(self.header)
+        if not path.exists():
+            write_text(path, head.decode())
+        whole = self._read(path.read_bytes(), head)
+        self._handle = os.open(path, os.O_RDWR | os.O_APPEND)
+        # A run that was killed while it wrote may have left a part of a row: what is whole stays untouched.
+        os.ftruncate(self._handle, whole)
+        os.fsync(self._handle)
+        self._size = whole
+
+    def append(self, row: Mapping[str, Any]) -> None:
+        """Add a row to file and table; it is on disk when this returns, or not at all.
+
+        Args:
+            row: A value for every column; line breaks in texts become spaces.
+
+        Raises:
+            InputError: If the file cannot be written; the rows before stay as they are.
+        """
+        texts = {name: _BREAKS.sub(" ", str(row[name])) for name in self.header}
+        key = self._key(texts)
+        if key in self.rows:
+            raise ValueError(f"a second row of {key}")
+        line = _line([texts[name] for name in self.header])
+        try:
+            if os.write(self._handle, line) != len(line):
+                raise OSError(0, "no space left")
+            os.fsync(self._handle)
+        except OSError as error:
+            os.ftruncate(self._handle, self._size)
+            raise InputError(f"{self.path} cannot be written ({error.strerror})") from None
+        self._size += len(line)
+        self.rows[key] = texts
+
+    def close(self) -> None:
+        """Close the file."""
+        os.close(self._handle)
+
+    def _read(self, data: bytes, head: bytes) -> int:
+        """Read the whole rows and return how many bytes they are."""
+        end = data.rfind(b"\n", 0, data.find(b"\0") if b"\0" in data else len(data)) + 1
+        lines = data[:end].decode("utf-8-sig").split("\n")[:-1]
+        csv.field_size_limit(max(csv.field_size_limit(), end))  # a long walk has a long row
+        if not lines or _cells(lines[0]) != list(self.header):
+            raise InputError(f"{self.path} has other columns than this sweep; choose another folder with -o")
+        for i, line in enumerate(lines[1:], 2):
+            cells = _cells(line)
+            row = dict(zip(self.header, cells, strict=False))
+            try:
+                key = self._key(row)
+            except (KeyError, ValueError, InputError):
+                key = None
+            if key is None or len(cells) != len(self.header) or key in self.rows:
+                what = "of a run that has one already" if key in self.rows else "not a row of this sweep"
+                raise InputError(f"{self.path}, line {i} is {what}; delete that line")
+            self.rows[key] = row
+        return end
+
+    def _key(self, row: Mapping[str, str]) -> Key:
+        return tuple(canonical(row[axis], word=is_word(axis)) for axis in self.axes), int(row["seed"])
+
+
+@contextmanager
+def open_results(
+    folder: Path,
+    identity: Mapping[str, Any],
+    inputs: Mapping[str, Mapping[str, str]],
+    axes: Sequence[str],
+    columns: Sequence[str],
+) -> Iterator[Results]:
+    """Open the results of a sweep, new or stopped, for this process alone.
+
+    Args:
+        folder: Folder of results.csv and sweep.json; made if needed.
+        identity: What all rows share (`Sweep.identity`).
+        inputs: For each robot what its rows depend on beside that (`inputs_of`).
+        axes: Settings of the grid, the table's first columns.
+        columns: Columns after those and the seed.
+
+    Yields:
+        The open table.
+
+    Raises:
+        InputError: If the folder cannot be used, is another sweep's, or another process writes to it.
+    """
+    path, plan = folder / "results.csv", folder / "sweep.json"
+    with ExitStack() as stack:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            stack.enter_context(locked(folder))
+            if path.exists() and not plan.exists():
+                raise InputError(f"{path} is there without sweep.json; choose another folder with -o")
+            known = _known_inputs(plan, identity, inputs) if path.exists() else {}
+            write_text(plan, json.dumps({**identity, "inputs": {**known, **inputs}}, indent=1) + "\n")
+            results = stack.enter_context(closing(Results(path, axes, columns)))
+        except (OSError, ValueError) as error:
+            raise InputError(f"sweep folder {folder} cannot be used ({error}); choose another one with -o") from None
+        yield results
+
+
+def _known_inputs(
+    plan: Path, identity: Mapping[str, Any], inputs: Mapping[str, Mapping[str, str]]
+) -> dict[str, dict[str, str]]:
+    """Inputs of the rows that are there; refuses a table whose rows do not belong to those that are to come."""
+    before = read_json(plan, InputError, str(plan))
+    folder = plan.parent
+    other = f"{folder} holds the results of another sweep"
+    try:
+        known = {robot: dict(found) for robot, found in before["inputs"].items()}
+        differ = [name for name in identity if before[name] != identity[name]]
+    except (KeyError, TypeError, ValueError, AttributeError):
+        raise InputError(f"{other}, or of another version of Plantar; choose another folder with -o") from None
+    if differ:
+        how = "; ".join(f"{k} was {json.dumps(before[k])} and is {json.dumps(identity[k])}" for k in differ)
+        raise InputError(f"{other} ({how}); choose another folder with -o")
+    for robot in inputs.keys() & known.keys():
+        what = changes(known[robot], inputs[robot])
+        if what:
+            raise InputError(f"{what} since {folder} was begun; bring that back, or choose another folder with -o")
+    return known
+
+
+def _line(cells: Sequence[str]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(cells)
+    return text.getvalue().encode(errors="backslashreplace")
+
+
+def _cells(line: str) -> list[str]:
+    return next(csv.reader([line]), [])

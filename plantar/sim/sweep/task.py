@@ -1,0 +1,169 @@
+"""One run of a sweep as a flat row."""
+
+from __future__ import annotations
+
+import socket
+import traceback
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from plantar.errors import DependencyError, InputError, PlantarError
+from plantar.sim.run.scene import Scene
+from plantar.sim.run.scene_kind import open_scene, run_opened
+from plantar.sim.sweep.inputs import changes, inputs_of
+
+if TYPE_CHECKING:
+    from plantar.sim.companion.scene import CompanionScene
+
+__all__ = ["COLUMNS", "Row", "Task", "columns_of", "criteria_of", "failed", "run_one", "run_task"]
+
+_BETWEEN = " | "  # two reasons; their texts hold commas and semicolons
+
+Row = dict[str, Any]
+"""Values by column."""
+
+COLUMNS = (
+    "completed",
+    "fell",
+    "steps_planned",
+    "steps_taken",
+    "sim_time_s",
+    "real_time_factor",
+    "tilt_max_deg",
+    "zmp_margin_min_m",
+    "impact_median_N",
+    "impact_max_N",
+    "position_error_m",
+    "heading_error_deg",
+    "com_error_max_m",
+    "control_p99_us",
+    "replans",
+    "foothold_error_p95_m",
+    "area_ratios",
+    "zmp_margins_mm",
+    "reasons",
+    "error",
+)
+"""Columns of a walk's row, after the settings and the seed."""
+
+_COMPANION = ("completed", "fell", "sim_time_s", "real_time_factor", "control_p99_us", "reasons", "error")
+"""Those of an experiment of the companion; its own figures stand before the reasons."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a worker is given to run.
+
+    Attributes:
+        scene: Name or file of the scene.
+        robot: Robot to use instead of the scene's, or None.
+        settings: "key=value" settings.
+        seed: Seed.
+        inputs: What `inputs_of` found for scene and robot when the sweep began; empty where nobody looked.
+    """
+
+    scene: str
+    robot: str | None
+    settings: tuple[str, ...]
+    seed: int
+    inputs: tuple[tuple[str, str], ...] = ()
+
+
+def columns_of(scene: Scene | CompanionScene) -> tuple[str, ...]:
+    """Columns of the rows of a scene, after the settings and the seed."""
+    if isinstance(scene, Scene):
+        return COLUMNS
+    return (*_COMPANION[:-2], *scene.experiment_type.columns, *_COMPANION[-2:])
+
+
+def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -> Row:
+    """One run as a flat row; an error of the scenario becomes a row too.
+
+    Args:
+        scene: Name or file of the scene.
+        robot: Robot to use instead of the scene's, or None.
+        settings: "key=value" settings.
+        seed: Seed.
+
+    Returns:
+        Values of the result columns.
+
+    Raises:
+        DependencyError: If a library is missing.
+    """
+    try:
+        loaded = open_scene(scene, settings, robot)
+        summary = run_opened(loaded, seed)
+    except DependencyError:  # no run will be possible here
+        raise
+    except PlantarError as error:
+        return failed(str(error))
+    columns = columns_of(loaded)
+    row: Row = {
+        **dict.fromkeys(columns, ""),
+        **{name: summary[name] for name in columns if summary.get(name) is not None},
+        "control_p99_us": summary["control_us"]["p99"],
+        "reasons": _BETWEEN.join(f"{r['criterion']}: {r['text']}" for r in summary["reasons"]),
+    }
+    return row | (_of_walk(summary) if isinstance(loaded, Scene) else {})
+
+
+def _of_walk(summary: Mapping[str, Any]) -> Row:
+    """What a walk's row takes out of the tables of its summary."""
+    impacts = sorted(summary["impacts_N"])
+    return {
+        "impact_median_N": impacts[len(impacts) // 2] if impacts else "",
+        "impact_max_N": impacts[-1] if impacts else "",
+        "position_error_m": summary["final"]["position_error_m"],
+        "heading_error_deg": summary["final"]["heading_error_deg"],
+        "com_error_max_m": max(summary["estimate"]["com_error_max_m"]),
+        "foothold_error_p95_m": summary.get("footholds", {}).get("centroid_error_m", {}).get("p95", ""),
+        # A value a landing, in their order.
+        "area_ratios": " ".join(f"{v:g}" for v in summary["contact_area_ratio"]),
+        "zmp_margins_mm": " ".join("-" if v is None else f"{1e3 * v:.1f}" for v in summary["zmp_margins_m"]),
+    }
+
+
+def criteria_of(row: Mapping[str, str]) -> list[str]:
+    """Names of the criteria that a run failed, from the reasons in its row.
+
+    Example:
+        >>> criteria_of({"reasons": "fall: the base is low | steps: 2 of 8 steps; step 2 (from 0): never landed"})
+        ['fall', 'steps']
+    """
+    return [reason.partition(":")[0] for reason in row["reasons"].split(_BETWEEN) if reason]
+
+
+def run_task(task: Task) -> Row:
+    """Run a task on a worker; a defect that one run meets becomes its row, so that thousands of others go on.
+
+    Raises:
+        ImportError: If no run is possible where this is called.
+        DependencyError: Likewise.
+        InputError: If the scene or robot is not there what it was where the sweep began.
+    """
+    _check_inputs(task)
+    try:
+        return run_one(task.scene, task.robot, task.settings, task.seed)
+    except (DependencyError, ImportError):
+        raise
+    except Exception as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        return failed(f"{type(error).__name__} in {place.filename}, line {place.lineno}: {error}")
+
+
+def _check_inputs(task: Task) -> None:
+    """Refuse to run on other files or versions: rows of one table would not belong together."""
+    if task.inputs and task.robot is not None:
+        try:
+            what = changes(dict(task.inputs), inputs_of(task.scene, task.robot))
+        except PlantarError as error:
+            what = str(error)
+        if what:
+            raise InputError(f"{what} since the sweep began (seen on {socket.gethostname()})")
+
+
+def failed(error: str) -> Row:
+    """The row of a run that could not be."""
+    return {**dict.fromkeys(COLUMNS, ""), "completed": False, "error": error}

@@ -1,0 +1,38 @@
+"""Terrain: the ground that the robot walks on and that the controller never sees. A kind of ground is one file."""
+
+from plantar.sim.terrain.beam import Beam
+from plantar.sim.terrain.block import Block
+from plantar.sim.terrain.course import Course
+from plantar.sim.terrain.ground import GROUND_GROUP, Flat, Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
+from plantar.sim.terrain.stones import Partial, Pebbles, Stones, Uneven
+
+__all__ = [
+    "GROUND_GROUP",
+    "TERRAIN_KINDS",
+    "Beam",
+    "Block",
+    "Course",
+    "Flat",
+    "Footprint",
+    "Ground",
+    "Motion",
+    "Partial",
+    "Pebbles",
+    "PlannedFeet",
+    "Solid",
+    "Stones",
+    "Terrain",
+    "Uneven",
+]
+
+TERRAIN_KINDS: dict[str, type[Terrain]] = {
+    "flat": Flat,
+    "beam": Beam,
+    "block": Block,
+    "partial": Partial,
+    "stones": Stones,
+    "uneven": Uneven,
+    "pebbles": Pebbles,
+    "course": Course,
+}
+"""Kinds of ground by the name that a scene's `[terrain] kind` gives."""

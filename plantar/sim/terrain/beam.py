@@ -1,0 +1,79 @@
+"""A beam between two platforms, along the walk (T 4.4.5.3)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from plantar.mechanics.rotation import level_rotation
+from plantar.settings.schema import number, share
+from plantar.sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain
+
+__all__ = ["Beam"]
+
+_THICK = 0.1  # m, half height of beam and platforms
+_CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+
+
+class Beam(Terrain):
+    """A beam between two platforms, along the walk.
+
+    Attributes:
+        width: Width of the beam in m.
+        length: Distance in m between the platforms.
+        start: Distance in m from the middle of the standing feet to the beam; where a foot would stand on the beam from
+            the start on, as of a robot whose steps are shares of a short leg, the beam begins where that foot ends.
+        offset: Distance in m of the beam's middle line from the soles' centres, across the walk: positive to the left
+            of the walking direction, which in side steps to the left is backward.
+        offset_range: The seed adds an offset of up to this much in m, either way.
+        yaw: Angle in degrees by which the beam is turned against the walk, about its near end.
+        depth: How deep in m the floor lies below.
+    """
+
+    width: float = share(0.52, "sole", 0.005, 2)
+    length: float = share(13 / 6, "leg", 0.1, 100)
+    start: float = share(8 / 15, "leg", 0, 10)
+    offset: float = number(0.0, "m", -1, 1)
+    offset_range: float = number(0.0, "m", 0, 1)
+    yaw: float = number(0.0, "deg", -45, 45)
+    depth: float = share(0.5, "leg", 0.02, 10)
+
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        begin, end = feet.middle(), feet.middle(last=True)
+        way = end - begin
+        distance = float(np.hypot(*way))
+        heading = math.atan2(way[1], way[0]) if distance > 1e-6 else feet.standing["left"].yaw
+        along = np.array([math.cos(heading), math.sin(heading)])
+        across = np.array([-along[1], along[0]])
+        offset = self.offset + float(rng.uniform(-1.0, 1.0)) * self.offset_range
+        turned = heading + math.radians(self.yaw)
+        line = np.array([math.cos(turned), math.sin(turned)])
+        start = max(self.start, _foremost(feet, begin, along))
+        near = begin + start * along + offset * across
+        z = self.height - _THICK
+        reach = self.length / math.cos(turned - heading)  # the platforms' edges stand across the walk
+
+        def platform(first: float, last: float) -> Solid:
+            middle = begin + 0.5 * (first + last) * along
+            return Solid("box", (0.5 * (last - first), 0.8, _THICK), np.array([*middle, z]), level_rotation(heading))
+
+        # The beam's ends run 50 mm into the platforms, so that no gap opens where it is turned.
+        beam_middle = near + 0.5 * reach * line
+        half = 0.5 * reach + 0.05
+        return Ground(
+            (
+                platform(start - 1.2, start),
+                platform(start + self.length, max(start + self.length, distance) + 1.0),
+                Solid("box", (half, 0.5 * self.width, _THICK), np.array([*beam_middle, z]), level_rotation(turned)),
+            ),
+            self.height - self.depth,
+            self.friction,
+            {"beam_offset_m": round(offset, 5)},
+        )
+
+
+def _foremost(feet: PlannedFeet, begin: np.ndarray, along: np.ndarray) -> float:
+    """How far in m the standing soles reach from a point (2,) along a direction (2,)."""
+    corners = [foot.place(a * foot.half[0], b * foot.half[1]) for foot in feet.standing.values() for a, b in _CORNERS]
+    return float(max((corner - begin) @ along for corner in corners))

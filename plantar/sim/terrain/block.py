@@ -1,0 +1,101 @@
+"""Something that lies on level ground where a foot is planned to land: a slab, a wedge, a small block, pebbles."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from plantar.errors import SceneError
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.settings.schema import choice, number, share, whole
+from plantar.sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
+
+__all__ = ["Block"]
+
+
+class Block(Terrain):
+    """Something that lies on level ground under one step.
+
+    Attributes:
+        step: The step (from 0) under which it lies.
+        top: Height in m of its upper face's middle.
+        length: Length in m along the foot.
+        width: Width in m across the foot.
+        along: Its middle in m from the sole's centre, forward.
+        across: The same, outward.
+        pitch: Slope in degrees along the foot; positive falls to the front.
+        roll: Slope in degrees across the foot; positive rises to the left.
+        shape: "box", or "spheres": three spheres in a triangle of that length and width.
+        at: What `along` and `across` are measured from: the sole's "center" or the "ankle".
+        clear: Room in m that a box keeps along the foot to where the same foot stands before and after, by being
+            shorter: for robots whose soles are long for their steps; 0 lays it as long as it is.
+        slide: Distance in m from outside, from which it slides in during the swing; 0 lies there from the start.
+        height_range: The seed adds up to this much in m to `top`, either way.
+    """
+
+    step: int = whole(2, "step", 0, 100000)
+    top: float = share(0.05, "leg", 0.001, 0.3)
+    length: float = share(1.52, "sole", 0.005, 5)
+    width: float = share(1, "sole_width", 0.005, 5)
+    along: float = number(0.0, "m", -1, 1)
+    across: float = number(0.0, "m", -1, 1)
+    pitch: float = number(0.0, "deg", -30, 30)
+    roll: float = number(0.0, "deg", -30, 30)
+    shape: str = choice("box", "spheres")
+    at: str = choice("center", "ankle")
+    clear: float = number(0.0, "m", 0, 1)
+    slide: float = number(0.0, "m", 0, 2)
+    height_range: float = number(0.0, "m", 0, 0.1)
+
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        if self.step >= len(feet.steps):
+            raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
+        foot = feet.steps[self.step]
+        top = max(0.001, self.top + float(rng.uniform(-1.0, 1.0)) * self.height_range)
+        box = self.shape == "box"
+        solids = (self._box(foot, top, self._room(foot, feet)),) if box else self._spheres(foot, top)
+        return Ground(solids, self.height, self.friction, {"block_top_m": round(top, 5)})
+
+    def _middle(self, foot: Footprint) -> np.ndarray:
+        outward = 1.0 if foot.side == "left" else -1.0
+        place = foot.place(self.along, outward * self.across)
+        return place + (foot.ankle - foot.center if self.at == "ankle" else 0.0)
+
+    def _room(self, foot: Footprint, feet: PlannedFeet) -> float:
+        """Length in m of a box that keeps clear of where the same foot stands before and after."""
+        if self.clear == 0.0:
+            return self.length
+        forward = np.array([math.cos(foot.yaw), math.sin(foot.yaw)])
+        middle = self._middle(foot)
+        others = (feet.standing[foot.side], *(f for f in feet.steps if f.side == foot.side))
+        gaps = [abs(float((f.center - middle) @ forward)) - f.half[0] - self.clear for f in others]
+        return min([self.length, *(2.0 * gap for gap in gaps if gap > 0.0)])  # those at its own place have none
+
+    def _box(self, foot: Footprint, top: float, length: float) -> Solid:
+        rotation = rotation_from_angles(foot.yaw, math.radians(self.pitch), math.radians(self.roll))
+        # Thick enough to reach the floor at its lowest corner, whatever the slope.
+        half = 0.5 * (top + 0.5 * length * abs(rotation[2, 0]) + 0.5 * self.width * abs(rotation[2, 1])) + 0.01
+        upper = np.array([*self._middle(foot), self.height + top])
+        position = upper - half * rotation[:, 2]
+        return self._sliding(Solid("box", (0.5 * length, 0.5 * self.width, half), position, rotation), foot)
+
+    def _spheres(self, foot: Footprint, top: float) -> tuple[Solid, ...]:
+        middle = self._middle(foot)
+        c, s = math.cos(foot.yaw), math.sin(foot.yaw)
+        radius = max(0.01, 0.5 * top)
+        solids = []
+        for along, across in ((0.5, 0.0), (-0.5, 0.5), (-0.5, -0.5)):
+            a, b = along * self.length, across * self.width
+            place = middle + np.array([c * a - s * b, s * a + c * b])
+            center = np.array([*place, self.height + top - radius])
+            solids.append(self._sliding(Solid("sphere", (radius, 0.0, 0.0), center), foot))
+        return tuple(solids)
+
+    def _sliding(self, solid: Solid, foot: Footprint) -> Solid:
+        if self.slide == 0.0:
+            return solid
+        outward = np.array([-math.sin(foot.yaw), math.cos(foot.yaw), 0.0]) * (1.0 if foot.side == "left" else -1.0)
+        swing = foot.touchdown - foot.lift_off
+        motion = Motion(foot.lift_off + 0.25 * swing, 0.35 * swing, solid.position)
+        return Solid(solid.shape, solid.size, solid.position + self.slide * outward, solid.rotation, (motion,))

@@ -1,0 +1,133 @@
+"""Intentional contact: what is in the way may be touched and pushed, with no more than a tolerable force (T 3.4.2).
+
+T Table 1 gives conditions for its three arrangements that hold side by side, and at an exact zero of forces that a
+sensor never reads. Here one counts until the conditions of another have held for a while, with hysteresis.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Literal, NamedTuple
+
+from plantar.settings.schema import Settings, number
+from plantar.wholebody.tasks.task import Task
+
+__all__ = ["Arrangement", "ContactSettings", "ContactSigns", "IntentionalContact"]
+
+Arrangement = Literal["avoid", "approach", "retreat"]
+"""T Table 1 a, b and c: obstacle avoidance, intentional approach and contact, hard contact reaction."""
+
+
+class ContactSettings(Settings):
+    """Thresholds of T Table 1 and the times against chattering.
+
+    Attributes:
+        slow: epsilon_v: speed of the end effector in m/s below which it is taken to be stuck.
+        force_limit: epsilon_c: contact force in N from which it retreats.
+        release: Share of the limit below which the force has to fall before it tries again.
+        stuck: Time in s for which it has to be slow before it approaches.
+        retreat: Least time in s of a retreat.
+        patience: Time in s for which it presses on what does not move before it retreats.
+        free: Time in s without contact and with nothing near, after which it avoids again.
+        shrink: Time in s in which the sensing range shrinks to nothing while it approaches, and grows again after.
+    """
+
+    slow: float = number(0.02, "m/s", 0.0, 10.0)
+    force_limit: float = number(10.0, "N", 1e-3, 1e4)
+    release: float = number(0.5, "1", 0.0, 1.0)
+    stuck: float = number(0.3, "s", 0.0, 60.0)
+    retreat: float = number(0.3, "s", 0.0, 60.0)
+    patience: float = number(2.0, "s", 0.0, 60.0)
+    free: float = number(0.5, "s", 0.0, 60.0)
+    shrink: float = number(0.5, "s", 1e-3, 60.0)
+
+
+class ContactSigns(NamedTuple):
+    """What arrangements are chosen by.
+
+    Attributes:
+        speed: Speed ||x'|| of the end effector in m/s.
+        near: ||f_p||: virtual force of what the skin sees in its whole range in N.
+        contact: ||f_c||: largest contact force that the skin feels in N.
+        arrived: Whether the goal is reached, where the end effector may rest.
+    """
+
+    speed: float
+    near: float
+    contact: float
+    arrived: bool = False
+
+
+class IntentionalContact:
+    """The arrangement that counts, and how much of the sensing range is used.
+
+    Args:
+        goal: Tasks that lead to the goal, tau_g of T 3.40.
+        contact: Tasks that yield to a contact, tau_c of T 3.41.
+        avoidance: Tasks that keep away from what is near, tau_p of T 3.33.
+        settings: Thresholds and times.
+
+    Attributes:
+        arrangement: Which one counts.
+        range_share: Share of the sensing range that avoidance shall use, 0 to 1.
+        levels: The levels that count, the highest first.
+    """
+
+    def __init__(
+        self,
+        goal: Sequence[Task],
+        contact: Sequence[Task],
+        avoidance: Sequence[Task],
+        settings: ContactSettings | None = None,
+    ) -> None:
+        self.settings = settings or ContactSettings()
+        self.arrangement: Arrangement = "avoid"
+        self.range_share = 1.0
+        self._levels: dict[Arrangement, Sequence[Sequence[Task]]] = {
+            "avoid": (avoidance, goal, contact),
+            "approach": (goal, contact, avoidance),
+            "retreat": (contact, goal, avoidance),
+        }
+        self._time = -math.inf
+        self._held = self._pressed = 0.0  # for how long what leads on has held, and what leads to a retreat
+
+    @property
+    def levels(self) -> Sequence[Sequence[Task]]:
+        return self._levels[self.arrangement]
+
+    def update(self, signs: ContactSigns, time: float) -> bool:
+        """Take note of what skin and end effector say; a force over the limit counts at once.
+
+        Args:
+            signs: What they say.
+            time: Time in s.
+
+        Returns:
+            Whether the arrangement has changed just now: then a transition of priorities begins.
+        """
+        s, before = self.settings, self.arrangement
+        period = max(0.0, time - self._time) if math.isfinite(self._time) else 0.0
+        self._time = time
+        pressing = self.arrangement == "approach" and signs.contact > 0.0 and signs.speed <= s.slow
+        self._pressed = self._pressed + period if pressing and not signs.arrived else 0.0
+        if signs.contact >= s.force_limit or self._pressed > s.patience:
+            self.arrangement, self._held = "retreat", 0.0
+        else:
+            leads_on, wait, following = self._way_on(signs)
+            self._held = self._held + period if leads_on else 0.0
+            if leads_on and self._held >= wait:
+                self.arrangement, self._held = following, 0.0
+        step = period / s.shrink
+        self.range_share = min(1.0, max(0.0, self.range_share + (step if self.arrangement != "approach" else -step)))
+        return self.arrangement != before
+
+    def _way_on(self, signs: ContactSigns) -> tuple[bool, float, Arrangement]:
+        """Whether what ends the arrangement holds, for how long it has to, and what follows."""
+        s, near = self.settings, signs.near > 0.0
+        touched = signs.contact > 0.0
+        if self.arrangement == "avoid":
+            return not signs.arrived and signs.speed <= s.slow and (near or touched), s.stuck, "approach"
+        if self.arrangement == "retreat":
+            return signs.contact < s.release * s.force_limit, s.retreat, "avoid"
+        return not touched and (signs.arrived or not near), s.free, "avoid"

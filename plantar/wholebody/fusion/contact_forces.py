@@ -1,0 +1,102 @@
+"""What each contact of a standing robot carries: pressing, not pulling, inside its area, without slipping (T 4.4.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.mechanics.contact import Contact
+from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution, WrenchShare
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.support import Support
+from plantar.wholebody.tasks.task import Demand
+
+__all__ = ["ContactForces"]
+
+
+class ContactForces:
+    """Shares what acts on a free base among its contacts, as `joint_torques` does with the least force, but in cones.
+
+    Args:
+        support: The task whose contacts carry.
+        base: Link whose motion is the free coordinates.
+        weight: Weight of the robot in N.
+        least: Least normal force of a contact as a share of that.
+        weights: What counts how much where there is a choice.
+
+    Attributes:
+        shares: Share of the load that each contact shall take by its name; equal ones where None.
+        last: What each contact was given at last, in its own frame.
+    """
+
+    def __init__(
+        self,
+        support: Support,
+        base: str,
+        weight: float,
+        least: float = 0.01,
+        weights: DistributionWeights | None = None,
+    ) -> None:
+        self.shares: Mapping[str, float] | None = None
+        self.last: WrenchShare | None = None
+        self._support, self._base = support, base
+        self._free: NDArray[np.int64] | None = None  # coordinates that no joint drives
+        self._distribution = WrenchDistribution(weight, weights, minimum_force=least * weight)
+
+    def __call__(
+        self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+        """Share a generalized force (see `plantar.wholebody.fusion.hierarchy.joint_torques`).
+
+        Args:
+            robot: The robot.
+            force: Generalized force (n,).
+            support: Rows of the support task.
+
+        Returns:
+            Joint torques (k,) and the forces (s,) along those rows.
+
+        Raises:
+            InputError: If there is no support.
+        """
+        if support is None:
+            raise InputError("contact forces need a support")
+        contacts = self._contacts(robot)
+        wrenches = self._shared(robot, force, contacts).wrenches
+        parts = []
+        for name, contact in contacts.items():
+            turned = np.concatenate([contact.rotation @ wrenches[name][:3], contact.rotation @ wrenches[name][3:]])
+            parts.append(turned[: self._support.contacts[name].rows])
+        carried = np.concatenate(parts)
+        return force[robot.joints] - support.jacobian[:, robot.joints].T @ carried, carried
+
+    def share(self, robot: RobotDynamics, force: NDArray[np.float64]) -> WrenchShare:
+        """What each contact would carry of a generalized force (n,) on the base.
+
+        Args:
+            robot: The robot.
+            force: Generalized force (n,).
+
+        Returns:
+            The wrench of each contact in its own frame.
+        """
+        return self._shared(robot, force, self._contacts(robot))
+
+    def _shared(self, robot: RobotDynamics, force: NDArray[np.float64], contacts: Mapping[str, Contact]) -> WrenchShare:
+        if self._free is None:
+            self._free = np.setdiff1d(np.arange(len(force)), robot.joints)
+        net = np.asarray(np.linalg.solve(robot.jacobian(self._base)[:, self._free].T, force[self._free]))
+        self.last = self._distribution.solve(contacts, net, robot.pose(self._base)[0], self.shares)
+        return self.last
+
+    def _contacts(self, robot: RobotDynamics) -> dict[str, Contact]:
+        """The support's contacts where they are now."""
+        contacts = {}
+        for name, standing in self._support.contacts.items():
+            origin, rotation = robot.pose(standing.link)
+            turn = rotation if standing.rotation is None else rotation @ standing.rotation
+            contacts[name] = Contact(origin + rotation @ standing.point, turn, standing.area, standing.friction)
+        return contacts

@@ -1,0 +1,168 @@
+"""The hierarchy of `fusion.hierarchy` as least squares within limits of torques, speeds and positions, level by level.
+
+Projections (A 19-25) cannot hold a limit: clipping their torques afterwards breaks every priority. Here each level is
+met as well as the limits and the levels above it leave room for (Escande et al. 2014). In mass-weighted coordinates
+the least motion is the dynamically consistent one, so where no limit acts the motion is that of the hierarchy.
+
+A direction near a singularity is damped by the same rule. Where no motion keeps all limits, those of speed and position
+are widened by as little as it takes, after that those of torque, and what is put out is cut to them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+
+from plantar.errors import InputError
+from plantar.mechanics.within_limits import Box, nearest_within
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.fusion.hierarchy import DAMPED, RANK, Fused, fuse, joint_torques
+from plantar.wholebody.fusion.null_space import mass_factor
+from plantar.wholebody.tasks.task import Demand
+
+__all__ = ["HierarchicalQP", "JointLimits"]
+
+
+@dataclass(frozen=True)
+class JointLimits:
+    """Limits of the joints, in the order of `RobotDynamics.joints`.
+
+    Attributes:
+        torque: Largest torque or force (k,) in N m or N.
+        velocity: Largest speed (k,) in rad/s or m/s.
+        low: Lowest position (k,) in rad or m; -inf for none.
+        high: Highest position (k,).
+        slow_down: Time in s in which the distance to a limit of position may be crossed at most.
+        reach: Time in s in which a speed beyond what is allowed is brought back: some control periods.
+        acceleration: Largest acceleration in rad/s^2 or m/s^2 of every joint.
+
+    Raises:
+        InputError: If a limit is not above 0, or a range is empty.
+    """
+
+    torque: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    slow_down: float = 0.1
+    reach: float = 0.02
+    acceleration: float = np.inf
+
+    def __post_init__(self) -> None:
+        smallest = min(np.min(self.torque), np.min(self.velocity), self.slow_down, self.reach, self.acceleration)
+        if not smallest > 0.0 or not (np.asarray(self.low) < self.high).all():
+            raise InputError(f"a limit of torque, speed or time is {smallest:g}, or a range of positions is empty")
+
+    def accelerations(self, robot: RobotDynamics) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lowest and highest acceleration (k,) that keep speed and position in their limits."""
+        position, speed = robot.joint_positions, robot.velocity[robot.joints]
+        slowest = np.maximum(-self.velocity, (self.low - position) / self.slow_down)
+        fastest = np.minimum(self.velocity, (self.high - position) / self.slow_down)
+        most = self.acceleration
+        return np.clip((slowest - speed) / self.reach, -most, most), np.clip(
+            (fastest - speed) / self.reach, -most, most
+        )
+
+
+class HierarchicalQP:
+    """A fusion, to be called as `plantar.wholebody.fusion.hierarchy.fuse` is.
+
+    Args:
+        limits: Limits of the joints.
+        shortcut: Whether the hierarchy's motion is taken where it keeps all limits; it is what all levels would come
+            to, for a fraction of the time.
+
+    Attributes:
+        limited: Whether a limit acted at the last call.
+    """
+
+    def __init__(self, limits: JointLimits, shortcut: bool = True) -> None:
+        self.limits, self.shortcut, self.limited = limits, shortcut, False
+
+    def __call__(
+        self,
+        robot: RobotDynamics,
+        levels: Sequence[Sequence[Demand | None]],
+        support: Demand | None = None,
+        external: NDArray[np.float64] | None = None,
+    ) -> Fused:
+        """Torques, acceleration and support force; see `plantar.wholebody.fusion.hierarchy.fuse` for the arguments."""
+        low, high = self.limits.accelerations(robot)
+        if self.shortcut:
+            free = fuse(robot, levels, support, external)
+            moved = free.acceleration[robot.joints]
+            self.limited = not bool((np.abs(free.torque) <= self.limits.torque).all()) or not bool(
+                ((low <= moved) & (moved <= high)).all()
+            )
+            if not self.limited:
+                return free
+        factor = mass_factor(robot.mass_matrix)
+        outer = np.zeros_like(robot.bias) if external is None else external
+        still = joint_torques(robot, robot.bias - outer, support)[0]
+        columns = factor[robot.joints]  # torque of each y
+        if support is not None and len(robot.joints) < len(factor):
+            base = np.delete(np.arange(len(factor)), robot.joints)
+            shared = np.linalg.lstsq(support.jacobian[:, base].T, factor[base], rcond=None)[0]
+            columns = columns - support.jacobian[:, robot.joints].T @ shared
+        moves = np.asarray(solve_triangular(factor, np.eye(len(factor)), lower=True).T)[robot.joints]
+        box = Box.of(columns, -self.limits.torque - still, self.limits.torque - still, moves, low, high)
+        y = _descend(factor, box, levels, support)
+        acceleration = np.asarray(solve_triangular(factor, y, lower=True, trans=1))
+        torque, force = joint_torques(robot, factor @ y + robot.bias - outer, support)
+        return Fused(np.clip(torque, -self.limits.torque, self.limits.torque), acceleration, force)
+
+
+def _sublevels(
+    levels: Sequence[Sequence[Demand | None]], support: Demand | None
+) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64] | None, NDArray[np.float64] | None]]:
+    """Rows of what is met together, and the acceleration along them or the generalized force that acts on them."""
+    for level in ([support], *levels):
+        meant = [d for d in level if d is not None and d.acceleration is not None]
+        pushing = [d for d in level if d is not None and d.acceleration is None and d.force is not None]
+        if meant:
+            wanted = [a if d.drift is None else a - d.drift for d in meant if (a := d.acceleration) is not None]
+            yield np.vstack([d.jacobian for d in meant]), np.concatenate(wanted), None
+        if pushing:
+            forces = [d.jacobian.T @ d.force for d in pushing if d.force is not None]
+            yield np.vstack([d.jacobian for d in pushing]), None, np.sum(forces, axis=0)
+
+
+def _descend(
+    factor: NDArray[np.float64], box: Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
+) -> NDArray[np.float64]:
+    """Meet level after level, the support as if there were no limits; what nobody asks for moves least."""
+    y, left = np.zeros(len(factor)), np.eye(len(factor))  # and an orthonormal basis of what is left
+    limited = support is None
+    for jacobian, wanted, force in _sublevels(levels, support):
+        rows = np.asarray(solve_triangular(factor, jacobian.T, lower=True).T)
+        sizes = np.sqrt(np.einsum("ij,ij->i", rows, rows))
+        counted = sizes > RANK * sizes.max()
+        if not counted.any() or not left.shape[1]:
+            continue
+        across, strengths, along = np.linalg.svd(rows[counted] @ left)
+        rank = int(np.count_nonzero(strengths > RANK * sizes.max()))
+        if rank == 0:
+            continue
+        own, strengths, weights = along[:rank], strengths[:rank], np.ones(rank)
+        if wanted is not None:
+            lengths = np.linalg.norm(jacobian[counted], axis=1)
+            damped = DAMPED * float((sizes[counted] / lengths).min() * np.linalg.norm(jacobian, axis=1).max())
+            weights = strengths**2 + np.maximum(0.0, 1.0 - (strengths / damped) ** 2) * (damped / 2.0) ** 2
+            target = strengths / weights * (across.T[:rank] @ (wanted - jacobian @ _back(factor, y))[counted])
+        else:
+            target = own @ (left.T @ np.asarray(solve_triangular(factor, force, lower=True)))
+        if limited:
+            box, target = nearest_within(box, y, left, own, target, weights)
+        limited = True
+        y = y + left @ (target @ own)
+        left = left @ along[rank:].T
+    rest = left.shape[1]
+    return y + left @ nearest_within(box, y, left, np.eye(rest), np.zeros(rest), np.ones(rest))[1] if rest else y
+
+
+def _back(factor: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(solve_triangular(factor, y, lower=True, trans=1))

@@ -1,0 +1,211 @@
+"""Tasks in strict order, dynamically consistent: A 19-25 and, with a support, T 3.13.
+
+The projectors of A 22-25 are products of large matrices that lose their digits near singularities. In mass-weighted
+coordinates y = L^T q'', M = L L^T, the dynamically consistent inverse (A 25) is the plain pseudo-inverse and the
+projector (A 24) an orthogonal one, so the same torques follow from one QR decomposition a level: what a level owns is
+an orthonormal basis, and what is below acts in the rest of it, to rounding.
+
+Near a singularity the two things that are wanted of a task part: a direction with a singular value above `RANK` of its
+rows' size stays its own, so that priority is strict; and below `DAMPED` of that size it is driven by
+s / (s^2 + lambda^2), lambda^2 = (1 - (s / s_0)^2) s_0^2 / 4, so that torques stay bounded and continuous.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack
+
+from plantar.errors import InputError
+from plantar.kernels.joints.task_space import TaskSpace
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.task import Demand
+
+__all__ = ["DAMPED", "RANK", "Fused", "Split", "fuse", "joint_torques"]
+
+RANK = 1e-11
+"""Share of its rows' size below which a direction is none of a task's: some orders above rounding."""
+
+DAMPED = 1e-2
+"""Share of a row's full size below which a direction is damped: an elbow within some 0.6 degrees of straight.
+
+A row's full size is what it would have if its row of the Jacobian were as long as the longest of its level: the row
+itself may vanish at a singularity, such as that of the direction in which an arm is stretched.
+"""
+
+
+class Fused(NamedTuple):
+    """What fused tasks come to.
+
+    Attributes:
+        torque: Torque or force (k,) of each joint of `RobotDynamics.joints` in N m or N, gravity included.
+        acceleration: The generalized acceleration (n,) that it gives while nothing else pushes.
+        support_force: Force (s,) along the rows of the support that this takes; None without one.
+    """
+
+    torque: NDArray[np.float64]
+    acceleration: NDArray[np.float64]
+    support_force: NDArray[np.float64] | None
+
+
+Split = Callable[
+    [RobotDynamics, NDArray[np.float64], Demand | None], tuple[NDArray[np.float64], NDArray[np.float64] | None]
+]
+"""A way to share a generalized force (n,) among joints and support, such as `joint_torques`."""
+
+
+def fuse(
+    robot: RobotDynamics,
+    levels: Sequence[Sequence[Demand | None]],
+    support: Demand | None = None,
+    external: NDArray[np.float64] | None = None,
+    split: Split | None = None,
+) -> Fused:
+    """Torques that meet every level as well as the levels above it leave room for (A 19-25, T 3.8, 3.13).
+
+    Within a level accelerations are met first, all together; forces add up and act in what these leave (T 3.22).
+
+    Args:
+        robot: Kinematics and dynamics of this instant.
+        levels: What the tasks ask for, the highest priority first. None stands for a task that is silent; it and a
+            level without any other cost nothing.
+        support: Rows on which the robot stands, above all levels; a robot whose base is not driven needs them.
+        external: Generalized force (n,) that is known to act, such as J^T w of what the skin feels; taken out of what
+            the joints and the support have to do.
+        split: How joints and support share what is to be done; `joint_torques` where None.
+
+    Returns:
+        Torques, acceleration and support force.
+
+    Raises:
+        InputError: If a demand has neither force nor acceleration, rows of another length, or the mass matrix is not
+            positive definite.
+    """
+    every = [[d for d in level if d is not None] for level in ([support], *levels)]
+    asked = [level for level in every if level]
+    mass = robot.mass_matrix
+    space = _space(len(mass))
+    if not space.begin(mass):
+        raise InputError("the mass matrix is not positive definite: a model needs mass or armature at every joint")
+    for level in asked:
+        _add(space, level, last=level is asked[-1])
+    acceleration = np.empty(space.size)
+    space.acceleration(acceleration)
+    force = mass.dot(acceleration) + robot.bias
+    if external is not None:
+        force -= external
+    torque, support_force = (split or joint_torques)(robot, force, support)
+    return Fused(torque, acceleration, support_force)
+
+
+def joint_torques(
+    robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Split a generalized force among joints and support: S^T tau + J_s^T f_s (T 3.12).
+
+    The support takes what acts on coordinates that no joint drives, with the least force.
+
+    Args:
+        robot: The robot.
+        force: Generalized force (n,).
+        support: Rows on which it stands; None for a robot all of whose coordinates are driven.
+
+    Returns:
+        Joint torques (k,) and support force (s,) or None.
+
+    Raises:
+        InputError: If coordinates are not driven and nothing supports them.
+    """
+    joints = robot.joints
+    if support is None:
+        if len(joints) < len(force):
+            raise InputError("the robot's base is not driven: its stack needs a support")
+        return force[joints], None
+    base = len(force) - len(joints)
+    if base == 0:
+        return force[joints], None
+    rows = support.jacobian
+    if joints[0] == base:  # those that no joint drives come first
+        carried, driven = rows[:, :base], rows[:, base:]
+        undriven, torque = force[:base], force[base:]
+    else:
+        free = np.delete(np.arange(len(force)), joints)
+        carried, driven, undriven, torque = rows[:, free], rows[:, joints], force[free], force[joints]
+    least = _least_norm(carried.T, undriven)
+    return np.asarray(torque - least.dot(driven)), least
+
+
+def _least_norm(matrix: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The shortest x with matrix x = wanted, or nearest to it: by a QR decomposition, by singular values if it must."""
+    rows, columns = matrix.shape
+    if rows <= columns:
+        factored, scales, _, info = lapack.dgeqrf(matrix.T)
+        upper = factored[:rows]
+        ends = np.abs(upper.diagonal())
+        if info == 0 and ends.min() > 1e-6 * ends.max():
+            found = np.zeros((columns, 1))
+            found[:rows, 0] = lapack.dtrtrs(upper, wanted, lower=0, trans=1)[0]
+            return np.asarray(lapack.dormqr("L", "N", factored, scales, found, 64)[0][:, 0])
+    return np.asarray(np.linalg.lstsq(matrix, wanted, rcond=None)[0])
+
+
+def _add(space: TaskSpace, level: Sequence[Demand], last: bool) -> None:
+    """Meet a level in what is left, and own its rows unless nothing comes after it."""
+    meant = [d for d in level if d.acceleration is not None]
+    pushing = [d for d in level if d.acceleration is None]
+    if meant and space.used < space.size:
+        wanted = [a if d.drift is None else a - d.drift for d in meant if (a := d.acceleration) is not None]
+        _meet(space, _stacked(meant, space.size), wanted[0] if len(wanted) == 1 else np.concatenate(wanted))
+    if pushing:
+        torque = np.zeros(space.size)
+        for demand in pushing:
+            if demand.force is None:
+                raise InputError("a task asks for neither a force nor an acceleration")
+            torque += demand.force @ demand.jacobian
+        space.push(torque)
+        if not last and space.used < space.size:
+            rows = _stacked(pushing, space.size)
+            space.own(rows, rows[0], False, RANK)  # of what is wanted nothing is read
+
+
+def _stacked(demands: Sequence[Demand], size: int) -> NDArray[np.float64]:
+    """The rows (m, n) of a level."""
+    rows = demands[0].jacobian if len(demands) == 1 else np.vstack([d.jacobian for d in demands])
+    if rows.ndim != 2 or rows.shape[1] != size:
+        raise InputError(f"a task's Jacobian has shape {rows.shape}; expected rows of {size}")
+    return np.ascontiguousarray(rows)
+
+
+def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float64]) -> None:
+    """Own rows and meet in them what is wanted; directions below `DAMPED` are filtered as this module's head says."""
+    if wanted.shape != (len(rows),):
+        raise InputError(f"a task asks for an acceleration of shape {wanted.shape}; expected one a row, ({len(rows)},)")
+    rank, bound = space.own(rows, np.ascontiguousarray(wanted), True, RANK)
+    count = len(rows)
+    if rank == 0:
+        return
+    if bound > DAMPED:
+        if rank == count:
+            space.meet(rank)
+        else:
+            space.fit(rank, count, RANK)
+        return
+    sizes = np.asarray(space.sizes)[:count]
+    counted = sizes > RANK * sizes.max()
+    left = np.asarray(space.columns)[space.used - rank : space.used, :count].T[counted]
+    missing = np.asarray(space.missing)[:count][counted]
+    damped = DAMPED * float(np.asarray(space.full)[:count][counted].min())
+    across, strengths, along = np.linalg.svd(left, full_matrices=False)
+    short = np.maximum(0.0, 1.0 - (strengths / damped) ** 2) * (damped / 2.0) ** 2
+    met = np.asarray(space.y)[space.used - rank : space.used]
+    met += along.T @ (strengths / (strengths**2 + short) * (across.T @ missing))
+
+
+@lru_cache(maxsize=8)
+def _space(size: int) -> TaskSpace:
+    """Work arrays for robots of so many coordinates, made once."""
+    return TaskSpace(size)

@@ -1,0 +1,176 @@
+"""Torques of tasks as T prints them: added (T 3.6), or each in the null space of those above it (T 3.3-3.4, 3.7-3.13).
+
+For comparison and for tasks that are forces: without the correction by the accelerations that higher tasks cause
+(A 21), and each projector a matrix of its own. `fusion.hierarchy` is what to use.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack, solve_triangular
+
+from plantar.errors import InputError
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.fusion.hierarchy import RANK, Fused, joint_torques
+from plantar.wholebody.tasks.task import Demand
+
+__all__ = [
+    "Projection",
+    "mass_factor",
+    "null_space_projector",
+    "null_space_torques",
+    "task_torque",
+    "weighted_sum",
+]
+
+Projection = Literal["recursive", "augmented", "successive"]
+"""How higher tasks count: projected one after another, all rows at once (T 3.9-3.10), or only the last (T 3.7)."""
+
+
+def mass_factor(mass_matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Lower Cholesky factor L (n, n) of a mass matrix, M = L L^T.
+
+    Raises:
+        InputError: If the matrix is not positive definite.
+    """
+    factor, info = lapack.dpotrf(mass_matrix, lower=1, clean=1)
+    if info != 0:
+        raise InputError("the mass matrix is not positive definite: a model needs mass or armature at every joint")
+    return np.asarray(factor)
+
+
+def task_torque(robot: RobotDynamics, demand: Demand) -> NDArray[np.float64]:
+    """Generalized force of one task by itself: J^T f (T 3.4), with f = Lambda (x''* - J' q') where it is a motion.
+
+    Args:
+        robot: The robot.
+        demand: What the task asks for.
+
+    Returns:
+        Force (n,), without the robot's bias.
+    """
+    if demand.acceleration is None:
+        return np.asarray(demand.jacobian.T @ np.asarray(demand.force))
+    factor = mass_factor(robot.mass_matrix)
+    rows = solve_triangular(factor, demand.jacobian.T, lower=True).T
+    drift = 0.0 if demand.drift is None else demand.drift
+    return np.asarray(factor @ (np.linalg.pinv(rows, rcond=RANK) @ (demand.acceleration - drift)))
+
+
+def null_space_projector(
+    jacobian: NDArray[np.float64], factor: NDArray[np.float64] | None = None
+) -> NDArray[np.float64]:
+    """N = I - J^T (J^#)^T (T 3.7): what it lets through of a generalized force leaves a task alone.
+
+    With M = L L^T, the dynamically consistent inverse of J (A 25) is L^-T times the pseudo-inverse of J L^-T, which is
+    defined at singularities too.
+
+    Args:
+        jacobian: J (m, n) of the task.
+        factor: L (n, n), for the dynamically consistent inverse; the Moore-Penrose inverse where None.
+
+    Returns:
+        Projector (n, n) of generalized forces.
+    """
+    rows = jacobian if factor is None else solve_triangular(factor, jacobian.T, lower=True).T
+    size = jacobian.shape[1]
+    plain = np.eye(size) - np.linalg.pinv(rows, rcond=RANK) @ rows
+    if factor is None:
+        return np.asarray(plain)
+    return np.asarray(solve_triangular(factor, (factor @ plain).T, lower=True, trans=1).T)
+
+
+def null_space_torques(
+    robot: RobotDynamics,
+    levels: Sequence[Sequence[Demand | None]],
+    support: Demand | None = None,
+    external: NDArray[np.float64] | None = None,
+    projection: Projection = "recursive",
+    consistent: bool = True,
+) -> Fused:
+    """Sum of the tasks' torques, each in the null space of those above (T 3.8, 3.11, 3.13).
+
+    Args:
+        robot: Kinematics and dynamics of this instant.
+        levels: What the tasks ask for, the highest priority first; the tasks of a level count as one. None stands for a
+            task that is silent.
+        support: Rows on which the robot stands, above all levels.
+        external: Generalized force (n,) that is known to act.
+        projection: How higher tasks count.
+        consistent: Whether projectors are dynamically consistent; where not, lower tasks push higher ones.
+
+    Returns:
+        Torques, acceleration and support force.
+
+    Raises:
+        InputError: If the robot's base is not driven and there is no support.
+    """
+    size = len(robot.bias)
+    factor = mass_factor(robot.mass_matrix)
+    weighting = factor if consistent else None
+    through, above = np.eye(size), np.zeros((0, size))
+    force = np.zeros(size)
+    for level in [[support], *levels]:
+        asked = [d for d in level if d is not None]
+        if not asked:
+            continue
+        force += through @ np.sum([task_torque(robot, d) for d in asked], axis=0)
+        rows = np.vstack([d.jacobian for d in asked])
+        if projection == "recursive":
+            through = through @ null_space_projector(rows @ through.T, weighting)
+        elif projection == "augmented":
+            above = np.vstack([above, rows])
+            through = null_space_projector(above, weighting)
+        else:
+            through = through @ null_space_projector(rows, weighting)
+    return _fused(robot, force, support, external)
+
+
+def weighted_sum(
+    robot: RobotDynamics,
+    levels: Sequence[Sequence[Demand | None]],
+    support: Demand | None = None,
+    external: NDArray[np.float64] | None = None,
+    weights: Sequence[float | NDArray[np.float64]] | None = None,
+) -> Fused:
+    """tau = sum W_i tau_i (T 3.6): every task disturbs every other, only a support stays above (T 3.13).
+
+    Args:
+        robot: Kinematics and dynamics of this instant.
+        levels: What the tasks ask for; None stands for a task that is silent.
+        support: Rows on which the robot stands.
+        external: Generalized force (n,) that is known to act.
+        weights: Weight of each level: a number, or one (n,) for each coordinate; 1 for all where None.
+
+    Returns:
+        Torques, acceleration and support force.
+
+    Raises:
+        InputError: If there are not as many weights as levels, or nothing supports a base that is not driven.
+    """
+    weights = [1.0] * len(levels) if weights is None else weights
+    if len(weights) != len(levels):
+        raise InputError(f"there are {len(weights)} weights for {len(levels)} levels; expected one for each")
+    total = np.zeros_like(robot.bias)
+    for weight, level in zip(weights, levels, strict=True):
+        for demand in level:
+            if demand is not None:
+                total += weight * task_torque(robot, demand)
+    if support is not None:
+        factor = mass_factor(robot.mass_matrix)
+        total = task_torque(robot, support) + null_space_projector(support.jacobian, factor) @ total
+    return _fused(robot, total, support, external)
+
+
+def _fused(
+    robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None, external: NDArray[np.float64] | None
+) -> Fused:
+    """What a generalized force (n,) without the robot's bias comes to."""
+    acceleration = np.asarray(np.linalg.solve(robot.mass_matrix, force))
+    total = force + robot.bias if external is None else force + robot.bias - external
+    torque, support_force = joint_torques(robot, total, support)
+    return Fused(torque, acceleration, support_force)

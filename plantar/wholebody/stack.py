@@ -1,0 +1,66 @@
+"""A robot's tasks in their order, and the torques that they come to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sensing.link_skin import SkinReading
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.fusion.hierarchy import Fused, fuse
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["Fusion", "TaskStack"]
+
+
+class Fusion(Protocol):
+    """A way to make one torque of many demands, such as `plantar.wholebody.fusion.hierarchy.fuse`."""
+
+    def __call__(
+        self,
+        robot: RobotDynamics,
+        levels: Sequence[Sequence[Demand | None]],
+        support: Demand | None = None,
+        external: NDArray[np.float64] | None = None,
+    ) -> Fused:
+        """See `plantar.wholebody.fusion.hierarchy.fuse`, which takes the same arguments."""
+
+
+class TaskStack:
+    """Tasks by priority.
+
+    Args:
+        levels: Tasks of each level, the highest priority first. May be assigned anew at any time.
+        support: Task above all levels on whose rows the robot stands; None for a fixed base.
+        fusion: How demands are fused.
+
+    Attributes:
+        silent: How many tasks had nothing to say, and were skipped, so far.
+    """
+
+    def __init__(self, levels: Sequence[Sequence[Task]], support: Task | None = None, fusion: Fusion = fuse) -> None:
+        self.levels = [list(level) for level in levels]
+        self.support = support
+        self.fusion = fusion
+        self.silent = 0
+
+    def step(
+        self, robot: RobotDynamics, skin: SkinReading | None = None, external: NDArray[np.float64] | None = None
+    ) -> Fused:
+        """Ask every task, and fuse.
+
+        Args:
+            robot: Kinematics and dynamics of this instant.
+            skin: The latest reading of the skin.
+            external: Generalized force (n,) that is known to act; None for none.
+
+        Returns:
+            Torques, acceleration and support force.
+        """
+        demands = [[task.demand(robot, skin) for task in level] for level in self.levels]
+        self.silent += sum(demand is None for level in demands for demand in level)
+        support = None if self.support is None else self.support.demand(robot, skin)
+        return self.fusion(robot, demands, support, external)

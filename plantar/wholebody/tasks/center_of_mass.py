@@ -1,0 +1,48 @@
+"""Place of the centre of mass (T 3.25)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sensing.link_skin import SkinReading
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["CenterOfMass"]
+
+
+class CenterOfMass(Task):
+    """Draws the centre of mass to its target: x''* = K (x_d - x) + D (x'_d - x') (T 3.25 corrected, A 4).
+
+    Args:
+        target: Wanted position (3,) in the world in m.
+        stiffness: K in 1/s^2.
+        damping: D in 1/s; critical where None.
+        axes: Which of x, y and z are held.
+
+    Attributes:
+        target_velocity: Wanted velocity (3,) in m/s.
+    """
+
+    def __init__(
+        self,
+        target: NDArray[np.float64],
+        stiffness: float = 50.0,
+        damping: float | None = None,
+        axes: Sequence[int] = (0, 1, 2),
+    ) -> None:
+        self.target = np.asarray(target, dtype=float)
+        self.target_velocity = np.zeros(3)
+        self.stiffness = stiffness
+        self.damping = 2.0 * float(np.sqrt(stiffness)) if damping is None else damping
+        self._axes = list(axes)
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        position, jacobian, drift = robot.com()
+        wanted = self.stiffness * (self.target - position)
+        wanted += self.damping * (self.target_velocity - jacobian @ robot.velocity)
+        axes = self._axes
+        return Demand(jacobian[axes], acceleration=wanted[axes], drift=drift[axes])

@@ -1,0 +1,68 @@
+"""A wrist that turns a patch of skin to the surface before it: the moment on the patch is brought to zero (A 10)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sensing.body_skin import patch_signal
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import Settings, number
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["CompliantWrist", "WristGains"]
+
+
+class WristGains(Settings):
+    """How the wrist yields (A 10).
+
+    Attributes:
+        inertia: Lambda_2.
+        damping: D_2.
+        gain: K_2 on the moment.
+        proximity_stiffness: Force that counts for a metre by which a taxel is nearer than it sees.
+    """
+
+    inertia: float = number(0.02, "kg m^2", 1e-6, 1e3)
+    damping: float = number(0.4, "N m s", 0, 1e4)
+    gain: float = number(1.0, "1", 0, 1e4)
+    proximity_stiffness: float = number(20.0, "N/m", 0, 1e6)
+
+
+class CompliantWrist(Task):
+    """omega'* = (K Gamma - D omega) / Lambda with the moment Gamma on the patch about its middle (A 10 corrected).
+
+    Args:
+        skin: The skin.
+        patch: Name of the patch.
+        point: Its middle (3,) in its link's frame in m.
+        gains: Gains.
+
+    Attributes:
+        weight: w of A 6: 0 goes by proximity, 1 by force.
+        moment: Gamma (3,) in the link's frame in N m as of the last demand.
+
+    Raises:
+        InputError: If there is no such patch.
+    """
+
+    def __init__(self, skin: BodySkin, patch: str, point: NDArray[np.float64], gains: WristGains | None = None) -> None:
+        self.gains = gains or WristGains()
+        self.weight, self.moment = 0.0, np.zeros(3)
+        self._link = skin.patch(patch).link
+        self._own = skin.slices[patch]
+        self._ranges = skin.ranges[self._own]
+        unit = skin.unit_wrenches[self._own]
+        self._arms = unit[:, 3:] - np.cross(np.asarray(point, dtype=float), unit[:, :3])  # about the middle
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        if skin is None:
+            return None
+        gains = self.gains
+        near = gains.proximity_stiffness * np.maximum(self._ranges - np.maximum(skin.distance[self._own], 0.0), 0.0)
+        self.moment = patch_signal(skin.force[self._own], near, self.weight) @ self._arms
+        rotation = robot.pose(self._link)[1]
+        jacobian = rotation.T @ robot.jacobian(self._link)[3:]
+        wanted = (gains.gain * self.moment - gains.damping * (jacobian @ robot.velocity)) / gains.inertia
+        return Demand(jacobian, acceleration=wanted, drift=rotation.T @ robot.drift(self._link)[3:])

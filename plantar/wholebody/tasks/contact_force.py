@@ -1,0 +1,115 @@
+"""Force on a surface, or distance from it, along the normal of a patch of skin (A 5-9)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import Settings, number
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["ContactForce", "ContactGains"]
+
+_FELT = 0.3
+"""Force in N up to which a patch counts as not touching: noise of 40 taxels adds up, as none reads below 0."""
+
+
+class ContactGains(Settings):
+    """How force and distance are controlled (A 9). On a surface of stiffness k_c the loop has the natural frequency
+    sqrt(gain k_c / inertia) and is critically damped by damping = 2 sqrt(gain k_c inertia).
+
+    Attributes:
+        inertia: Lambda_1: mass that the hand shall seem to have along the normal.
+        damping: D_1.
+        gain: K_1 on the error of the force.
+        integral: Rate at which a lasting error is taken back; 0 leaves it.
+        distance_stiffness: Force that counts for a metre of distance too much, in place of the error of the force.
+        free_damping: Damping while the patch feels nothing, where it is more than D_1: all gains grow with it, so that
+            speeds stay as they are but what is misjudged of the robot's mass slows them less.
+    """
+
+    inertia: float = number(2.0, "kg", 1e-3, 1e3)
+    damping: float = number(120.0, "N s/m", 0, 1e6)
+    gain: float = number(1.0, "1", 0, 1e4)
+    integral: float = number(2.0, "1/s", 0, 100)
+    distance_stiffness: float = number(200.0, "N/m", 0, 1e6)
+    free_damping: float = number(0.0, "N s/m", 0, 1e6)
+
+
+class ContactForce(Task):
+    """x''* = (K (w (f_d - f_c) + (1 - w) k (d - d_d)) - D x') / Lambda along the outward normal of a patch (A 6, 9).
+
+    Args:
+        skin: The skin.
+        patch: Name of the patch that touches.
+        point: Middle (3,) of the patch in its link's frame in m.
+        normal: Direction (3,) out of the body in the link's frame: h_z of A.
+        gains: Gains.
+
+    Attributes:
+        weight: w of A 6: 0 holds the distance, 1 the force.
+        target_force: f_d in N.
+        target_distance: d_d in m.
+        approach_speed: Speed in m/s at which the patch comes nearer while it feels nothing: the error is bounded by
+            what the damping balances at that speed, D v / K. Infinite at first.
+        force: f_c in N as of the last demand.
+        distance: Mean distance in m of the taxels that see something, as of the last demand; inf where none does.
+
+    Raises:
+        InputError: If there is no such patch.
+    """
+
+    def __init__(
+        self,
+        skin: BodySkin,
+        patch: str,
+        point: NDArray[np.float64],
+        normal: NDArray[np.float64],
+        gains: ContactGains | None = None,
+    ) -> None:
+        self.gains = gains or ContactGains()
+        self.weight, self.target_force, self.target_distance = 0.0, 0.0, 0.03
+        self.approach_speed = float("inf")
+        self.force, self.distance = 0.0, np.inf
+        self._link = skin.patch(patch).link
+        self._own = skin.slices[patch]
+        self._point, self._normal = np.asarray(point, dtype=float), np.asarray(normal, dtype=float)
+        self._push = -skin.unit_wrenches[self._own, :3] @ self._normal  # share of each taxel's force along it
+        self._reach = float(skin.ranges[self._own].max())
+        self._sum = 0.0
+        self._last: float | None = None
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        if skin is None:
+            return None
+        error, gains = self._error(skin, robot.time), self.gains
+        outward = robot.pose(self._link)[1] @ self._normal
+        jacobian = robot.jacobian(self._link, self._point)
+        moving = jacobian @ robot.velocity
+        pull = gains.gain * (error + gains.integral * self._sum)
+        pace = max(1.0, gains.free_damping / max(gains.damping, 1e-9)) if self.force <= _FELT else 1.0
+        wanted = pace * (pull - gains.damping * outward @ moving[:3]) / gains.inertia
+        (a, b, c), (x, y, z), (u, v, w) = moving[3:], outward, moving[:3]
+        turning = (b * z - c * y) * u + (c * x - a * z) * v + (a * y - b * x) * w  # the normal turns with the hand
+        drift = outward @ robot.drift(self._link, self._point)[:3] + turning
+        return Demand((outward @ jacobian[:3])[None], acceleration=np.array([wanted]), drift=np.array([drift]))
+
+    def _error(self, skin: SkinReading, time: float) -> float:
+        """What is missing, in N; sums it up over time while the force counts."""
+        felt = np.nan_to_num(skin.force[self._own], nan=0.0, posinf=0.0)
+        seen = skin.distance[self._own]
+        seen = seen[np.isfinite(seen)]
+        self.force = float(self._push @ felt)
+        self.distance = float(seen.mean()) if len(seen) else np.inf
+        far = min(self.distance, self._reach) - self.target_distance
+        missing = self.target_force - self.force
+        gains = self.gains
+        error = self.weight * missing + (1.0 - self.weight) * gains.distance_stiffness * far
+        if self.force <= _FELT and gains.gain:
+            error = min(error, self.approach_speed * gains.damping / gains.gain)
+        period = 0.0 if self._last is None else max(0.0, time - self._last)
+        self._last = time
+        self._sum = self._sum + self.weight * missing * period if self.force > _FELT else 0.0
+        return error

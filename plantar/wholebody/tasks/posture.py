@@ -1,0 +1,56 @@
+"""A posture of the joints, for what nothing else decides (T 3.2.5.1, A 18)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.sensing.link_skin import SkinReading
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["Posture"]
+
+
+class Posture(Task):
+    """Draws joints to a posture: as accelerations q''* = K (q_d - q) + D (q'_d - q'), or as such torques (A 18).
+
+    Args:
+        target: Wanted joint positions (k,) in rad or m, in the order of `RobotDynamics.joints`.
+        stiffness: K, one or (k,): in 1/s^2, with `torques` in N m/rad.
+        damping: D likewise; critical for accelerations where None.
+        joints: Places of the joints that are held among the k; all where None.
+        torques: Whether it asks for torques, which other tasks of its level add to, instead of accelerations.
+
+    Attributes:
+        target: Wanted joint positions (k,).
+        target_velocity: Wanted joint velocities q'_d (k,) in rad/s or m/s: 0 until a posture is moved.
+    """
+
+    def __init__(
+        self,
+        target: ArrayLike,
+        stiffness: ArrayLike = 50.0,
+        damping: ArrayLike | None = None,
+        joints: Sequence[int] | None = None,
+        torques: bool = False,
+    ) -> None:
+        self.target = np.asarray(target, dtype=float)
+        self.target_velocity = np.zeros(len(self.target))
+        self.stiffness = np.asarray(stiffness, dtype=float)
+        self.damping = 2.0 * np.sqrt(self.stiffness) if damping is None else np.asarray(damping, dtype=float)
+        self.torques = torques
+        self._held = np.arange(len(self.target)) if joints is None else np.asarray(joints)
+        self._rows: NDArray[np.float64] | None = None
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        held = robot.joints[self._held]
+        if self._rows is None:
+            self._rows = np.eye(len(robot.velocity))[held]
+        pull = self.stiffness * (self.target - robot.joint_positions) + self.damping * (
+            self.target_velocity - robot.velocity[robot.joints]
+        )
+        asked = pull[self._held]
+        return Demand(self._rows, force=asked) if self.torques else Demand(self._rows, acceleration=asked)

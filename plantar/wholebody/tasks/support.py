@@ -1,0 +1,67 @@
+"""The contacts on which a robot with a free base stands (T 3.12-3.13)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.mechanics.wrench_cone import Rectangle
+from plantar.sensing.link_skin import SkinReading
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["Standing", "Support"]
+
+
+_POINT = Rectangle(0.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A contact that does not move: a link's point, and how much of its motion the ground takes.
+
+    Attributes:
+        link: The link.
+        point: Point (3,) in the link's frame in m, best where the force shall be.
+        flat: Whether it keeps the link from turning too; a point contact does not.
+        area: What of the contact can carry, about the point, in m; counts where forces are distributed over contacts.
+        rotation: Rotation (3, 3) from the contact's frame, whose z points into the body, to the link's; None for none.
+        friction: Coefficient of friction; likewise.
+    """
+
+    link: str
+    point: NDArray[np.float64]
+    flat: bool = True
+    area: Rectangle = _POINT
+    rotation: NDArray[np.float64] | None = None
+    friction: float = 0.6
+
+    @property
+    def rows(self) -> int:
+        """Number of rows that it gives a support."""
+        return 6 if self.flat else 3
+
+
+class Support(Task):
+    """Keeps contacts where they are: J_s q'' + J_s' q' = 0, above all other tasks (T 3.13).
+
+    Args:
+        contacts: Contacts by name, such as the feet; may be assigned anew as contacts come and go.
+
+    Raises:
+        InputError: If there is none.
+    """
+
+    def __init__(self, contacts: Mapping[str, Standing]) -> None:
+        if not contacts:
+            raise InputError("a support needs one contact at least")
+        self.contacts = dict(contacts)
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        jacobian = np.vstack([robot.jacobian(c.link, c.point)[: c.rows] for c in self.contacts.values()])
+        drift = np.concatenate([robot.drift(c.link, c.point)[: c.rows] for c in self.contacts.values()])
+        return Demand(jacobian, acceleration=np.zeros(len(drift)), drift=drift)

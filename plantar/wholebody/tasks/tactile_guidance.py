@@ -1,0 +1,115 @@
+"""The hand is guided by touches on the arm (A 11-12), keeps its place without them, and stays where the arm is bent."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.mechanics.easing import minimum_jerk
+from plantar.sensing.link_skin import BodySkin, SkinReading
+from plantar.settings.schema import Settings, number
+from plantar.wholebody.dynamics import RobotDynamics
+from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.task import Demand, Task
+
+__all__ = ["GuidanceGains", "TactileGuidance"]
+
+_STRAIGHT = (0.85, 0.95)
+"""Shares of an arm's length between which guidance away from the shoulder fades: of two links l as long as each other
+the share s leaves the elbow l sqrt(1 - s^2) of lever along the arm, a half of l at first and a third at last."""
+
+
+class GuidanceGains(Settings):
+    """How the hand follows (A 12), and how it rests.
+
+    Attributes:
+        inertia: Lambda_3: mass that the hand shall seem to have.
+        damping: D_3.
+        gain: K_3 on the forces on the arm.
+        stiffness: Stiffness with which the hand keeps its place while nothing is felt; 0 as in A, where it drifts with
+            what is misjudged of the arm's weight. Critical is D_3^2 / (4 Lambda_3).
+        slack: Length beyond which that spring is not stretched, but slips.
+    """
+
+    inertia: float = number(5.0, "kg", 1e-3, 1e3)
+    damping: float = number(60.0, "N s/m", 0, 1e5)
+    gain: float = number(1.0, "1", 0, 1e3)
+    stiffness: float = number(0.0, "N/m", 0, 1e6)
+    slack: float = number(0.03, "m", 0, 1)
+
+
+class TactileGuidance(Task):
+    """x''* = (K F_arm + k s - D x') / Lambda of the hand, F_arm what is felt on the arm (A 11, A 12 corrected).
+
+    The spring k is stretched by s, from the hand to the place that it keeps. A touch carries that place along as it is,
+    so that the pull, which by then balances what is misjudged of the weight, is there while the hand is guided too.
+
+    Args:
+        skin: The skin.
+        patches: Names of the patches on the arm.
+        link: The hand.
+        point: Point (3,) in its frame in m.
+        gains: Gains.
+        arm: Links from the shoulder to the wrist, whose origins are the ends of the arm's parts: the hand is not guided
+            on where they come to lie in a line, for a straight arm cannot hold it. None for no such end.
+
+    Raises:
+        InputError: If there is no patch of a name, or an arm has less than three links.
+    """
+
+    def __init__(
+        self,
+        skin: BodySkin,
+        patches: Sequence[str],
+        link: str,
+        point: NDArray[np.float64],
+        gains: GuidanceGains | None = None,
+        arm: Sequence[str] | None = None,
+    ) -> None:
+        if arm is not None and len(arm) < 3:
+            raise InputError(f"an arm of the links {', '.join(arm)} cannot bend; allowed: three or more")
+        self.gains = gains or GuidanceGains()
+        self._touches = DirectInteraction(skin, self.gains.gain, patches)
+        self._link, self._point, self._arm = link, np.asarray(point, dtype=float), arm
+        self._stretch = np.zeros(3)
+        self._last: NDArray[np.float64] | None = None
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        if skin is None:
+            return None
+        gains = self.gains
+        touches = self._touches.wrenches(skin)
+        force = sum((robot.pose(link)[1] @ wrench[:3] for link, wrench, _ in touches), np.zeros(3))
+        jacobian = robot.jacobian(self._link, self._point)[:3]
+        pull = self._within_reach(robot, force) + gains.stiffness * self._kept(robot, bool(touches))
+        wanted = (pull - gains.damping * (jacobian @ robot.velocity)) / gains.inertia
+        return Demand(jacobian, acceleration=wanted, drift=robot.drift(self._link, self._point)[:3])
+
+    def _within_reach(self, robot: RobotDynamics, force: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The force (3,) without what of it would stretch a straight arm."""
+        if self._arm is None:
+            return force
+        joints = [robot.pose(link)[0] for link in self._arm]
+        length = sum(float(np.linalg.norm(b - a)) for a, b in pairwise(joints))
+        along = joints[-1] - joints[0]
+        apart = float(np.linalg.norm(along))
+        outward = float(force @ along)
+        if outward <= 0.0:
+            return force
+        begin, end = _STRAIGHT
+        share = minimum_jerk((end - apart / length) / (end - begin))[0]
+        return force - (1.0 - share) * outward / apart**2 * along
+
+    def _kept(self, robot: RobotDynamics, touched: bool) -> NDArray[np.float64]:
+        """The stretch (3,) in m from the hand to the place that it keeps."""
+        origin, rotation = robot.pose(self._link)
+        place = origin + rotation @ self._point
+        if self._last is not None and not touched:
+            self._stretch = self._stretch - (place - self._last)
+            self._stretch *= min(1.0, self.gains.slack / max(float(np.linalg.norm(self._stretch)), 1e-12))
+        self._last = place
+        return self._stretch

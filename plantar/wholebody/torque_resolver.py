@@ -1,0 +1,104 @@
+"""Torques for robots that take velocities or positions: a virtual admittance between (A 26, T 3.2.3).
+
+The torques of a stack drive a virtual robot, M_v q'' + D_v q' = tau - bias, and its motion is what the servos of the
+real one are told. Its mass may be the real one, so that priorities stay strict in what moves, or another.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.settings.schema import Settings, number
+from plantar.wholebody.dynamics import RobotDynamics
+
+__all__ = ["ResolverSettings", "SetPoint", "TorqueResolver"]
+
+
+class ResolverSettings(Settings):
+    """The virtual robot, and how near to the real one it is kept.
+
+    Attributes:
+        damping: D_v as a rate in 1/s: D_v = damping M_v.
+        velocity_pull: Rate in 1/s at which the virtual velocity is drawn to the measured one (the inner loop of A 3.4).
+        largest_lag: Largest difference in rad or m between the position set-point and the measured position.
+        largest_acceleration: Limit in rad/s^2 or m/s^2 of every joint.
+    """
+
+    damping: float = number(2.0, "1/s", 0.0, 1e3)
+    velocity_pull: float = number(2.0, "1/s", 0.0, 1e3)
+    largest_lag: float = number(0.1, "rad", 1e-6, 10.0)
+    largest_acceleration: float = number(50.0, "rad/s^2", 1e-3, 1e6)
+
+
+class SetPoint(NamedTuple):
+    """What servos are told.
+
+    Attributes:
+        position: Positions (k,) in rad or m.
+        velocity: Velocities (k,) in rad/s or m/s.
+    """
+
+    position: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+
+
+class TorqueResolver:
+    """The virtual robot. What is limited there never asks more of the servos than they can.
+
+    Args:
+        velocity_limits: Largest speed (k,) of each joint in rad/s or m/s.
+        settings: Damping, pull and limits.
+        mass: M_v (k, k) in kg m^2 or kg; the robot's own mass matrix of each instant where None.
+
+    Raises:
+        InputError: If a limit is not above 0, or the mass is not positive definite.
+    """
+
+    def __init__(
+        self,
+        velocity_limits: NDArray[np.float64],
+        settings: ResolverSettings | None = None,
+        mass: NDArray[np.float64] | None = None,
+    ) -> None:
+        self.velocity_limits = np.array(velocity_limits, dtype=float)
+        if not (self.velocity_limits > 0.0).all():
+            raise InputError(f"a velocity limit is {self.velocity_limits.min():g}; allowed: above 0")
+        if mass is not None and not (np.linalg.eigvalsh(mass) > 0.0).all():
+            raise InputError("the virtual mass is not positive definite")
+        self.settings = settings or ResolverSettings()
+        self.mass = mass
+        self._state: SetPoint | None = None
+
+    def step(self, robot: RobotDynamics, torque: NDArray[np.float64], period: float) -> SetPoint:
+        """Let the torques move the virtual robot for one control period.
+
+        The first call starts from the real robot's position and velocity.
+
+        Args:
+            robot: The real robot as measured: its bias is taken out of the torques, its motion draws the virtual one.
+            torque: Torques (k,) of a stack in N m or N, bias included.
+            period: Control period in s.
+
+        Returns:
+            Set-points of the servos.
+        """
+        s, joints = self.settings, robot.joints
+        measured, position = robot.velocity[joints], robot.joint_positions
+        if self._state is None:
+            self._state = SetPoint(position.copy(), np.clip(measured, -self.velocity_limits, self.velocity_limits))
+        virtual = self._state.velocity
+        mass = robot.mass_matrix[np.ix_(joints, joints)] if self.mass is None else self.mass
+        pushed = np.linalg.solve(mass, torque - robot.bias[joints]) + s.velocity_pull * (measured - virtual)
+        # Damping is taken implicitly, so that no rate of it makes the period too long.
+        wanted = (virtual + period * pushed) / (1.0 + period * s.damping)
+        change = period * s.largest_acceleration
+        velocity = virtual + np.clip(wanted - virtual, -change, change)
+        velocity = np.clip(velocity, -self.velocity_limits, self.velocity_limits)
+        moved = self._state.position + period * velocity
+        moved = position + np.clip(moved - position, -s.largest_lag, s.largest_lag)
+        self._state = SetPoint(moved, velocity)
+        return self._state
