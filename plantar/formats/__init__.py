@@ -1,11 +1,18 @@
-"""Formats of plantar pressure recordings, one a file. A new one is a module with a `FORMAT`, named in `_MODULES`."""
+"""Formats of plantar pressure recordings, one a file.
+
+Each module of this folder with a `FORMAT` is one; so is what a package of yours names as an entry point of the group
+"plantar.formats".
+"""
 
 from __future__ import annotations
 
 import os
 from dataclasses import replace
+from functools import cache
 from importlib import import_module
+from importlib.metadata import entry_points
 from pathlib import Path
+from pkgutil import iter_modules
 
 from plantar.console.ending import one_line
 from plantar.errors import FormatError, InputError, PlantarError
@@ -19,20 +26,8 @@ from plantar.recordings.pressure_recording import RATES, PressureRecording
 
 __all__ = ["Format", "ReadOptions", "detect_format", "formats", "is_study_folder", "named_format", "read_recording"]
 
-_MODULES = (
-    "mcap_recording",
-    "novel_pedar",
-    "novel_emed",
-    "tekscan",
-    "xsensor",
-    "moticon",
-    "footscan",
-    "c3d_force_plates",
-    "ros_bag",
-    "footprint_image",
-    "array_file",
-    "csv_table",
-)
+_GROUP = "plantar.formats"
+"""Entry points under which other packages name a `Format`."""
 _HEADS = (1 << 16, 1 << 22)
 """How many bytes of a file are looked at, and how many where those tell nothing: a platform's table has a row of names
 of a hundred kilobytes."""
@@ -41,12 +36,29 @@ of a hundred kilobytes."""
 def formats() -> dict[str, Format]:
     """All formats by name, in the order in which they are tried.
 
+    Raises:
+        FormatError: If an entry point of another package is no format.
+
     Example:
         >>> list(formats())[:4]
         ['mcap', 'pedar', 'emed', 'tekscan']
     """
-    found: list[Format] = [import_module(f"plantar.formats.{module}").FORMAT for module in _MODULES]
-    return {f.name: f for f in found}
+    return _formats()
+
+
+@cache
+def _formats() -> dict[str, Format]:
+    modules = (import_module(f"{__name__}.{module.name}") for module in iter_modules(__path__))
+    found = [f for module in modules if isinstance(f := getattr(module, "FORMAT", None), Format)]
+    for entry in entry_points(group=_GROUP):
+        try:
+            loaded = entry.load()
+        except Exception as error:
+            raise FormatError(f"entry point {entry.value} of {_GROUP} cannot be loaded: {one_line(error)}") from error
+        if not isinstance(loaded, Format):
+            raise FormatError(f"entry point {entry.value} of {_GROUP} is no plantar.formats.format.Format")
+        found.append(loaded)
+    return {f.name: f for f in sorted(found, key=lambda f: f.order)}
 
 
 def named_format(path: str | os.PathLike[str], name: str | None = None) -> Format:

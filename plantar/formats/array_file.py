@@ -11,7 +11,7 @@ import json
 import math
 import zipfile
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
@@ -35,7 +35,7 @@ from plantar.recordings.frame_table import MOST_VALUES
 from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, possible_rate, sampling
 from plantar.sides import SIDES
 
-__all__ = ["FORMAT"]
+__all__ = ["FORMAT", "recording_of_arrays"]
 
 _USUAL_RATE = 100.0
 _BROKEN: tuple[type[Exception], ...] = (
@@ -87,6 +87,27 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             return _recording(path, arrays, options)
     except _BROKEN as error:
         raise FormatError(f"{path}: not an array file that can be read ({type(error).__name__}: {error})") from None
+
+
+def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions, name: Path) -> PressureRecording:
+    """A recording from arrays in memory, with the names that an NPZ file has.
+
+    Args:
+        arrays: The arrays by name.
+        options: What is known of them.
+        name: What the recording is called.
+
+    Returns:
+        The recording.
+
+    Raises:
+        FormatError: If no array holds frames of cells.
+    """
+    held = {}
+    for key, values in arrays.items():
+        values = values[:, None] if values.ndim == 1 and side_of(key) is not None else values
+        held[key] = _Array(values.shape, values.dtype, partial(np.array, values))
+    return _recording(name, held, options)
 
 
 def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> PressureRecording:
@@ -258,5 +279,6 @@ FORMAT = Format(
     suffixes=(".npz", ".npy"),
     recognises=_recognises,
     read=_read,
+    order=60,
 )
 """The entry of the registry."""

@@ -1,7 +1,7 @@
-"""Force plates in C3D files: the force, its moment and the centre of pressure of each plate, without cells.
+"""Force plates in C3D files: force, moment and centre of pressure of each plate, without cells.
 
 ezc3d reads the file in a process of its own, with limits: its native code might crash or ask for any amount of memory
-on damaged files.
+on damaged files. Plate types 1 to 5 are computed here from their channels (C3D format user guide, "Force platforms").
 """
 
 from __future__ import annotations
@@ -18,18 +18,21 @@ from numpy.typing import NDArray
 from plantar.errors import DependencyError, FormatError
 from plantar.files.confined import confined
 from plantar.files.input_file import check_input, open_input
+from plantar.formats.force_plates import Plate, feet_of_plates
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.units import FORCES, LENGTHS
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording, StatedEvents, possible_rate
+from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
+from plantar.recordings.pressure_recording import PressureRecording, StatedEvents, possible_rate
 from plantar.sides import SIDES, Side
 
-__all__ = ["FORMAT", "plates_of_file"]
+__all__ = ["FORMAT"]
 
 _LARGEST, _HEAD = 256e6, 1 << 16  # bytes
 _MEMORY, _MEMORY_A_BYTE = 250e6, 64.0  # ezc3d takes 48 times the file
 _SECONDS, _SECONDS_A_BYTE = 10.0, 3e-6
-_LEAST = 20.0
-"""Vertical force in N from which a plate counts as stepped on."""
+_TILT = 0.97
+"""Least cosine of the angle between a plate's normal and the laboratory's vertical: 14 degrees, a ramp."""
+_TO_Z_UP = {0: [1, 2, 0], 1: [2, 0, 1], 2: [0, 1, 2]}
+"""The laboratory's axes in the order that makes its vertical one the third, right-handed."""
 
 
 def _recognises(head: bytes) -> bool:
@@ -43,7 +46,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     """Read the force plates.
 
     Raises:
-        FormatError: If the file is damaged or holds no force plate.
+        FormatError: If the file is damaged, holds no force plate, or its channels are no forces.
         DependencyError: If ezc3d is not installed.
     """
     if find_spec("ezc3d") is None:
@@ -54,34 +57,31 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     if len(head) < 512 or head[1] != 0x50:
         raise FormatError(f"{path}: not a C3D file that can be read (no C3D header)")
     limits = {"memory": _MEMORY + _MEMORY_A_BYTE * size, "seconds": _SECONDS + _SECONDS_A_BYTE * size}
-    held = confined("plantar.formats.c3d_force_plates:plates_of_file", path, FormatError, "a C3D file", **limits)
+    held = confined("plantar.formats.c3d_content:content_of_file", path, FormatError, "a C3D file", **limits)
     rate = options.rate_hz or float(held["rate"])
     count = int(held["plates"])
     if count == 0:
         raise FormatError(f"{path}: the C3D file holds no force plate (group FORCE_PLATFORM)")
     possible_rate(rate, "its analog channels state")
     warnings = _cut_short(head, held)
-    plates = [_Plate(held, i, warnings) for i in range(count)]
-    used = [p for p in plates if (p.force[:, 2] > _LEAST).any()]
-    if not used:
-        raise FormatError(f"{path}: no force plate carries more than {_LEAST:g} N")
-    if len(used) < count:
-        warnings.append(f"{count - len(used)} of {count} force plates are never stepped on")
-    if any(p.turned for p in used):
-        warnings.append("the plates' forces point down: taken as those on the plate, and turned to those on the foot")
-    feet = {side: _foot(side, own) for side, own in _sides(used, options, warnings).items()}
-    time = np.arange(len(used[0].force)) / rate
+    length = LENGTHS.get(plain(str(held["point_unit"][0])), 1e-3)
+    up = _vertical_axis([held[f"corners_{i}"] for i in range(count)], warnings)
+    plates = [_plate(held, i, up, length, warnings) for i in range(count)]
+    markers = {s: length * held[f"track_{s}"][:, _TO_Z_UP[up]][:, :2] for s in SIDES if f"track_{s}" in held}
+    events = _stated_events(held)
+    feet, every = feet_of_plates(plates, rate, options, warnings, markers, events)
     warnings.append("force plates have no cells: no pressures, areas and regions; the CoP is in the laboratory's axes")
+    frames = len(next(iter(feet.values())).force)
     return PressureRecording(
         path=path,
         format=FORMAT.name,
         rate_hz=rate,
-        time=time,
+        time=np.arange(frames) / rate,
         feet=feet,
-        metadata={"plates": count},
+        metadata={"plates": count, "sees_every_step": every},
         warnings=tuple(dict.fromkeys(warnings)),
         kind="plate",
-        events=_stated_events(held),
+        events=events,
     )
 
 
@@ -95,7 +95,7 @@ def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
     """A warning where the file holds fewer frames than its header states: the library reads what there is."""
     first, last = struct.unpack_from("<HH", head, 6)
     (samples,) = struct.unpack_from("<H", head, 18)
-    read = held["force_0"].shape[1]
+    read = int(held["frames"])
     stated = (last - first + 1) * samples
     processor = (head[0] - 1) * 512 + 3
     other_order = processor >= len(head) or head[processor] == 86  # SGI: bytes the other way round
@@ -106,117 +106,132 @@ def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
     return [f"the file is cut short: {read} of {stated} frames are there"]
 
 
-class _Plate:
-    """One force plate: force on the foot (n, 3) in N, CoP (n, 2) and centre (2,) in m, free moment (n,) in N m."""
-
-    def __init__(self, held: dict[str, NDArray[Any]], number: int, warnings: list[str]) -> None:
-        units = [str(u) for u in held[f"units_{number}"]]
-        force_unit, moment_unit, length_unit = (u.strip().lower() for u in units)
-        if force_unit not in FORCES:
-            warnings.append(f"a plate's unit of force {force_unit!r} is not known: N is assumed")
-        if length_unit not in LENGTHS:
-            warnings.append(f"a plate's unit of length {length_unit!r} is not known: mm is assumed")
-        length = LENGTHS.get(length_unit, 1e-3)
-        self.force = held[f"force_{number}"].T * FORCES.get(force_unit, 1.0)
-        self.force[~np.isfinite(self.force)] = np.nan
-        loaded = self.force[np.abs(self.force[:, 2]) > _LEAST, 2]
-        self.turned = len(loaded) > 0 and float(np.median(loaded)) < 0.0
-        moment_length = 1.0 if moment_unit in ("nm", "n.m", "n*m") else 1e-3
-        self.free_moment = held[f"tz_{number}"].T[:, 2] * moment_length
-        if self.turned:
-            self.force, self.free_moment = -self.force, -self.free_moment
-        self.cop = held[f"cop_{number}"].T[:, :2] * length
-        self.cop[~np.isfinite(self.cop).all(axis=1) | ~(self.force[:, 2] > _LEAST)] = np.nan
-        self.centre = held[f"corners_{number}"][:2].mean(axis=1) * length
+def _axes(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A plate's axes as columns (3, 3) in the laboratory, from its corners +x +y, -x +y, -x -y, +x -y (C3D guide)."""
+    x = corners[0] + corners[3] - corners[1] - corners[2]
+    y = corners[0] + corners[1] - corners[2] - corners[3]
+    z = np.cross(x, y)
+    if not np.linalg.norm(z) > 0.0:
+        return np.eye(3)
+    x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
+    return np.column_stack([x, np.cross(z, x), z])
 
 
-def _sides(plates: list[_Plate], options: ReadOptions, warnings: list[str]) -> dict[Side, list[_Plate]]:
-    """Which plates are of which foot: by their place across the direction of walking."""
-    if len(plates) == 1:
-        side = options.side or "left"
-        if options.side is None:
-            warnings.append(
-                "the file does not say which foot steps on the plate: taken as the left one (--side overrides)"
-            )
-        return {side: plates}
-    onset = [float(np.argmax(p.force[:, 2] > _LEAST)) for p in plates]
-    order = np.argsort(onset)
-    travel = plates[int(order[-1])].centre - plates[int(order[0])].centre
-    path = np.vstack([p.cop[np.isfinite(p.cop).all(axis=1)][[0, -1]] for p in plates if np.isfinite(p.cop).any()])
-    along = sum((path[i + 1] - path[i] for i in range(0, len(path), 2)), np.zeros(2))
-    steps = along if np.hypot(*along) > 0.02 else travel
-    direction = np.zeros(2)  # along the laboratory's axis that the walk follows most
-    direction[int(np.argmax(np.abs(steps)))] = np.sign(steps[int(np.argmax(np.abs(steps)))]) or 1.0
-    places = [np.nanmean(p.cop, axis=0) if np.isfinite(p.cop).any() else p.centre for p in plates]
-    leftward = np.array([place @ np.array([-direction[1], direction[0]]) for place in places])
-    middle = 0.5 * (leftward.max() + leftward.min())
-    warnings.append("which plate is stepped on by which foot is told from their places across the direction of walking")
-    if np.ptp(leftward) < 0.02:
-        warnings.append("the plates lie in one line: taken as stepped on by left and right in turns")
-        return {
-            "left": [plates[int(i)] for i in order[0::2]],
-            "right": [plates[int(i)] for i in order[1::2]],
-        }
-    left = [p for p, y in zip(plates, leftward, strict=True) if y >= middle]
-    right = [p for p, y in zip(plates, leftward, strict=True) if y < middle]
-    return {"left": left, "right": right}
+def _vertical_axis(corners: list[NDArray[np.float64]], warnings: list[str]) -> int:
+    """The laboratory's vertical axis: the one that the plates' surfaces are perpendicular to; z where none shows it."""
+    normals = [np.abs(_axes(c)[:, 2]) for c in corners if len(c) == 4 and np.isfinite(c).all() and np.ptp(c) > 0.0]
+    if not normals:
+        warnings.append("the plates state no corners: z is taken as the vertical axis")
+        return 2
+    mean = np.mean(normals, axis=0)
+    axis = int(np.argmax(mean))
+    if mean[axis] < _TILT:
+        warnings.append("a force plate is tilted: its vertical force is that along the laboratory's vertical axis")
+    if axis != 2:
+        warnings.append(f"the plates' corners show that {'xyz'[axis]} is the laboratory's vertical axis")
+    return axis
 
 
-def _foot(side: Side, plates: list[_Plate]) -> FootRecording:
-    force = np.sum([np.nan_to_num(p.force) for p in plates], axis=0)
-    load = np.array([np.where(np.isfinite(p.cop[:, 0]), np.nan_to_num(p.force[:, 2]), 0.0) for p in plates])
-    places = np.array([np.nan_to_num(p.cop) for p in plates])
-    with np.errstate(invalid="ignore", divide="ignore"):
-        cop = (load[:, :, None] * places).sum(axis=0) / load.sum(axis=0)[:, None]
-    free = np.sum([np.nan_to_num(p.free_moment) for p in plates], axis=0)
-    x, y = np.nan_to_num(cop).T
-    moment = np.column_stack([y * force[:, 2], -x * force[:, 2], x * force[:, 1] - y * force[:, 0] + free])
-    return FootRecording(side, force[:, 2:3], None, total=force[:, 2], cop=cop, wrench=np.column_stack([force, moment]))
+def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float, warnings: list[str]) -> Plate:
+    """One plate: its channels as force and moment about the middle of its surface, z up.
 
-
-def plates_of_file(path: Path) -> dict[str, Any]:
-    """The force plates of a C3D file; called in a process of its own.
-
-    Args:
-        path: The file.
-
-    Returns:
-        "rate" in Hz and the number of "plates"; of each plate i "force_i", "cop_i", "tz_i" (3, n), "corners_i" (3, 4)
-        and the "units_i" of force, moment and length.
+    Raises:
+        FormatError: If its type is not known, or its channels are not calibrated.
     """
-    import ezc3d  # 0.08 s
+    kind, channels, name = int(held[f"type_{number}"]), held[f"channels_{number}"], f"plate {number + 1}"
+    if not 1 <= kind <= 5 or not len(channels):
+        raise FormatError(f"{name} is of type {kind} or lacks channels; allowed: types 1 to 5 with all their channels")
+    matrix = held[f"matrix_{number}"]
+    if kind in (4, 5) and matrix.shape != (6, len(channels)):
+        raise FormatError(f"{name} of type {kind} states no calibration matrix of 6 x {len(channels)}")
+    units = [plain(str(u)) for u in held[f"units_{number}"]]
+    in_volts = [u for u in units if u in ("v", "mv", "uv", "volt", "volts", "d.u.", "counts", "bits")]
+    if in_volts and kind < 4:
+        raise FormatError(
+            f"the channels of {name} are in {in_volts[0]}, and no calibration matrix makes forces of them; allowed: "
+            "forces and moments in N and N mm, or a plate of type 4 or 5"
+        )
+    newton, newton_metre = _scales(units, kind, length, name, warnings)
+    values = np.where(np.isfinite(channels), channels, np.nan)
+    origin = np.array(held[f"origin_{number}"], dtype=float)
+    local, moment = _load(
+        kind, matrix @ values if kind >= 4 else values, origin, newton, newton_metre, length, warnings
+    )
+    corners = held[f"corners_{number}"]
+    if len(corners) != 4 or not np.isfinite(corners).all():
+        corners = np.array([[1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0], [1.0, -1.0, 0.0]]) * 1e-9
+    axes, order = _axes(corners), _TO_Z_UP[up]
+    known = float(np.ptp(corners)) > 1e-6
+    ground = length * corners[:, order][:, :2]
+    return Plate(
+        name,
+        (axes @ local).T[:, order],
+        (axes @ moment).T[:, order],
+        origin=ground.mean(axis=0),
+        corners=ground if known else None,
+    )
 
-    content = ezc3d.c3d(str(path), extract_forceplat_data=True)
-    plates = content["data"]["platform"]
-    out: dict[str, Any] = {"rate": float(content["header"]["analogs"]["frame_rate"]), "plates": len(plates)}
-    out |= _events_of(content)
-    for i, plate in enumerate(plates):
-        out[f"force_{i}"] = np.asarray(plate["force"], dtype=float)
-        out[f"cop_{i}"] = np.asarray(plate["center_of_pressure"], dtype=float)
-        out[f"tz_{i}"] = np.asarray(plate["Tz"], dtype=float)
-        out[f"corners_{i}"] = np.asarray(plate["corners"], dtype=float)
-        out[f"units_{i}"] = np.array([plate["unit_force"], plate["unit_moment"], plate["unit_position"]])
-    return out
+
+def _scales(units: list[str], kind: int, length: float, name: str, warnings: list[str]) -> tuple[float, float]:
+    """N and N m in a unit of a plate's forces and moments; a matrix gives N, and N by the points' length."""
+    if kind >= 4:
+        return 1.0, length
+    force = units[0]
+    if force not in FORCES:
+        warnings.append(f"a unit of force {force!r} of {name} is not known: N is assumed")
+    moment = units[5] if kind in (1, 2) else ""
+    if kind in (1, 2) and moment not in MOMENTS:
+        warnings.append(
+            f"a unit of moment {moment!r} of {name} is not known: N by the points' unit of length is assumed"
+        )
+    return FORCES.get(force, 1.0), MOMENTS.get(moment, length)
 
 
-def _events_of(content: Any) -> dict[str, NDArray[np.float64]]:
-    """Times in s of the strikes and lifts of each foot, from the first frame that the file holds."""
-    out = {f"{kind}_{side}": np.zeros(0) for kind in ("strikes", "lifts") for side in SIDES}
-    group = content["parameters"].get("EVENT", {})
-    if not all(key in group for key in ("LABELS", "CONTEXTS", "TIMES")):
-        return out
-    points = content["header"]["points"]
-    rate = float(points["frame_rate"])
-    begin = float(points["first_frame"]) / rate if rate > 0.0 else 0.0
-    times = np.asarray(group["TIMES"]["value"], dtype=float).reshape(2, -1)
-    for i, (label, context) in enumerate(zip(group["LABELS"]["value"], group["CONTEXTS"]["value"], strict=False)):
-        word, side = str(label).lower(), str(context).strip().lower()
-        kind = "strikes" if "strike" in word or "contact" in word else "lifts" if "off" in word else ""
-        if kind and side in SIDES and i < times.shape[1]:
-            key = f"{kind}_{side}"
-            out[key] = np.sort(np.append(out[key], 60.0 * times[0, i] + times[1, i] - begin))
-    return out
+def _load(
+    kind: int,
+    values: NDArray[np.float64],
+    origin: NDArray[np.float64],
+    newton: float,
+    newton_metre: float,
+    length: float,
+    warnings: list[str],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Force (3, n) in N and moment (3, n) in N m about the middle of the surface, in the plate's axes.
+
+    Type 1 gives force, CoP and free moment; 2, 4 and 5 force and moment about `origin`; 3 (Kistler) fx12, fx34, fy14,
+    fy23 and fz1 to fz4, whose transducers are at (+-a, +-b) with origin = (a, b, az0).
+    """
+    if kind == 1:
+        force = newton * values[:3]
+        x, y = length * values[3:5]
+        free = newton_metre * values[5]
+        moment = np.array([y * force[2], -x * force[2], x * force[1] - y * force[0] + free])
+        return force, moment
+    if kind == 3:
+        fx12, fx34, fy14, fy23, fz1, fz2, fz3, fz4 = newton * values
+        a, b, depth = length * origin
+        force = np.array([fx12 + fx34, fy14 + fy23, fz1 + fz2 + fz3 + fz4])
+        depth = -abs(depth)  # the surface is above the transducers: the plate's z points down
+        moment = np.array(
+            [
+                b * (fz1 + fz2 - fz3 - fz4) + force[1] * depth,
+                a * (-fz1 + fz2 + fz3 - fz4) - force[0] * depth,
+                b * (fx34 - fx12) + a * (fy14 - fy23),
+            ]
+        )
+        return force, moment
+    force, moment = newton * values[:3], newton_metre * values[3:]
+    offset = length * origin
+    if offset[2] > 0.0:
+        warnings.append(
+            "a plate's origin lies above its surface: its sign is turned, as its moments are of a point below it"
+        )
+        offset = -offset
+    # The origin is the way from the moments' point to the surface's middle: M' = M - offset x F = M + F x offset.
+    return force, moment + np.cross(force.T, offset).T
 
 
-FORMAT = Format(name="c3d", title="force plates in a C3D file", suffixes=(".c3d",), recognises=_recognises, read=_read)
+FORMAT = Format(
+    name="c3d", title="force plates in a C3D file", suffixes=(".c3d",), recognises=_recognises, read=_read, order=17
+)
 """The entry of the registry."""

@@ -35,7 +35,7 @@ from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
 from plantar.sides import SIDES, Side
 
-__all__ = ["FORMAT"]
+__all__ = ["FORMAT", "recording_of_columns"]
 
 _USUAL_RATE = 100.0
 _BLOCK, _BLOCK_VALUES = 2048, 4_000_000
@@ -102,14 +102,41 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if of_side is not None:
             lines = with_numbers(lines, delimiter, of_side)
         table = _table(path, lines, delimiter, len(first), warnings)
-    facts = _facts(comments)
-    names = first if named else []
-    if not named:
+    return recording_of_columns(table, first if named else [], options, path, _facts(comments), warnings)
+
+
+def recording_of_columns(
+    table: NDArray[np.float64],
+    names: list[str],
+    options: ReadOptions,
+    path: Path,
+    facts: dict[str, str] | None = None,
+    warnings: list[str] | None = None,
+) -> PressureRecording:
+    """A recording from a table of numbers and the names of its columns.
+
+    Args:
+        table: Numbers (n, k), NaN where one is missing.
+        names: Names (k) of the columns; empty where there are none.
+        options: What is known of the table.
+        path: What the recording is called.
+        facts: What comments state: "unit", "rate", "side".
+        warnings: Where assumptions are put.
+
+    Returns:
+        The recording.
+
+    Raises:
+        FormatError: If no column is a cell or a force, or a unit is not known.
+    """
+    facts, warnings = {} if facts is None else facts, [] if warnings is None else warnings
+    if not names:
         warnings.append("the table has no row of names: the first column is taken as time in s if it increases")
     at = next((i for i, n in enumerate(names) if time_unit(n) is not None), None)
-    if at is None and (not named or not names[0]):
+    if at is None and (not names or not names[0]):
         column = table[:, 0]
         at = 0 if np.isfinite(column).all() and (np.diff(column) > 0.0).all() else None
+    of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
     if of_side is not None:
         table, names = _side_by_side(table, names, at, of_side, warnings)
         at = None if at is None else 0
@@ -338,5 +365,6 @@ FORMAT = Format(
     suffixes=(".csv", ".tsv", ".txt"),
     recognises=_recognises,
     read=_read,
+    order=99,
 )
 """The entry of the registry."""

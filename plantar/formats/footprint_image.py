@@ -259,5 +259,6 @@ FORMAT = Format(
     suffixes=(".png", ".jpg", ".tif", ".bmp"),
     recognises=_recognises,
     read=None,
+    order=19,
 )
 """The entry of the registry."""

@@ -185,5 +185,6 @@ FORMAT = Format(
     suffixes=(".txt", ".xls", ".csv"),
     recognises=_recognises,
     read=_read,
+    order=16,
 )
 """The entry of the registry."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from plantar.layouts.layout import Side, SoleLayout
@@ -23,6 +23,9 @@ class ReadOptions:
         side: Which foot the file holds, where it holds one; of a pedar file of two insoles that it does not tell apart,
             whose the first columns are.
         insole_size: Size of a pedar insole, for example "x" or "vw"; see `plantar.formats.nominal_insole`.
+        mass_kg: Mass of the body, which turns forces in body weights into N.
+        plates: Which foot steps on each force plate, in the file's order; None for a plate that is left out. Empty
+            where the data decides.
     """
 
     layout: SoleLayout | None = None
@@ -30,6 +33,8 @@ class ReadOptions:
     rate_hz: float | None = None
     side: Side | None = None
     insole_size: str | None = None
+    mass_kg: float | None = None
+    plates: tuple[Side | None, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,7 @@ class Format:
         recognises: Tells from a file's first bytes whether it is of this format.
         read: Reads a file; None for footprint images, which are no recordings.
         folders: File that a folder of this format holds, where the format is a folder.
+        order: Formats are tried in this order; those that recognise any table or text have a high one.
     """
 
     name: str
@@ -50,4 +56,5 @@ class Format:
     suffixes: tuple[str, ...]
     recognises: Callable[[bytes], bool]
     read: Callable[[Path, ReadOptions], PressureRecording] | None
-    folders: str | None = field(default=None)
+    folders: str | None = None
+    order: int = 50

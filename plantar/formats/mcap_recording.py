@@ -102,5 +102,7 @@ def _other_bag(path: Path, options: ReadOptions, topics: str) -> PressureRecordi
         ) from None
 
 
-FORMAT = Format(name="mcap", title="Plantar recording", suffixes=(".mcap",), recognises=_recognises, read=_read)
+FORMAT = Format(
+    name="mcap", title="Plantar recording", suffixes=(".mcap",), recognises=_recognises, read=_read, order=10
+)
 """The entry of the registry."""

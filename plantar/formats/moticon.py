@@ -294,5 +294,7 @@ def _device_cop(
     return out
 
 
-FORMAT = Format(name="moticon", title="Moticon OpenGo export", suffixes=(".txt",), recognises=_recognises, read=_read)
+FORMAT = Format(
+    name="moticon", title="Moticon OpenGo export", suffixes=(".txt",), recognises=_recognises, read=_read, order=15
+)
 """The entry of the registry."""

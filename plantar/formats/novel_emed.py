@@ -337,5 +337,7 @@ def _rate(facts: dict[str, str], warnings: list[str]) -> float:
     return possible_rate(1.0 / period if period else np.inf, f"the time per picture {text.strip()[:40]!r} means")
 
 
-FORMAT = Format(name="emed", title="Novel emed export", suffixes=(".lst",), recognises=_recognises, read=_read)
+FORMAT = Format(
+    name="emed", title="Novel emed export", suffixes=(".lst",), recognises=_recognises, read=_read, order=12
+)
 """The entry of the registry."""

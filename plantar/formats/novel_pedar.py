@@ -334,6 +334,11 @@ def _order(sole: SoleLayout, cells: list[int]) -> list[int]:
 
 
 FORMAT = Format(
-    name="pedar", title="Novel pedar or pliance export", suffixes=(".asc",), recognises=_recognises, read=_read
+    name="pedar",
+    title="Novel pedar or pliance export",
+    suffixes=(".asc",),
+    recognises=_recognises,
+    read=_read,
+    order=11,
 )
 """The entry of the registry."""

@@ -204,5 +204,6 @@ FORMAT = Format(
     recognises=_recognises,
     read=read_bag,
     folders=_FOLDERS,
+    order=18,
 )
 """The entry of the registry."""

@@ -333,5 +333,7 @@ def _rate(header: dict[str, str], warnings: list[str]) -> float:
     return _USUAL_RATE
 
 
-FORMAT = Format(name="tekscan", title="Tekscan export", suffixes=(".asf", ".csv"), recognises=_recognises, read=_read)
+FORMAT = Format(
+    name="tekscan", title="Tekscan export", suffixes=(".asf", ".csv"), recognises=_recognises, read=_read, order=13
+)
 """The entry of the registry."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-__all__ = ["FORCES", "LENGTHS", "PASCALS", "RAW", "Unit", "find_unit", "plain"]
+__all__ = ["FORCES", "LENGTHS", "MOMENTS", "PASCALS", "RAW", "Unit", "find_unit", "plain"]
 
 PASCALS: Mapping[str, float] = {
     "kpa": 1e3,
@@ -37,6 +37,7 @@ FORCES: Mapping[str, float] = {
     "n": 1.0,
     "newton": 1.0,
     "newtons": 1.0,
+    "nt": 1.0,
     "kn": 1e3,
     "mn": 1e-3,
     "kgf": 9.80665,
@@ -64,6 +65,12 @@ LENGTHS: Mapping[str, float] = {
     "inches": 0.0254,
 }
 """Length units by their plain lower-case name, in m."""
+
+_NAMES = ("n", "nt", "newton", "newtons")
+MOMENTS: Mapping[str, float] = {
+    f"{force}{sign}{name}": factor for name, factor in LENGTHS.items() for force in _NAMES for sign in ("", ".", "-")
+}
+"""Moment units by their plain lower-case name, in N m."""
 
 RAW: tuple[str, ...] = ("raw", "counts", "count", "adc", "digital", "do", "bits")
 """Names of readings that were never calibrated."""

@@ -14,13 +14,14 @@ import numpy as np
 from plantar.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
-from plantar.gait.analysis.analyse import Analysis, analyse, with_layout, write_analysis
+from plantar.gait.analysis.analyse import analyse_one, with_layout
 from plantar.gait.analysis.measures import MEASURES
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
 from plantar.gait.analysis.pages.report import comparison_page
 from plantar.gait.analysis.pages.sole_figures import figure_pair
+from plantar.gait.analysis.results import Analysis, write_analysis
 from plantar.gait.analysis.subject import Subject
 from plantar.plotting import COLOURS, new_figure
 from plantar.sides import SIDES, Side
@@ -86,7 +87,7 @@ def compare_recordings(
     with output_folder(out, (a, b, layout)) as folder:
         for i, (key, path) in enumerate((("a", a), ("b", b))):
             tell(0.4 * i, f"reading {key}")
-            analyses[key] = analyse(path, format, known, choices=choices, subject=subject)
+            analyses[key] = analyse_one(path, format, known, choices=choices, subject=subject)
             (folder / key).mkdir()
             write_analysis(analyses[key], folder / key, _later(tell, 0.4 * i + 0.1, 0.3))
         if analyses["a"].recording.raw != analyses["b"].recording.raw:

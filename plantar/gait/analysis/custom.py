@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError
-from plantar.gait.analysis.analyse import Analysis
+from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.pressure_measures import region_measures
 from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads

@@ -15,7 +15,7 @@ import numpy as np
 from plantar import __version__
 from plantar.atomic import parent_folder, replacing, write_text
 from plantar.errors import InputError
-from plantar.gait.analysis.analyse import Analysis
+from plantar.gait.analysis.results import Analysis
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.optional_library import optional_library
 

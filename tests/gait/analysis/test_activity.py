@@ -11,7 +11,7 @@ import pytest
 from plantar.errors import InputError
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.gait.analysis.activity import activity_of, progression_doubts, sway_measures
-from plantar.gait.analysis.analyse import metrics_of
+from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.baseline import without_baselines

@@ -18,7 +18,8 @@ from typer.testing import CliRunner
 from plantar import FormatError, InputError, LayoutError, cli, write_layout
 from plantar.formats import read_recording
 from plantar.formats.nominal_insole import nominal_insole
-from plantar.gait.analysis.analyse import analyse_recording, metrics_of
+from plantar.gait.analysis.analyse import analyse_recording
+from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_foot
 from plantar.plotting import thinned
 from plantar.recordings.recorder import Recorder

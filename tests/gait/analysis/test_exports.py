@@ -14,8 +14,9 @@ from plantar import InputError
 from plantar.cli import app
 from plantar.formats.format import ReadOptions
 from plantar.formats.nominal_insole import nominal_insole
-from plantar.gait.analysis.analyse import Analysis, analyse, metrics_of
+from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.gait.analysis.exports import export_analysis
+from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
 
 from .walks import made_walk

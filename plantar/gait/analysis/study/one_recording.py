@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from plantar import __version__
 from plantar.atomic import replacing
 from plantar.formats import ReadOptions
-from plantar.gait.analysis.analyse import Analysis, analyse, with_layout
+from plantar.gait.analysis.analyse import Analysis, analyse_one, with_layout
 from plantar.gait.analysis.measures import MEASURES, raw_name
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.force_figures import stance_curves
@@ -158,7 +158,7 @@ def measure_recording(
     )
     known = with_layout(known, folder / who.layout) if who.layout else known
     subject = Subject(who.participant, who.mass_kg, who.foot_length_m)
-    analysis = analyse(folder / who.file, None, known, choices=choices, subject=subject)
+    analysis = analyse_one(folder / who.file, None, known, choices=choices, subject=subject)
     recording, raw = analysis.recording, analysis.recording.raw
     rows = [row for gait in analysis.feet.values() for row in _rows(gait, who, raw)]
     rows.sort(key=lambda row: float(row["heel_strike_s"]))

@@ -7,8 +7,10 @@ import io
 import json
 import math
 import os
+import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +23,7 @@ from plantar.errors import InputError, PlantarError
 from plantar.formats import ReadOptions, formats
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.figure_files import write_figures
+from plantar.gait.analysis.results import as_data_frame
 from plantar.gait.analysis.study.compare_conditions import Comparison, compare_conditions, outliers
 from plantar.gait.analysis.study.one_recording import (
     RecordingResult,
@@ -58,9 +61,34 @@ class Study:
     choices: AnalysisOptions
     files: Sequence[str] = ()
 
+    @cached_property
     def steps(self) -> dict[str, NDArray[Any]]:
-        """The steps as columns, as `pandas.DataFrame(study.steps())` takes them: NaN for what is not known."""
+        """The steps of all recordings as columns; NaN for what is not known."""
         return _columns(_step_rows(self))
+
+    def to_pandas(self) -> Any:
+        """The steps as a `pandas.DataFrame`.
+
+        Raises:
+            InputError: If pandas is not installed.
+        """
+        return as_data_frame(self.steps)
+
+    def report(self, path: str | os.PathLike[str] | None = None) -> str:
+        """The study's page as one HTML text, written to a file where one is named.
+
+        Args:
+            path: File to write; none where None.
+
+        Returns:
+            The page.
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            figures = write_figures(study_figures(self.comparisons), Path(folder))
+            page = study_page(self.summary(), self.results, self.comparisons, figures, "study")
+        if path is not None:
+            write_text(Path(path), page)
+        return page
 
     def recordings(self) -> dict[str, NDArray[Any]]:
         """The feet of every recording as columns; a recording that could not be measured is one row with its error."""

@@ -9,8 +9,9 @@ import pytest
 
 from plantar.formats import detect_format
 from plantar.formats.grid_cells import grid_cells
-from plantar.gait.analysis.analyse import Analysis, analyse, metrics_of
+from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.gait.analysis.exports import export_analysis
+from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.pages.player import player_data
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.prints.platform import told_apart

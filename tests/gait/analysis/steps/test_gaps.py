@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from plantar.gait.analysis.analyse import metrics_of
+from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.gaps import filled, without_gaps
 from plantar.recordings import let_go

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from plantar.gait.analysis.analyse import metrics_of
+from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.recordings.pressure_recording import PressureRecording
 

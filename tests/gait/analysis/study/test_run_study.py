@@ -97,7 +97,7 @@ def test_the_tables_are_tidy(study: tuple[Path, Path, Study]) -> None:
     assert set(errors) == {"damaged.npz", "gone.npz", "<script>alert(1)<-script>.csv"}
     assert all(errors.values())
     assert len(rows) == 16 + 3
-    columns = result.steps()
+    columns = result.steps
     assert {len(column) for column in columns.values()} == {len(steps)}
     assert columns["peak_force_N"].dtype == float
     json.loads((out / "study.json").read_text())

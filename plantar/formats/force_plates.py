@@ -1,0 +1,277 @@
+"""Force plates as feet: zero, sign, centre of pressure, and which foot each contact is of; for every format of plates.
+
+Axes here are the laboratory's with z up. What a foot does to a plate, its plate does to the foot with the other sign;
+everything below is on the foot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError, InputError
+from plantar.formats.format import ReadOptions
+from plantar.formats.plate_sides import PlateContact, plate_contacts, sides_of_contacts
+from plantar.recordings.pressure_recording import FootRecording, StatedEvents
+from plantar.sides import SIDES, Side
+
+__all__ = ["LEAST", "Plate", "feet_of_plates"]
+
+LEAST = 20.0
+"""Vertical force in N from which a plate counts as stepped on, and has a centre of pressure."""
+
+_WINDOW, _WINDOW_N = 0.15, 60.0
+"""An empty plate reads less than 0.15 of its peak, or 60 N: larger offsets are left in and reported."""
+_SHORTEST, _FEWEST = 0.1, 0.02
+"""Time in s of a run of empty frames, and their least share, from which they show the plate's zero."""
+_NOISES = 6.0
+_SHEAR = 0.6
+"""Horizontal over vertical force, median of loaded frames, above which what pushes is no foot: friction of shoes on
+floors allows 0.5, walking has 0.1."""
+_OUTSIDE, _EDGE = 0.3, 0.05
+"""Share of loaded frames whose CoP is outside the plate by more than 0.05 m from which its geometry is doubted."""
+_BESIDE = 0.3
+"""Time in s before and after a contact in which its plate is read: another plate's drift is no load of this foot."""
+_STATED = 2.0
+"""Offset in N from which it is reported."""
+
+
+@dataclass(frozen=True, eq=False)
+class Plate:
+    """What one force plate measured.
+
+    Attributes:
+        name: Its name for messages, such as "plate 1".
+        force: Force (n, 3) in N; horizontal ones NaN where they were not measured.
+        moment: Moment (n, 3) in N m about `origin`; None where the file holds CoPs or nothing.
+        cop: Centre of pressure (n, 2) in m that the file states; None without.
+        free: Free moment (n,) in N m that the file states; None where it follows from `moment`, or is unknown.
+        origin: Point (2,) in m on the surface that moments are about.
+        corners: Corners (4, 2) in m; None where they are not known.
+        side: The foot that the file or the user names for it.
+        stepped: Whether a foot was on it.
+    """
+
+    name: str
+    force: NDArray[np.float64]
+    moment: NDArray[np.float64] | None = None
+    cop: NDArray[np.float64] | None = None
+    free: NDArray[np.float64] | None = None
+    origin: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2))
+    corners: NDArray[np.float64] | None = None
+    side: Side | None = None
+    stepped: bool = True
+
+
+def feet_of_plates(
+    plates: Sequence[Plate],
+    rate: float,
+    options: ReadOptions,
+    warnings: list[str],
+    markers: Mapping[Side, NDArray[np.float64]] | None = None,
+    events: Mapping[Side, StatedEvents] | None = None,
+) -> tuple[dict[Side, FootRecording], bool]:
+    """The feet that step on force plates.
+
+    Each plate's zero is the mean of its own empty frames; its sign is that of its load.
+
+    Args:
+        plates: The plates as the file gives them.
+        rate: Frames a second.
+        options: With the user's word about the plates' feet.
+        warnings: Where assumptions are put.
+        markers: Where each foot's markers are (n, 2) in m, NaN where unseen.
+        events: Heel strikes of each foot that the file states, in s from the first frame.
+
+    Returns:
+        The feet, and whether the plates see every step: a treadmill does, plates in a walkway do not.
+
+    Raises:
+        FormatError: If no plate is stepped on, what pushes is no foot, or one plate carries both feet at once.
+        InputError: If `options.plates` names another number of plates.
+    """
+    if options.plates and len(options.plates) != len(plates):
+        raise InputError(f"--plates names {len(options.plates)} plates; the file has {len(plates)}")
+    named = [replace(p, side=s) for p, s in zip(plates, options.plates or [p.side for p in plates], strict=True)]
+    chosen = [p for p, s in zip(named, options.plates or ["all"] * len(named), strict=True) if s is not None]
+    ready = [_zeroed(p, rate, warnings) for p in chosen]
+    used = [p for p in ready if p.stepped]
+    if not used:
+        raise FormatError(f"no force plate carries more than {LEAST:g} N")
+    if len(used) < len(ready):
+        warnings.append(f"{len(ready) - len(used)} of {len(ready)} force plates are never stepped on")
+    for plate in used:
+        _refuse_no_foot(plate)
+    used = [_with_cop(p, warnings) for p in used]
+    contacts = [c for i, p in enumerate(used) for c in plate_contacts(i, p.force[:, 2], rate)]
+    if len(used) == 1 and not contacts and float(np.nanpercentile(used[0].force[:, 2], 2.0)) > LEAST:
+        spread = float(np.nanstd(used[0].force[:, 2]) / np.nanmean(used[0].force[:, 2]))
+        if spread > 0.1:
+            raise FormatError(
+                f"{used[0].name} is never empty and its load changes by {100.0 * spread:.0f} %: both feet walk on one "
+                "plate, which does not separate them; allowed: a plate for each foot"
+            )
+    every = _sees_all(contacts, len(used))
+    sides = sides_of_contacts(used, contacts, every, rate, options.side, warnings, markers, events)
+    weights = _weights(used, contacts, sides, round(_BESIDE * rate))
+    feet = {side: _foot(side, used, weights[side]) for side in SIDES if side in weights}
+    return feet, every
+
+
+def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
+    """A plate with zero load in its empty frames and positive load under a foot."""
+    vertical = plate.force[:, 2]
+    empty = _empty_frames(vertical, rate)
+    force, moment, free = plate.force, plate.moment, plate.free
+    noise = 0.0
+    if empty is not None:
+        offset = np.nan_to_num(np.nanmean(force[empty], axis=0))
+        noise = float(np.nanstd(vertical[empty]))
+        force = force - offset
+        moment = None if moment is None else moment - np.nanmean(moment[empty], axis=0)
+        if abs(offset[2]) > _STATED:
+            warnings.append(
+                f"{plate.name} reads {offset[2]:.3g} N when empty: the mean of its own {int(empty.sum())} empty frames "
+                "is taken off its forces and moments"
+            )
+    elif np.nanmax(np.abs(vertical), initial=0.0) > LEAST:
+        warnings.append(f"{plate.name} is never empty: its zero is taken as it is")
+    least = max(LEAST, _NOISES * noise)
+    loaded = np.abs(np.nan_to_num(force[:, 2])) > least
+    if loaded.sum() < max(3, _SHORTEST * rate):
+        return replace(plate, force=force, moment=moment, stepped=False)
+    if float(np.nanmedian(force[loaded, 2])) < 0.0:
+        warnings.append("the plates' forces point down: taken as those on the plate, and turned to those on the foot")
+        force = -force
+        moment, free = None if moment is None else -moment, None if free is None else -free
+    return replace(plate, force=force, moment=moment, free=free, stepped=True)
+
+
+def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool_] | None:
+    """Frames (n,) in which nothing is on a plate: the commonest level near zero; None where there is none."""
+    known = vertical[np.isfinite(vertical)]
+    if len(known) < 3:
+        return None
+    peak = float(np.percentile(np.abs(known), 99.5))
+    window = max(_WINDOW * peak, min(_WINDOW_N, 0.3 * peak))
+    near = known[np.abs(known) <= window]
+    if len(near) < max(3.0, _FEWEST * len(known)) or not window > 0.0:
+        return None
+    counts, edges = np.histogram(near, bins=60, range=(-window, window))
+    smooth = np.convolve(counts, [1, 2, 1], mode="same")
+    level = 0.5 * float(edges[np.argmax(smooth)] + edges[np.argmax(smooth) + 1])
+    width = window / 10.0
+    for _ in range(3):
+        part = near[np.abs(near - level) <= width]
+        level = float(np.median(part))
+        width = max(_NOISES * 1.4826 * float(np.median(np.abs(part - level))), 2e-3 * peak, 1e-9)
+    flat = np.abs(np.nan_to_num(vertical, nan=np.inf) - level) <= width
+    least = max(2, round(_SHORTEST * rate))
+    starts = np.flatnonzero(np.diff(np.concatenate([[False], flat, [False]]).astype(np.int8)) == 1)
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], flat, [False]]).astype(np.int8)) == -1)
+    empty = np.zeros(len(vertical), dtype=bool)
+    for a, b in zip(starts.tolist(), ends.tolist(), strict=True):
+        if b - a >= least:
+            edge = min((b - a) // 5, round(0.05 * rate))  # the ends belong to a foot that lands or leaves
+            empty[a + edge : b - edge] = True
+    return empty if empty.sum() >= max(2.0, _FEWEST * len(known)) else None
+
+
+def _refuse_no_foot(plate: Plate) -> None:
+    """Refuse what no foot does to a plate.
+
+    Raises:
+        FormatError: If most of the force is horizontal.
+    """
+    size = np.linalg.norm(np.nan_to_num(plate.force), axis=1)
+    loaded = size > max(LEAST, 0.2 * float(np.percentile(size, 99.5)))
+    if not loaded.any() or not np.isfinite(plate.force[loaded][:, :2]).any():
+        return
+    across = np.hypot(*np.nan_to_num(plate.force[loaded, :2]).T)
+    share = float(np.median(across / np.maximum(np.abs(plate.force[loaded, 2]), 1e-9)))
+    if share > _SHEAR:
+        raise FormatError(
+            f"the horizontal force of {plate.name} is {share:.2g} of its vertical one: no foot pushes so (a handrail, "
+            "a wheel's rim, or another vertical axis?); allowed: force plates under feet"
+        )
+
+
+def _with_cop(plate: Plate, warnings: list[str]) -> Plate:
+    """The plate with its centre of pressure and free moment.
+
+    With the moment M about a point of the surface and the force F, r = (z x M) / Fz and the free moment is
+    z . (M - r x F).
+    """
+    vertical = np.where(plate.force[:, 2] > LEAST, plate.force[:, 2], np.nan)
+    cop, free = plate.cop, plate.free
+    if plate.moment is not None:
+        local = np.column_stack([-plate.moment[:, 1], plate.moment[:, 0]]) / vertical[:, None]
+        free = plate.moment[:, 2] - local[:, 0] * plate.force[:, 1] + local[:, 1] * plate.force[:, 0]
+        cop = local + plate.origin
+    if cop is None:
+        return plate
+    cop = np.where(np.isfinite(vertical)[:, None] & np.isfinite(cop), cop, np.nan)
+    known = cop[np.isfinite(cop).all(axis=1) & (plate.force[:, 2] > 0.2 * np.nanmax(plate.force[:, 2]))]
+    if plate.corners is not None and len(known):
+        low, high = plate.corners.min(axis=0) - _EDGE, plate.corners.max(axis=0) + _EDGE
+        outside = float(((known < low) | (known > high)).any(axis=1).mean())
+        if outside > _OUTSIDE:
+            warnings.append(
+                f"the centre of pressure of {plate.name} lies outside its corners in {100.0 * outside:.0f} % of its "
+                "loaded frames: check corners, origin and channels; forces do not depend on them"
+            )
+    return replace(plate, cop=cop, free=free)
+
+
+def _sees_all(contacts: Sequence[PlateContact], plates: int) -> bool:
+    """Whether plates see every step of a walk: those of a treadmill are stepped on again and again."""
+    counts = np.bincount([c.plate for c in contacts], minlength=plates)
+    return plates > 1 and bool((counts >= 4).sum() >= 2)
+
+
+def _weights(
+    plates: Sequence[Plate], contacts: Sequence[PlateContact], sides: Sequence[Side], reach: int
+) -> dict[Side, list[NDArray[np.bool_]]]:
+    """Frames (n,) of each plate that are of each foot: its contacts, and up to `reach` frames before and after."""
+    n = len(plates[0].force)
+    out: dict[Side, list[NDArray[np.bool_]]] = {side: [np.zeros(n, dtype=bool) for _ in plates] for side in SIDES}
+    for i, plate in enumerate(plates):
+        own = [(c, s) for c, s in zip(contacts, sides, strict=True) if c.plate == i]
+        if not own:
+            out[plate.side or "left"][i][:] = True
+        for k, (contact, side) in enumerate(own):
+            begin = max(contact.begin - reach, 0 if k == 0 else (own[k - 1][0].end + contact.begin) // 2)
+            end = min(contact.end + reach, n if k == len(own) - 1 else (contact.end + own[k + 1][0].begin) // 2)
+            out[side][i][begin:end] = True
+    return {side: masks for side, masks in out.items() if any(m.any() for m in masks)}
+
+
+def _foot(side: Side, plates: Sequence[Plate], masks: Sequence[NDArray[np.bool_]]) -> FootRecording:
+    """One foot from its frames on the plates: their sum, and the CoP weighted by load."""
+    known = [p for p, mask in zip(plates, masks, strict=True) if mask.any()]
+    own = [mask for mask in masks if mask.any()]
+    force = np.sum([np.where(m[:, None], np.nan_to_num(p.force), 0.0) for p, m in zip(known, own, strict=True)], axis=0)
+    lost = np.logical_or.reduce([m & ~np.isfinite(p.force[:, 2]) for p, m in zip(known, own, strict=True)])
+    force[lost] = np.nan
+    if any(p.cop is None for p in known):
+        return FootRecording(side, force[:, 2:3], None, total=force[:, 2])
+    load = np.array(
+        [np.where(m & np.isfinite(p.cop[:, 0]), p.force[:, 2], 0.0) for p, m in zip(known, own, strict=True)]  # type: ignore[index]
+    )
+    places = np.array([np.nan_to_num(p.cop) for p in known])  # type: ignore[arg-type]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cop = (load[:, :, None] * places).sum(axis=0) / load.sum(axis=0)[:, None]
+    if not all(np.isfinite(p.force[:, :2]).any() for p in known):
+        return FootRecording(side, force[:, 2:3], None, total=force[:, 2], cop=cop)
+    free = np.sum(
+        [np.where(m, np.nan_to_num(p.free), 0.0) for p, m in zip(known, own, strict=True) if p.free is not None]
+        or [np.zeros(len(force))],
+        axis=0,
+    )
+    x, y = np.nan_to_num(cop).T
+    moment = np.column_stack([y * force[:, 2], -x * force[:, 2], x * force[:, 1] - y * force[:, 0] + free])
+    wrench = np.column_stack([force, moment])
+    return FootRecording(side, force[:, 2:3], None, total=force[:, 2], cop=cop, wrench=wrench)

@@ -1,0 +1,84 @@
+"""Recordings of what a program already holds: a file's path, arrays of cells, or a data frame."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from plantar.errors import InputError
+from plantar.formats import ReadOptions, read_recording
+from plantar.formats.array_file import recording_of_arrays
+from plantar.formats.csv_table import recording_of_columns
+from plantar.formats.marks import without_marks
+from plantar.formats.plausibility import doubts
+from plantar.recordings.pressure_recording import PressureRecording
+
+__all__ = ["recording_of"]
+
+
+def recording_of(given: Any, format: str | None = None, options: ReadOptions | None = None) -> PressureRecording:
+    """A recording from whatever holds one.
+
+    Args:
+        given: A recording, which is returned; the path of a file; an array (n, k) of n frames and k cells (or n x rows
+            x columns); a mapping with the arrays "left" and "right", "time" in s, "unit", "rate_hz" as an NPZ file has
+            them; or a data frame (pandas, polars) with a column a cell and names as in a CSV table.
+        format: Name of a file's format; recognised from its content where None.
+        options: What else is known: layout, unit, rate, side. Arrays are raw counts where no unit is given.
+
+    Returns:
+        The recording.
+
+    Raises:
+        InputError: If it is none of these.
+        FormatError: If it holds no frames of cells or forces.
+    """
+    known = options or ReadOptions()
+    if isinstance(given, PressureRecording):
+        return given
+    if isinstance(given, str | os.PathLike):
+        return read_recording(given, format, options=known)
+    if hasattr(given, "columns") and not isinstance(given, Mapping):
+        found = recording_of_columns(*_columns(given), known, Path("data frame"))
+    elif isinstance(given, Mapping):
+        found = recording_of_arrays({str(k): np.asarray(v) for k, v in given.items()}, known, Path("arrays"))
+    elif isinstance(given, np.ndarray | list | tuple):
+        found = recording_of_arrays({"values": np.asarray(given, dtype=float)}, known, Path("array"))
+    else:
+        raise InputError(
+            f"a {type(given).__name__} is no recording; allowed: a path, a PressureRecording, an array of frames and "
+            "cells, a mapping of arrays, a data frame"
+        )
+    found = without_marks(found)
+    return replace(found, warnings=tuple(dict.fromkeys([*found.warnings, *doubts(found)])))
+
+
+def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:
+    """The numbers (n, k) of a data frame and its columns' names; an index of times becomes the first column."""
+    names, columns = [str(name) for name in frame.columns], [np.asarray(frame[name]) for name in frame.columns]
+    index = getattr(frame, "index", None)
+    values = None if index is None else np.asarray(index)
+    if values is not None and values.ndim == 1 and (values.dtype.kind in "mM" or getattr(index, "name", None)):
+        names.insert(0, "time" if values.dtype.kind in "mM" else str(index.name))  # type: ignore[union-attr]
+        columns.insert(0, values)
+    return np.column_stack([_numbers(c) for c in columns]) if columns else np.zeros((0, 0)), names
+
+
+def _numbers(column: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """A column (n,) as numbers: dates and durations in s, NaN where a value is no number."""
+    if column.dtype.kind in "mM":
+        return (column - column[:1]) / np.timedelta64(1, "s") if len(column) else column.astype(float)
+    if column.dtype.kind in "iufb":
+        return column.astype(float)
+    out = np.full(len(column), np.nan)
+    for i, value in enumerate(column):
+        try:
+            out[i] = float(value)
+        except (TypeError, ValueError):
+            continue
+    return out

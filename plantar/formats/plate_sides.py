@@ -1,0 +1,270 @@
+"""Which foot each contact on a force plate is of: by names, markers, events, inward push, or the plates' places."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.recordings.pressure_recording import StatedEvents
+from plantar.sides import SIDES, Side, other_side
+
+__all__ = ["PlateContact", "plate_contacts", "sides_of_contacts"]
+
+_LEAST, _SHARE = 20.0, 0.05
+"""Vertical force in N, and share of the plate's peak, above which a foot is on it."""
+_SHORTEST, _BRIDGED = 0.1, 0.1
+"""Contacts in s that are shorter are none; gaps in s that are shorter are bridged."""
+_NEARER = 0.1
+"""How much nearer in m one foot's markers are to the CoP than the other's, at least."""
+_REACH = 0.2
+"""Time in s between a contact's begin and a stated heel strike of its foot, at most."""
+_INWARD = 0.01
+"""Mean push to the middle in mid-stance, as a share of the peak, from which it shows the foot; walking has 0.03."""
+_ACROSS = 0.02
+"""Distance in m of plates or contacts across the direction of walking that shows which are the left ones."""
+_LONG = 1.4
+"""Contacts and gaps on a treadmill's belt of so many medians show that a foot was on the other belt."""
+
+
+class _Plate(Protocol):
+    """What of a plate is looked at."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def side(self) -> Side | None: ...
+    @property
+    def force(self) -> NDArray[np.float64]: ...
+    @property
+    def cop(self) -> NDArray[np.float64] | None: ...
+    @property
+    def corners(self) -> NDArray[np.float64] | None: ...
+
+
+@dataclass(frozen=True)
+class PlateContact:
+    """A contact on a plate: its number, first frame, and the frame after its last one."""
+
+    plate: int
+    begin: int
+    end: int
+
+
+def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> list[PlateContact]:
+    """The contacts on one plate.
+
+    Args:
+        plate: Its number.
+        vertical: Vertical force (n,) in N on the foot.
+        rate: Frames a second.
+
+    Returns:
+        The contacts in order; those that the recording cuts as well, but none that lasts throughout.
+    """
+    force = np.nan_to_num(vertical)
+    loaded = force > max(_LEAST, _SHARE * float(np.percentile(force, 99.5)))
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], loaded, [False]]).astype(np.int8)))
+    out: list[PlateContact] = []
+    for a, b in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        if out and a - out[-1].end < _BRIDGED * rate:
+            out[-1] = PlateContact(plate, out[-1].begin, b)
+        else:
+            out.append(PlateContact(plate, a, b))
+    return [c for c in out if c.end - c.begin >= _SHORTEST * rate and c.end - c.begin < len(force)]
+
+
+def sides_of_contacts(
+    plates: Sequence[_Plate],
+    contacts: Sequence[PlateContact],
+    treadmill: bool,
+    rate: float,
+    given: Side | None,
+    warnings: list[str],
+    markers: Mapping[Side, NDArray[np.float64]] | None = None,
+    events: Mapping[Side, StatedEvents] | None = None,
+) -> list[Side]:
+    """The foot of each contact.
+
+    Args:
+        plates: The plates, which may name their foot.
+        contacts: Their contacts.
+        treadmill: Whether each plate is a belt that one foot walks on.
+        rate: Frames a second.
+        given: The user's word on a file of one foot.
+        warnings: Where the reason is put.
+        markers: Where each foot's markers are (n, 2).
+        events: Heel strikes of each foot in s.
+
+    Returns:
+        A foot for each contact.
+    """
+    if treadmill:
+        _report_crossings(plates, contacts, rate, warnings)
+    if all(p.side is not None for p in plates):
+        return [plates[c.plate].side or "left" for c in contacts]
+    if given is not None and len(plates) == 1:
+        return [given] * len(contacts)
+    found: list[Side | None] = [_by_markers(plates[c.plate], c, markers) for c in contacts]
+    why = "markers of the feet"
+    if not any(found):
+        found, why = [_by_events(c, rate, events) for c in contacts], "stated events"
+    if not any(found):
+        forward = _forward(plates, contacts, treadmill)
+        found, why = _by_push(plates, contacts, forward), "their push to the body's middle"
+        across = _by_place(plates, contacts, forward)
+        if treadmill and across:
+            found, why = list(across), "the belts' places across the direction of walking"
+        elif not all(found) and across:
+            found, why = list(across), "their places across the direction of walking"
+    if treadmill and any(found):  # a belt is one foot's
+        votes = [[s for c, s in zip(contacts, found, strict=True) if c.plate == i and s] for i in range(len(plates))]
+        belts = [max(SIDES, key=own.count) if own else None for own in votes]
+        found = [belts[c.plate] for c in contacts]
+    if any(found):
+        out = _filled_in(contacts, found)
+        names = ", ".join(
+            f"{plates[i].name}: {' and '.join(sorted({s for c, s in zip(contacts, out, strict=True) if c.plate == i}))}"
+            for i in sorted({c.plate for c in contacts})
+        )
+        warnings.append(f"which foot steps on each plate follows from {why} ({names}; --plates overrides)")
+        return out
+    if len(plates) == 1:
+        text = "taken as the left one (--side or --plates overrides)"
+        warnings.append(f"the file does not say which foot steps on the plate: {text}")
+        return ["left"] * len(contacts)
+    order = sorted(range(len(contacts)), key=lambda i: contacts[i].begin)
+    turn: dict[int, Side] = {i: SIDES[k % 2] for k, i in enumerate(order)}
+    if treadmill:
+        warnings.append(
+            "the file does not say whose belt is whose: the first is taken as the left foot's (--plates R,L)"
+        )
+        return [SIDES[c.plate % 2] for c in contacts]
+    warnings.append("the plates lie in one line: taken as stepped on by left and right in turns (--plates overrides)")
+    return [turn[i] for i in range(len(contacts))]
+
+
+def _by_markers(
+    plate: _Plate, contact: PlateContact, markers: Mapping[Side, NDArray[np.float64]] | None
+) -> Side | None:
+    """The foot whose markers are nearer to the CoP."""
+    if not markers or plate.cop is None:
+        return None
+    span = slice(contact.begin, contact.end)
+    away = {}
+    for side, track in markers.items():
+        gap = np.hypot(*(track[span] - plate.cop[span]).T)
+        away[side] = float(np.median(gap[np.isfinite(gap)])) if np.isfinite(gap).any() else np.inf
+    if len(away) < 2:
+        return next((s for s, d in away.items() if d < 2.0 * _NEARER), None)
+    near = min(away, key=lambda s: away[s])
+    return near if away[near] + _NEARER < away[other_side(near)] else None
+
+
+def _by_events(contact: PlateContact, rate: float, events: Mapping[Side, StatedEvents] | None) -> Side | None:
+    """The foot with a stated heel strike nearest to a contact's begin."""
+    away = {
+        side: float(np.abs(own.heel_strikes - contact.begin / rate).min())
+        for side, own in (events or {}).items()
+        if len(own.heel_strikes)
+    }
+    near = min(away, key=lambda s: away[s], default=None)
+    return near if near is not None and away[near] <= _REACH else None
+
+
+def _forward(plates: Sequence[_Plate], contacts: Sequence[PlateContact], treadmill: bool) -> NDArray[np.float64] | None:
+    """The direction (2,) of walking: a foot brakes first and pushes off last; else the way of the CoP."""
+    push, way = np.zeros(2), np.zeros(2)
+    for contact in contacts:
+        plate, length = plates[contact.plate], contact.end - contact.begin
+        span = np.nan_to_num(plate.force[contact.begin : contact.end, :2])
+        push += span[int(0.6 * length) :].sum(axis=0) - span[: int(0.4 * length)].sum(axis=0)
+        if plate.cop is not None:
+            cop = plate.cop[contact.begin : contact.end]
+            cop = cop[np.isfinite(cop).all(axis=1)]
+            if len(cop) > 4:
+                way += cop[-1 - len(cop) // 10] - cop[len(cop) // 10]
+    way = -way if treadmill else way
+    total = sum(float(np.nansum(plates[c.plate].force[c.begin : c.end, 2])) for c in contacts)
+    vector = push if np.hypot(*push) > 0.02 * total > 0.0 else way
+    size = float(np.hypot(*vector))
+    return vector / size if size > _ACROSS else None
+
+
+def _by_push(
+    plates: Sequence[_Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
+) -> list[Side | None]:
+    """The foot of each contact by its push in mid-stance: the body is beside the foot, which pushes it inwards."""
+    out: list[Side | None] = []
+    for contact in contacts:
+        length = contact.end - contact.begin
+        middle = plates[contact.plate].force[contact.begin + length // 5 : contact.end - length // 5]
+        known = middle[np.isfinite(middle).all(axis=1)]
+        if forward is None or not len(known):
+            out.append(None)
+            continue
+        leftward = float((known[:, :2] @ np.array([-forward[1], forward[0]])).mean())
+        clear = abs(leftward) > _INWARD * float(known[:, 2].max())
+        out.append(("right" if leftward > 0.0 else "left") if clear else None)
+    return out
+
+
+def _by_place(
+    plates: Sequence[_Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
+) -> list[Side]:
+    """The foot of each contact by its plate's place across the direction of walking; empty where they lie in a line."""
+    if forward is None or len(contacts) < 2:
+        return []
+    places = []
+    for contact in contacts:
+        cop, corners = plates[contact.plate].cop, plates[contact.plate].corners
+        own = None if cop is None else cop[contact.begin : contact.end]
+        if own is not None and np.isfinite(own).all(axis=1).any():
+            places.append(np.nanmean(own, axis=0))
+        elif corners is not None:
+            places.append(corners.mean(axis=0))
+        else:
+            return []
+    leftward = np.array(places) @ np.array([-forward[1], forward[0]])
+    if float(np.ptp(leftward)) < _ACROSS:
+        return []
+    middle = 0.5 * float(leftward.max() + leftward.min())
+    return ["left" if y >= middle else "right" for y in leftward]
+
+
+def _filled_in(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> list[Side]:
+    """Contacts of an unknown foot take the other foot than the known one next to them in time."""
+    order = sorted(range(len(contacts)), key=lambda i: contacts[i].begin)
+    sides: dict[int, Side | None] = dict(enumerate(found))
+    for way in (order, order[::-1]):
+        for before, at in itertools.pairwise(way):
+            known = sides[before]
+            if sides[at] is None and known is not None:
+                sides[at] = known if contacts[at].plate == contacts[before].plate else other_side(known)
+    return [sides[i] or "left" for i in range(len(contacts))]
+
+
+def _report_crossings(
+    plates: Sequence[_Plate], contacts: Sequence[PlateContact], rate: float, warnings: list[str]
+) -> None:
+    """Warn of contacts in which both feet are on one belt while the other one is empty for too long."""
+    for i, plate in enumerate(plates):
+        own = [c for c in contacts if c.plate == i]
+        others = [c for c in contacts if c.plate != i]
+        if len(own) < 4 or len(others) < 4:
+            continue
+        usual = float(np.median([c.end - c.begin for c in own]))
+        gaps = np.array([b.begin - a.end for a, b in itertools.pairwise(others)])
+        wide = [(a.end, b.begin) for a, b in itertools.pairwise(others) if b.begin - a.end > _LONG * np.median(gaps)]
+        crossed = [
+            c for c in own if c.end - c.begin > _LONG * usual and any(a < c.end and b > c.begin for a, b in wide)
+        ]
+        if crossed:
+            at = ", ".join(f"{c.begin / rate:.1f}" for c in crossed[:5])
+            warnings.append(
+                f"both feet are on {plate.name} {len(crossed)} time(s), at {at} s: these contacts are of no one foot"
+            )

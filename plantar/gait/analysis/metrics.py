@@ -1,0 +1,194 @@
+"""An analysis as the plain values that metrics.json holds."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from plantar.gait.analysis.activity import activity_of, progression_doubts, sway_measures
+from plantar.gait.analysis.body_weight import implied_weight, weight_doubts
+from plantar.gait.analysis.measures import raw_name
+from plantar.gait.analysis.mirrored_feet import mirrored_doubts
+from plantar.gait.analysis.pages.summary import gait_of_feet, regions_of_foot, summary_of_foot, symmetry
+from plantar.gait.analysis.pages.tables import EACH_STEP
+from plantar.gait.analysis.spread import Spread
+from plantar.gait.analysis.steps.events import MINIMUM_STANCE, find_contacts
+from plantar.gait.analysis.steps.foot_gait import FootGait, Step
+from plantar.gait.analysis.steps.force_curve import landing_impact
+from plantar.gait.analysis.steps.stated import stated_beside_own
+from plantar.gait.analysis.subject import Subject, device_of, mass_doubts
+from plantar.layouts.layout import Side
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+
+__all__ = ["metrics_of", "not_given"]
+
+
+def metrics_of(
+    recording: PressureRecording, feet: Mapping[Side, FootGait], subject: Subject | None = None
+) -> dict[str, Any]:
+    """The analysis as plain JSON values; None where a value is not known.
+
+    Args:
+        recording: The recording.
+        feet: The gait of each of its feet.
+        subject: Who walks, as far as it is known.
+
+    Returns:
+        format, kind, subject, device, frames, rate_hz, duration_s, raw, grid, activity, feet, not_given, gait,
+        warnings; see docs/metrics.md. In a recording of raw counts the keys end in "_raw" where they would else name a
+        unit of force or pressure.
+    """
+    warnings = list(recording.warnings)
+    activity = activity_of(recording, feet)
+    standing = activity.name == "standing"
+    if standing:
+        warnings.append(f"this is standing: {activity.why}; sway is measured, steps are not")
+    for side, gait in feet.items():
+        if standing:
+            continue
+        if not np.isfinite(gait.foot.vertical_force).any():
+            warnings.append(f"no frame of the {side} foot was measured: no steps")
+        elif not gait.contacts:
+            warnings.append(f"the {side} foot {_why_no_contact(recording, gait)}: no steps")
+        elif not gait.steps:
+            warnings.append(
+                f"the {side} foot has no complete step: each contact is cut by the recording{_lowest(gait)}"
+            )
+        warnings += gait.warnings
+    weight = implied_weight(recording, feet)
+    subject = subject or Subject()
+    warnings += progression_doubts(recording, feet) + mirrored_doubts(recording, feet)
+    warnings += weight_doubts(recording, weight) + mass_doubts(subject, weight)
+    named = _keys(recording.raw)
+    indices = symmetry(feet)
+    return {
+        "format": recording.format,
+        "kind": recording.kind,
+        "subject": dataclasses.asdict(subject),
+        "device": device_of(recording),
+        "frames": recording.metadata.get("frames", len(recording.time)),
+        "rate_hz": recording.rate_hz,
+        "duration_s": float(recording.time[-1] - recording.time[0]),
+        "raw": recording.raw,
+        "grid": None if recording.grid is None else {"rows": recording.grid[0], "columns": recording.grid[1]},
+        "activity": dataclasses.asdict(activity),
+        "feet": {
+            side: _foot(recording, gait) | {"sway": _sway(recording, gait, standing)} for side, gait in feet.items()
+        },
+        "not_given": not_given(recording.kind),
+        "gait": {
+            **gait_of_feet(feet),
+            "implied_weight_N": weight,
+            "body_weight_N": None if recording.raw else subject.weight or weight,
+            "symmetry_percent": {named(key): value for key, value in indices.items()},
+        },
+        "warnings": list(dict.fromkeys(warnings)),
+    }
+
+
+def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
+    """Why no contact of a foot was found."""
+    force, levels = gait.foot.vertical_force, gait.levels
+    if levels is not None and find_contacts(recording.time, force, levels, minimum_stance=0.0):
+        return f"has no contact of {MINIMUM_STANCE:g} s or longer"
+    return "carries no load above its noise"
+
+
+def _lowest(gait: FootGait) -> str:
+    """What to say of a foot whose force never comes down: it stands, or its sensor has an offset that no walk shows."""
+    force = gait.foot.vertical_force[np.isfinite(gait.foot.vertical_force)]
+    low, high = (float(v) for v in np.percentile(force, (2.0, 95.0))) if len(force) else (0.0, 0.0)
+    return f"; its force never falls below {low:.3g}" if low > 0.2 * high > 0.0 else ""
+
+
+def _sway(recording: PressureRecording, gait: FootGait, standing: bool) -> dict[str, float] | None:
+    """How a foot's CoP wanders in standing, and its share of the load; None of anything else."""
+    if not standing:
+        return None
+    load = {side: float(np.nanmean(foot.vertical_force)) for side, foot in recording.feet.items()}
+    share = 100.0 * load[gait.foot.side] / sum(load.values())
+    return {"load_percent": share, **({} if gait.cop is None else sway_measures(recording.time, gait.cop))}
+
+
+def not_given(kind: str) -> dict[str, str]:
+    """Measures that this kind of sensor cannot give, each with the reason.
+
+    Args:
+        kind: What measured.
+
+    Returns:
+        The reasons by key.
+    """
+    if kind not in ("insole", "robot"):
+        return {}
+    what = "an insole" if kind == "insole" else "a robot's sole"
+    reason = f"{what} does not see the outline of a foot: shoe and threshold decide which of its cells are loaded"
+    return dict.fromkeys(("arch_index", "foot_length_m", "foot_width_m"), reason)
+
+
+def _keys(raw: bool) -> Callable[[str], str]:
+    return raw_name if raw else lambda key: key
+
+
+def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
+    foot, named = gait.foot, _keys(recording.raw)
+    landings = [c.heel_strike for c in gait.contacts if c.heel_strike is not None]
+    impacts = (landing_impact(recording.time, foot.vertical_force, strike) for strike in landings)
+    return {
+        "steps": len(gait.steps),
+        "steps_used": [step.number for step in gait.used],
+        "steps_unused": {str(step.number): step.unused for step in gait.steps if not step.used},
+        "steps_odd": {str(step.number): step.odd for step in gait.steps if step.odd},
+        "each_step": [_step(step, named) for step in gait.steps],
+        "events": _events(gait, complete=True),
+        "incomplete": _events(gait, complete=False),
+        "landings_s": landings,
+        named("landing_impacts_N"): [_plain(impact) for impact in impacts],
+        "stated_events": stated_beside_own(recording.events.get(foot.side), gait),
+        "cells": foot.force.shape[1],
+        "cell_area_m2": None if foot.layout is None else float(foot.layout.areas.mean()),
+        "missing_percent": _missing_percent(recording, foot),
+        **{named(key): level for key, level in _levels(gait).items()},
+        "measures": _spreads(summary_of_foot(gait), named),
+        "regions": {region: _spreads(values, named) for region, values in regions_of_foot(gait).items()},
+    }
+
+
+def _missing_percent(recording: PressureRecording, foot: FootRecording) -> float:
+    """Share of a foot's values that the file does not hold; gaps may have been filled since."""
+    known: Mapping[Side, float] = recording.metadata.get("missing_percent", {})
+    return known.get(foot.side, 0.0 if foot.missing is None else 100.0 * float(foot.missing.mean()))
+
+
+def _step(step: Step, named: Callable[[str], str]) -> dict[str, Any]:
+    """What the report's table shows of one step."""
+    out = {"number": step.number, "used": step.used, "note": step.unused or step.odd}
+    times = {"heel_strike_s": step.heel_strike_s, "toe_off_s": step.toe_off_s}
+    return {**out, **times, **{named(key): _plain(step[key]) for key in EACH_STEP}}
+
+
+def _events(gait: FootGait, complete: bool) -> list[dict[str, float | None]]:
+    """Heel strike and toe off in s of the contacts that were recorded whole, or of those that were not."""
+    return [{"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if c.complete == complete]
+
+
+def _levels(gait: FootGait) -> dict[str, float | None]:
+    """Force levels of the events."""
+    levels = gait.levels
+    return {
+        "event_level_N": None if levels is None else levels.release,
+        "contact_level_N": None if levels is None else levels.contact,
+        "toe_off_level_N": None if levels is None else min(levels.lift, levels.contact),
+    }
+
+
+def _spreads(values: Mapping[str, Spread], named: Callable[[str], str]) -> dict[str, Any]:
+    return {named(key): dataclasses.asdict(value) for key, value in values.items()}
+
+
+def _plain(value: float) -> float | None:
+    return value if math.isfinite(value) else None

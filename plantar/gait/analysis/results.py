@@ -1,0 +1,166 @@
+"""What an analysis gives: the recording, its feet, tables of steps and regions, the metrics and the report."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
+from plantar.gait.analysis.steps.foot_gait import FootGait, Step
+from plantar.layouts.layout import Side
+from plantar.recordings.pressure_recording import PressureRecording
+
+__all__ = ["Analysis", "as_data_frame", "write_analysis"]
+
+_ENDLESS = (math.inf, -math.inf)
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """A recording, its feet and what was measured.
+
+    Attributes:
+        recording: The recording; a platform's with its footprints separated.
+        feet: The gait of each foot.
+        metrics: What metrics.json holds.
+    """
+
+    recording: PressureRecording
+    feet: Mapping[Side, FootGait]
+    metrics: Mapping[str, Any]
+
+    @cached_property
+    def steps(self) -> dict[str, NDArray[Any]]:
+        """Every complete step of either foot, in the order of time, as columns (n,) by name.
+
+        side, number, heel_strike_s, toe_off_s, every measure of `MEASURES` (SI unit in its name, NaN where it is not
+        known), used (whether the step is in the means) and note (why not, or what is odd).
+        """
+        steps = _in_order(self.feet)
+        named = raw_name if self.recording.raw else str
+        return {
+            "side": np.array([s.side for s in steps], dtype=object),
+            "number": np.array([s.number for s in steps], dtype=int),
+            "heel_strike_s": np.array([s.heel_strike_s for s in steps], dtype=float),
+            "toe_off_s": np.array([s.toe_off_s for s in steps], dtype=float),
+            **{named(key): np.array([s[key] for s in steps], dtype=float) for key in MEASURES},
+            "used": np.array([s.used for s in steps], dtype=bool),
+            "note": np.array([s.unused or s.odd for s in steps], dtype=object),
+        }
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What was assumed, repaired, left out or is doubtful, one line each."""
+        return tuple(self.metrics["warnings"])
+
+    def to_pandas(self) -> Any:
+        """The steps as a `pandas.DataFrame`.
+
+        Raises:
+            InputError: If pandas is not installed.
+        """
+        return as_data_frame(self.steps)
+
+    def report(self, path: str | Path | None = None) -> str:
+        """The report page as one HTML text, written to a file where one is named.
+
+        Args:
+            path: File to write; none where None.
+
+        Returns:
+            The page.
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            write_analysis(self, Path(folder))
+            page = (Path(folder) / "report.html").read_text(encoding="utf-8")
+        if path is not None:
+            from plantar.atomic import write_text
+
+            write_text(Path(path), page)
+        return page
+
+
+def as_data_frame(columns: Mapping[str, NDArray[Any]]) -> Any:
+    """Columns as a `pandas.DataFrame`.
+
+    Raises:
+        InputError: If pandas is not installed.
+    """
+    try:
+        import pandas
+    except ImportError:
+        raise InputError("to_pandas() needs pandas: pip install pandas; `.steps` holds the same columns") from None
+    return pandas.DataFrame(dict(columns))
+
+
+def write_analysis(
+    analysis: Analysis,
+    folder: Path,
+    progress: Callable[[float, str], None] | None = None,
+    figures: bool = True,
+) -> None:
+    """Write metrics.json, steps.csv and regions.csv of an analysis, and its figures and report.html.
+
+    Args:
+        analysis: The analysis.
+        folder: Folder to write to, which exists.
+        progress: Called with a fraction 0..1 and what is being done.
+        figures: Whether figures and the report are drawn.
+    """
+    recording, feet, metrics = analysis.recording, analysis.feet, analysis.metrics
+    (folder / "steps.csv").write_text(_steps_csv(analysis.steps), encoding="utf-8")
+    if any(step.regions for gait in feet.values() for step in gait.steps):
+        (folder / "regions.csv").write_text(_regions_csv(feet, recording.raw), encoding="utf-8")
+    (folder / "metrics.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    if not figures:
+        return
+    from plantar.gait.analysis.pages.draw_analysis import draw_figures
+    from plantar.gait.analysis.pages.player import player_data
+    from plantar.gait.analysis.pages.report import report_page
+
+    embedded = draw_figures(recording, feet, folder, progress)
+    player = player_data(recording, feet)
+    page = report_page(metrics, embedded, title=recording.path.name, player=player)
+    (folder / "report.html").write_text(page, encoding="utf-8")
+
+
+def _in_order(feet: Mapping[Side, FootGait]) -> list[Step]:
+    return sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
+
+
+def _steps_csv(columns: Mapping[str, NDArray[Any]]) -> str:
+    """One row a complete step; empty where a value is not known."""
+    whole = {name: values.astype(int) if values.dtype == bool else values for name, values in columns.items()}
+    return _csv(list(whole), list(zip(*(values.tolist() for values in whole.values()), strict=True)))
+
+
+def _regions_csv(feet: Mapping[Side, FootGait], raw: bool) -> str:
+    """One row a region of a complete step."""
+    named = raw_name if raw else str
+    rows = [
+        [s.side, s.number, region, *(values.get(name, math.nan) for name in REGION_MEASURES)]
+        for s in _in_order(feet)
+        for region, values in s.regions.items()
+    ]
+    return _csv(["side", "number", "region", *(named(name) for name in REGION_MEASURES)], rows)
+
+
+def _csv(names: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(names)
+    for row in rows:
+        writer.writerow(["" if v != v or v in _ENDLESS else v for v in row])  # only NaN differs from itself
+    return text.getvalue()
