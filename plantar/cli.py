@@ -209,7 +209,7 @@ def analyze(
         raise InputError(f"--side is '{side}'; allowed: left, right")
     options = ReadOptions(unit=unit, rate_hz=rate, side=cast(Any, side), insole_size=insole_size)
     from plantar.formats import is_study_folder
-    from plantar.gait.analysis.analyse import with_layout
+    from plantar.gait.analysis.analyse_one import with_layout
     from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
     from plantar.gait.analysis.subject import Subject
 
@@ -243,7 +243,7 @@ def analyze(
                 *compare, output, format, layout, tell, options=options, choices=choices, subject=subject
             )
         else:
-            from plantar.gait.analysis.analyse import analyse_recording
+            from plantar.gait.analysis.analyse_one import analyse_recording
 
             result = analyse_recording(
                 cast(Path, recording),
@@ -472,7 +472,7 @@ def demo(
     """
     need_libraries("sim", *LIBRARIES)
     from plantar.atomic import output_folder, write_text
-    from plantar.gait.analysis.analyse import analyse_recording
+    from plantar.gait.analysis.analyse_one import analyse_recording
     from plantar.layouts.layout_file import read_layout
     from plantar.shoes import build_shoe, export_shoe
     from plantar.shoes.foot.source import foot_of_robot

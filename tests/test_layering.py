@@ -56,7 +56,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
     ),
     "plantar.gait.analysis": (
         *("measures", "options", "subject", "spread", "prints", "steps", "body_weight", "activity"),
-        *("mirrored_feet", "parameters", "pages", "analyse", "compare", "custom", "exports", "study"),
+        *("mirrored_feet", "parameters", "pages", "metrics", "results", "analyse_one"),
+        *("study", "compare", "custom", "exports", "analyse"),
     ),
     "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "plantar.kernels": (

@@ -122,8 +122,10 @@ def sides_of_contacts(
         elif not all(found) and across:
             found, why = list(across), "their places across the direction of walking"
     if treadmill and any(found):  # a belt is one foot's
-        votes = [[s for c, s in zip(contacts, found, strict=True) if c.plate == i and s] for i in range(len(plates))]
-        belts = [max(SIDES, key=own.count) if own else None for own in votes]
+        belts: list[Side | None] = []
+        for i in range(len(plates)):
+            votes = [s for c, s in zip(contacts, found, strict=True) if c.plate == i and s]
+            belts.append(None if not votes else "left" if 2 * votes.count("left") >= len(votes) else "right")
         found = [belts[c.plate] for c in contacts]
     if any(found):
         out = _filled_in(contacts, found)

@@ -14,7 +14,7 @@ import numpy as np
 from plantar.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
-from plantar.gait.analysis.analyse import analyse_one, with_layout
+from plantar.gait.analysis.analyse_one import analyse_one, with_layout
 from plantar.gait.analysis.measures import MEASURES
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.figure_files import write_figures

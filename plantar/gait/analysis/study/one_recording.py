@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 from plantar import __version__
 from plantar.atomic import replacing
 from plantar.formats import ReadOptions
-from plantar.gait.analysis.analyse import Analysis, analyse_one, with_layout
+from plantar.gait.analysis.analyse_one import analyse_one, with_layout
 from plantar.gait.analysis.measures import MEASURES, raw_name
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.pages.force_figures import stance_curves
+from plantar.gait.analysis.results import Analysis
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.study.participants import Participation
 from plantar.gait.analysis.subject import Subject
