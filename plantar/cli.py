@@ -24,6 +24,8 @@ from plantar.shoes.order import FootSource, ShoeOrder
 from plantar.sides import SIDES
 from plantar.sim.libraries import LIBRARIES
 
+__all__ = ["app", "main"]
+
 app = typer.Typer(
     name="plantar",
     no_args_is_help=True,

@@ -38,7 +38,14 @@ def foot_of_marker(label: str) -> Side | None:
 
 
 def event_of(label: str, context: str = "") -> tuple[Side, str] | None:
-    """The foot and kind ("strikes" or "lifts") of an event, from its label and the context where there is one.
+    """The foot and kind of an event, from its label and the context where there is one.
+
+    Args:
+        label: Its label.
+        context: Its context, such as "Left".
+
+    Returns:
+        The foot, and "strikes" or "lifts"; None of other events.
 
     Example:
         >>> event_of("LHS"), event_of("RTO"), event_of("Foot Off", "Right"), event_of("start", "General")

@@ -15,7 +15,7 @@ from plantar.gait.analysis.study.run_study import Study, run_study
 from plantar.gait.analysis.subject import Subject
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["Analysis", "Progress", "Study", "analyse", "analyse_one", "analyse_recording", "with_layout"]
+__all__ = ["Analysis", "Study", "analyse", "analyse_recording", "with_layout"]
 
 
 def analyse(

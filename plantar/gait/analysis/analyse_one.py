@@ -27,6 +27,7 @@ from plantar.layouts.layout_file import read_layout
 __all__ = ["Progress", "analyse_one", "analyse_recording", "with_layout"]
 
 Progress = Callable[[float, str], None]
+"""Called with a fraction 0..1 and what is being done."""
 
 
 def analyse_one(
@@ -37,7 +38,22 @@ def analyse_one(
     choices: AnalysisOptions | None = None,
     subject: Subject | None = None,
 ) -> Analysis:
-    """`analyse` of one recording, with the same arguments and errors."""
+    """Measure one recording, whatever holds it.
+
+    Args:
+        given: What `plantar.formats.given.recording_of` takes.
+        format: Name of a file's format; recognised from its content where None.
+        options: What else is known of the data.
+        progress: Called with a fraction 0..1 and what is being done; it ends at 0.5.
+        choices: Which steps are in the means, and which events are used.
+        subject: The person, as far as known.
+
+    Returns:
+        The analysis.
+
+    Raises:
+        FormatError: If the data is no recording that can be read.
+    """
     report = progress or (lambda fraction, text: None)
     known = options or ReadOptions()
     if subject is not None and known.mass_kg is None:
