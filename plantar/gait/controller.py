@@ -348,7 +348,9 @@ class WalkingController:
         if feedback:
             self._conform(phase, balanced.zmp_desired, state, sensed)
         com, torso, posture = self._body(phase, balanced.com)
-        stand = self._feet(phase, sensed.soles, law.wants_contacts)
+        # Before the first step the feet stand as they were put, and press against each other by nothing.
+        rests = feedback and phase.kind == PhaseKind.STANDING and phase.step > 0
+        stand = self._feet(phase, sensed.soles, law.wants_contacts, rests)
         targets = self._targets(stand, law.act(balanced, stand))
         if feedback:
             self._compensate(targets, phase, com, torso, posture, state)
@@ -586,8 +588,9 @@ class WalkingController:
         torso = left + 0.5 * math.remainder(right - left, 2.0 * math.pi)
         return target, torso, self._posture(target, torso)
 
-    def _feet(self, phase: Phase, soles: Mapping[Side, SoleLoad], contacts: bool) -> Feet:
-        """The feet as a balance law sees them, with contacts and wrenches of those that stand if it wants them."""
+    def _feet(self, phase: Phase, soles: Mapping[Side, SoleLoad], contacts: bool, rests: bool) -> Feet:
+        """The feet as a balance law sees them: those on the ground with contacts if it wants them, and with wrenches
+        if it does or the robot rests."""
         states: dict[Side, FootState] = {}
         motion, crept = self.motion, self._crept() if contacts else ()
         for side in SIDES:
@@ -596,11 +599,12 @@ class WalkingController:
             if x or y:
                 rotation = turned(level, x, y)
             contact = wrench = None
-            if contacts and (phase.swing != side or motion.landed):
-                contact, wrench = self._contact(side, crept), soles[side].wrench_in_sole
+            if (contacts or rests) and (phase.swing != side or motion.landed):
+                contact = self._contact(side, crept) if contacts else None
+                wrench = soles[side].wrench_in_sole
             center = self.contacts.center(side)
             states[side] = FootState(motion.footholds[side][0], level, rotation, center, contact, wrench)
-        return Feet(states, phase.stance, self._frame)
+        return Feet(states, phase.stance, self._frame, rests)
 
     def _targets(self, feet: Feet, actions: Mapping[Side, FootAction]) -> dict[Side, FootTarget]:
         """Pose and load of each sole: turned about its centre and shifted as the balance law has it give way."""

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
-from plantar.gait.balance.law import BalanceState, Feet, FootAction
+from plantar.gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
+from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
 from plantar.gait.balance.load_transfer import transferred
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.dcm_feedback import DcmFeedback
@@ -18,6 +19,7 @@ from plantar.sides import Side
 
 __all__ = ["BalanceGains", "DcmBalance"]
 
+_ZMP_SHARE = 0.2  # of the ZMP's error, which feet that stand give way to; all of it lets a push tip the robot over
 _NO_INTEGRAL = (0.0, 0.0, 0.0)
 
 
@@ -57,6 +59,8 @@ class DcmBalance:
         self.mass = mass
         self.period = period
         self.states: Counter[str] = Counter()
+        self._zmp: NDArray[np.float64] | None = None
+        self.feet = FootAdmittance(AdmittanceGains().for_body(gains.body), period)
         largest = LARGEST_OFFSET * gains.body.leg
         admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
         # At xi = xi_r the desired ZMP is the planned VRP; a DCM that is off has its error driven to zero at the rate
@@ -98,17 +102,40 @@ class DcmBalance:
         Returns:
             The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
         """
-        plan = reference
+        plan, self._zmp = reference, zmp
         return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Load transfer by the plan; the feet do not give way.
+        """Load transfer by the plan. Where the robot stands, the feet give way to what they press against each other.
+
+        That is what their wrenches differ from a load transfer with the measured ZMP, so that the two together still
+        hold against a push as stiffly as the joints do; a share of the ZMP's own error is given way to as well, so that
+        it fades.
 
         Args:
             balanced: What `update` decided.
             feet: The feet.
 
         Returns:
-            What each foot shall carry.
+            What each foot should carry, and how it gives way.
         """
-        return transferred(balanced, self.mass, feet)
+        actions = transferred(balanced, self.mass, feet)
+        wanted, measured = {}, {}
+        if feet.rests and self._zmp is not None:
+            zmp = self._zmp + _ZMP_SHARE * (balanced.zmp_desired - self._zmp)
+            still = balanced.changed(zmp_desired=zmp, com_acceleration=np.zeros(2))
+            for side, action in transferred(still, self.mass, feet).items():
+                foot = feet.states[side]
+                if foot.wrench is not None:
+                    wanted[side], measured[side] = _wrench_in_sole(action, foot), foot.wrench
+        for side, moved in self.feet.update(wanted, measured, feet.rests).items():
+            if moved.roll or moved.pitch or moved.shift:
+                actions[side] = actions[side].changed(roll=moved.roll, pitch=moved.pitch, shift=moved.shift)
+        return actions
+
+
+def _wrench_in_sole(action: FootAction, foot: FootState) -> NDArray[np.float64]:
+    """Wrench (6,) about the origin of a sole, level to first order, of the force that the foot should carry."""
+    force = action.force
+    place = foot.rotation[:2, :2].T @ (action.center_of_pressure - foot.position[:2])
+    return np.array([0.0, 0.0, force[2], place[1] * force[2], -place[0] * force[2], 0.0])

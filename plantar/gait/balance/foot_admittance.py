@@ -64,19 +64,25 @@ class FootAdmittance:
         }
 
     def update(
-        self, wanted: Mapping[Side, NDArray[np.float64]], measured: Mapping[Side, NDArray[np.float64]]
+        self,
+        wanted: Mapping[Side, NDArray[np.float64]],
+        measured: Mapping[Side, NDArray[np.float64]],
+        rests: bool = False,
     ) -> Mapping[Side, SoleAdmittance]:
         """One control tick.
 
         Args:
-            wanted: Wrench (6,) that each standing foot shall carry in its sole frame, by the world on the robot.
+            wanted: Wrench (6,) that each standing foot should carry in its sole frame, by the world on the robot.
             measured: Wrench (6,) that it carries, for the same feet.
+            rests: Whether the robot stands: corrections then do not return, so that no error of the wrenches is left
+                and soles do not press against each other by their edges.
 
         Returns:
             Correction of each foot, `corrections`; that of a foot in the air fades.
         """
         errors: list[float] = []
         for side, foot in self.corrections.items():
+            foot.back = 0.0 if rests else self.gains.foot_return
             if side in wanted:
                 errors.append(foot.turn(measured[side], wanted[side]))
             else:

@@ -46,9 +46,10 @@ class FootState(Record, frozen=True):
         level: Commanded rotation (3, 3) of the sole before foot damping turns it.
         rotation: The same with the turn of foot damping.
         center: Point (2,) of the sole frame in m at which the foot is to be loaded.
-        contact: Its sole frame in the world, the part of the sole that may be loaded, and where the plan likes its
-            centre of pressure; None in the air, or for a law that does not look at contacts.
-        wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot; None likewise.
+        contact: Its sole frame in the world, the part of the sole that may be loaded, and its desired centre of
+            pressure; None in the air, or for a law that does not look at contacts.
+        wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot; None in the air,
+            and for such a law while the robot walks.
     """
 
     position: NDArray[np.float64]
@@ -66,11 +67,13 @@ class Feet(Record, frozen=True):
         states: Each foot.
         stance: The only foot that carries in single support, else None.
         frame: The frame that they are commanded in.
+        rests: Whether the robot stands after a walk.
     """
 
     states: Mapping[Side, FootState]
     stance: Side | None
     frame: CommandFrame
+    rests: bool = False
 
 
 class FootAction(Record, frozen=True):

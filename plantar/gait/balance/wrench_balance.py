@@ -164,7 +164,7 @@ class WrenchBalance:
         """
         states, wanted = feet.states, self.distributed(balanced, feet)
         measured = {side: foot.wrench for side, foot in states.items() if foot.wrench is not None}
-        corrections = self.feet.update(wanted, measured)
+        corrections = self.feet.update(wanted, measured, feet.rests)
         return {
             side: _action(wanted.get(side, _NO_WRENCH), states[side], correction)
             for side, correction in corrections.items()

@@ -9,7 +9,7 @@ cdef class SoleAdmittance:
     cdef double period
     cdef double share
     cdef double turn_gain
-    cdef double back
+    cdef public double back
     cdef double keep
     cdef double largest_turn
     cdef double largest_lift

@@ -26,6 +26,7 @@ class SoleAdmittance:
         largest_lift: Largest shift in m.
 
     Attributes:
+        back: The rate at which it returns while the foot stands, which may change from tick to tick.
         roll: Turn about the sole's x axis in rad.
         pitch: Turn about its y axis in rad.
         shift: Shift upwards in m.

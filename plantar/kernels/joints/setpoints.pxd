@@ -13,12 +13,15 @@ cdef class Setpoints:
     cdef const double[::1] per_way
     cdef double period
     cdef double step
+    cdef double share
     cdef const double[::1] joints
     cdef const double[::1] torques
     cdef readonly double[::1] reference
     cdef readonly double[::1] velocity
+    cdef readonly double[::1] goal
     cdef readonly double[::1] setpoint
     cdef double[::1] rate
+    cdef double[::1] between
 
     @cython.locals(i=Py_ssize_t)
     cpdef void hold(self, const double[:] joints, const double[:] torques) noexcept

@@ -1,4 +1,4 @@
-"""Kernel of the set-points of joint servos: where the joints are told to go, and what is written at each step."""
+"""Kernel of the set-points of joint servos: where the joints are to go, and what is written at each step."""
 
 from __future__ import annotations
 
@@ -12,7 +12,11 @@ _NONE = float("nan")
 
 
 class Setpoints:
-    """The set-points of k joints, which move on between control ticks.
+    """The set-points of k joints, which move on between control ticks without a jump.
+
+    A control tick replaces the goal of the set-points at once; what is written approaches that goal by a low pass of
+    second order, critically damped, and moves at the goal's own speed meanwhile: a goal of constant speed is followed
+    without lag.
 
     Args:
         controls: Set-points (n,) of all servos, where the simulator reads them.
@@ -22,16 +26,18 @@ class Setpoints:
         per_way: One over the largest way (k,) of a set-point in a control period in 1/rad; empty without limits.
         period: Control period in s.
         step: Period in s in which `advance` is called.
+        share: Share of its way that each of the low pass's two stages goes in a step, above 0 to 1.
         joints: Joint angles (k,) in rad to go to, where the caller writes them.
         torques: Torques (k,) in N m that it takes to hold them, likewise.
 
     Attributes:
-        reference: Where the joints shall be now (k,) in rad; NaN before they were told anything.
-        velocity: How fast they shall be (k,) in rad/s.
-        setpoint: What the servos are told (k,) in rad.
+        reference: Desired joint angles (k,) in rad; NaN before the first ones.
+        velocity: Their rates (k,) in rad/s.
+        goal: Set-points (k,) in rad with which the joints follow the reference.
+        setpoint: What is written (k,) in rad.
     """
 
-    def __init__(self, controls, servos, stiffness, damping, per_way, period, step, joints, torques):
+    def __init__(self, controls, servos, stiffness, damping, per_way, period, step, share, joints, torques):
         self.controls = controls
         self.servos = servos
         self.stiffness = stiffness
@@ -39,10 +45,13 @@ class Setpoints:
         self.per_way = per_way
         self.period = period
         self.step = step
+        self.share = share
         self.joints, self.torques = joints, torques
         count = len(servos)
         self.reference = np.full(count, _NONE)
         self.velocity = np.zeros(count)
+        self.goal = np.zeros(count)
+        self.between = np.zeros(count)
         self.setpoint = np.zeros(count)
         self.rate = np.zeros(count)
 
@@ -56,7 +65,7 @@ class Setpoints:
         for i in range(self.servos.shape[0]):
             self.reference[i] = joints[i]
             self.velocity[i] = self.rate[i] = 0.0
-            self.setpoint[i] = joints[i] + torques[i] / self.stiffness[i]
+            self.goal[i] = self.between[i] = self.setpoint[i] = joints[i] + torques[i] / self.stiffness[i]
 
     def go_to(self):
         """Set the reference for the next control tick: the joints' goal, or as far on the way to it as the fastest one
@@ -82,7 +91,7 @@ class Setpoints:
             self.rate[i] = self.velocity[i] * self.step
 
     def load(self, friction=None, offsets=None):
-        """Set what the servos are told for the reference: they follow it without lag, and hold a load without error.
+        """Set the goal of the set-points: servos there follow the reference without lag, and hold a load without error.
 
         Args:
             friction: Torques (k,) in N m that the joints take besides; None for none.
@@ -93,11 +102,11 @@ class Setpoints:
             if friction is not None:
                 torque += friction[i]
             lead = self.damping[i] * self.velocity[i] + torque
-            self.setpoint[i] = self.reference[i] + lead / self.stiffness[i]
+            self.goal[i] = self.reference[i] + lead / self.stiffness[i]
         if offsets is not None:
             angles = memory.values(offsets)
             for i in range(self.servos.shape[0]):
-                self.setpoint[i] = self.setpoint[i] + angles[i]
+                self.goal[i] = self.goal[i] + angles[i]
 
     def write(self):
         """Hand the set-points to the simulator."""
@@ -107,7 +116,9 @@ class Setpoints:
     def advance(self):
         """Let the set-points move on by a step."""
         for i in range(self.servos.shape[0]):
-            self.setpoint[i] = self.setpoint[i] + self.rate[i]
+            self.setpoint[i] += self.rate[i] + self.share * (self.between[i] - self.setpoint[i])
+            self.between[i] += self.rate[i] + self.share * (self.goal[i] - self.between[i])
+            self.goal[i] += self.rate[i]
 
     def drive(self):
         """Write the set-points of one physics step, and let them move on."""

@@ -25,6 +25,7 @@ _YIELDING: dict[tuple[bool, bool], tuple[Side, ...]] = {
     (True, True): ("left", "right"),
 }
 """Feet that miss their targets first, for whether the left and the right one carry nothing."""
+_LOW_PASS = 0.0075  # s, time constant of each of two stages at the servo's own rate: no tick steps a torque
 _SLOW = 0.0247  # rad/beat from which a joint moves against its friction: 0.1 rad/s on a leg of 0.6 m
 
 
@@ -33,7 +34,8 @@ class LegServos:
 
     A servo computes torque = kp (u - q) - kv q'. With u = q_d + ((kv + d) q'_d + tau_ff) / kp, where d is the joint's
     own damping and its friction counts as load, it follows q_d without lag and holds the expected load without error.
-    Between control ticks u moves on at q'_d: held set-points would make a saw tooth of kp q'_d dt in every torque.
+    Between control ticks u moves on at q'_d, and follows what a tick changes through a low pass at the servo's rate:
+    held set-points would make a saw tooth of kp q'_d dt in every torque, and steps of kv times a change of q'_d.
     Where a joint would have to be faster than the robot's speed limits, all joints move on by the same smaller share of
     their way, and make up for it later.
 
@@ -62,6 +64,7 @@ class LegServos:
             1.0 / (_SPEED_SHARE * limits * period),
             period,
             world.period,
+            world.period / (_LOW_PASS + world.period),
             *(legs.joints, legs.torques),
         )
         self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from plantar.kernels import python_form
 from plantar.kernels.joints import setpoints
 
-PERIOD, STEP = 0.005, 0.001
+PERIOD, STEP, SHARE = 0.005, 0.001, 0.2
 FORMS = (setpoints, python_form("setpoints"))
 
 
@@ -25,10 +25,10 @@ def test_it_writes_what_numpy_would(limited, seed):
     goals, loads = np.zeros(k), np.zeros(k)
     controls = [np.zeros(k + 3) for _ in FORMS]
     kernels = [
-        module.Setpoints(written, servos, stiffness, damping, per_way, PERIOD, STEP, goals, loads)
+        module.Setpoints(written, servos, stiffness, damping, per_way, PERIOD, STEP, SHARE, goals, loads)
         for module, written in zip(FORMS, controls, strict=True)
     ]
-    last = None
+    last, written_now, between = None, np.zeros(k), np.zeros(k)
     for tick in range(6):
         joints, torques, offsets = rng.normal(0.0, 0.1, k), rng.normal(0.0, 40.0, k), rng.normal(0.0, 0.01, k)
         friction = rng.normal(0.0, 5.0, k) if tick == 3 else None
@@ -47,13 +47,39 @@ def test_it_writes_what_numpy_would(limited, seed):
                 kernel.go_to()
                 kernel.load(friction, offsets if tick != 1 else None)
         wanted = wanted if held or tick == 1 else wanted + offsets
+        if held:
+            written_now = between = wanted
         for _ in range(5):
             for kernel, written in zip(kernels, controls, strict=True):
                 kernel.drive()
-                assert np.array_equal(written[servos], wanted)
+                assert np.array_equal(written[servos], written_now)
                 assert np.count_nonzero(written) <= k
-            wanted = wanted + velocity * STEP
+            rate = velocity * STEP
+            written_now = written_now + (rate + SHARE * (between - written_now))
+            between = between + (rate + SHARE * (wanted - between))
+            wanted = wanted + rate
         for kernel in kernels:
             assert np.array_equal(kernel.reference, goal)
             assert np.array_equal(kernel.velocity, velocity)
         last = goal
+
+
+@pytest.mark.parametrize("module", FORMS)
+def test_a_goal_that_jumps_is_approached_without_a_jump_and_reached(module):
+    """Two stages of a low pass: the largest step is less than half of what one would make, and nothing is left."""
+    controls, goals, loads = np.zeros(1), np.zeros(1), np.zeros(1)
+    one = np.ones(1)
+    kernel = module.Setpoints(controls, np.arange(1), one, np.zeros(1), np.empty(0), PERIOD, STEP, SHARE, goals, loads)
+    kernel.hold(goals, loads)
+    written = []
+    for _ in range(20):
+        loads[0] = 1.0
+        kernel.go_to()
+        kernel.load()
+        for _ in range(5):
+            kernel.drive()
+            written.append(controls[0])
+    steps = np.diff(written)
+    assert steps.min() >= 0.0
+    assert steps.max() < 0.5 * SHARE
+    assert written[-1] == pytest.approx(1.0, abs=1e-6)
