@@ -47,6 +47,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
             "kernel_class",
         ),
         "atomic",
+        "csv_table",
         *("console", "optional_library", "doctor", "files", "settings", "mechanics", "layouts", "plotting", "pages"),
         *("geometry", "sensing", "percepts", "recordings", "formats", "viewer", "bench"),
     ),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import struct
 import zipfile
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import BinaryIO
@@ -12,7 +13,7 @@ from typing import BinaryIO
 from plantar.errors import PlantarError
 from plantar.files.input_file import open_input
 
-__all__ = ["ALLOWED", "is_bomb", "open_archive"]
+__all__ = ["ALLOWED", "is_bomb", "open_archive", "read_part"]
 
 _MOST_PARTS = 4096
 _LARGEST_LIST = 1_000_000  # bytes of the list of parts
@@ -93,6 +94,37 @@ def open_archive(
                     "(store it uncompressed)"
                 )
             yield archive, stream
+
+
+def read_part(archive: zipfile.ZipFile, name: str, error: type[PlantarError], where: str) -> bytes:
+    """A part of an archive, as long and with the checksum that its list states.
+
+    Args:
+        archive: An archive of `open_archive`.
+        name: The part.
+        error: What is raised.
+        where: Beginning of the message.
+
+    Returns:
+        Its bytes.
+
+    Raises:
+        PlantarError: If there is no such part, or it is damaged or encrypted; of the class `error`.
+    """
+    try:
+        return archive.read(name)
+    except KeyError:
+        raise error(f"{where}: the archive lacks the part {name[:80]}") from None
+    except (
+        zipfile.BadZipFile,
+        zlib.error,
+        OSError,
+        EOFError,
+        RuntimeError,
+        NotImplementedError,
+        struct.error,
+    ) as problem:
+        raise error(f"{where}: a part of the archive is damaged ({problem})") from None
 
 
 def _size_of_list(stream: BinaryIO, size: int) -> int:

@@ -1,14 +1,10 @@
-"""Heel strikes and toe offs that somebody else found: a vendor's report of steps, or a table of events."""
+"""Heel strikes and toe offs of another program: a vendor's report of steps, or a table of events."""
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import re
 import zipfile
-from collections.abc import Mapping
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -16,6 +12,9 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.files.input_file import open_input
+from plantar.files.text_table import read_text_table
+from plantar.files.xml_file import parse_xml
+from plantar.files.zip_archive import open_archive, read_part
 from plantar.formats.side import side_of
 from plantar.formats.text import number
 from plantar.recordings.pressure_recording import StatedEvents
@@ -23,11 +22,17 @@ from plantar.sides import SIDES, Side
 
 __all__ = ["read_events"]
 
-_LARGEST = 50_000_000
-"""Bytes of a report or of one of its parts that are read."""
-
+_MOST = 50e6  # bytes that a report may unpack to
+_MOST_SHEETS, _MOST_ROWS = 200, 100_000
 _SHEET = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 _LINK = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
+_ALLOWED = (
+    "allowed: a Moticon report (.xlsx) with sheets of left and right steps, or a CSV table with the columns side, "
+    "heel_strike_s and toe_off_s"
+)
+
+Pairs = dict[Side, list[tuple[float, float]]]
+"""Heel strike and toe off of each row in s, NaN where there is none, by side."""
 
 
 def read_events(path: str | os.PathLike[str]) -> dict[Side, StatedEvents]:
@@ -35,29 +40,20 @@ def read_events(path: str | os.PathLike[str]) -> dict[Side, StatedEvents]:
 
     Args:
         path: A Moticon report (.xlsx) with the sheets "Left Steps" and "Right Steps", whose second and third columns
-        are
-            initial contact and toe off in s; or a CSV table with the columns side, heel_strike_s and toe_off_s.
+            are initial contact and toe off in s; or a CSV table with the columns side, heel_strike_s and toe_off_s.
 
     Returns:
         The events of each foot that the file names.
 
     Raises:
-        FormatError: If the file is neither, or holds no event.
+        FormatError: If the file is neither, or holds no event, or a time that is none.
     """
     with open_input(path, FormatError) as stream:
-        data = stream.read(_LARGEST)
-    try:
-        rows = _report_rows(data) if data[:2] == b"PK" else _table_rows(data.decode("utf-8-sig", errors="replace"))
-    except (KeyError, ValueError, zipfile.BadZipFile, ElementTree.ParseError):
-        rows = {}
-    found = {side: _events(pairs) for side, pairs in rows.items() if pairs}
-    if not found:
-        raise FormatError(
-            f"{os.fspath(path)}: no events; allowed: a Moticon report (.xlsx) with sheets of left and right steps, "
-            "or a CSV "
-            "table with the columns side, heel_strike_s and toe_off_s"
-        )
-    return {side: found[side] for side in SIDES if side in found}
+        zipped = stream.read(2) == b"PK"
+    rows = _report_rows(path) if zipped else _table_rows(path)
+    if not rows:
+        raise FormatError(f"{os.fspath(path)}: no events; {_ALLOWED}")
+    return {side: _events(rows[side]) for side in SIDES if side in rows}
 
 
 def _events(pairs: list[tuple[float, float]]) -> StatedEvents:
@@ -65,32 +61,36 @@ def _events(pairs: list[tuple[float, float]]) -> StatedEvents:
     return StatedEvents(*(np.sort(column[np.isfinite(column)]) for column in table.T))
 
 
-def _value(text: str | None) -> float:
-    """A time in s; NaN where a text is none."""
-    found = None if text is None else number(text)
-    return float("nan") if found is None else found
-
-
-def _table_rows(text: str) -> dict[Side, list[tuple[float, float]]]:
-    """Strike and lift of each row of a table, by side."""
-    delimiter = ";" if text.partition("\n")[0].count(";") else "," if "," in text.partition("\n")[0] else "\t"
-    out: dict[Side, list[tuple[float, float]]] = {}
-    for row in csv.DictReader(io.StringIO(text), delimiter=delimiter):
-        side = side_of(str(row.get("side", "")))
-        if side is not None and "heel_strike_s" in row:
-            out.setdefault(side, []).append((_value(row["heel_strike_s"]), _value(row.get("toe_off_s"))))
+def _table_rows(path: str | os.PathLike[str]) -> Pairs:
+    """The rows of a table."""
+    table = read_text_table(path, FormatError)
+    columns = [table.column(name) for name in ("side", "heel_strike_s", "toe_off_s")]
+    out: Pairs = {}
+    if None in columns[:2]:
+        return out
+    for line, cells in table.rows:
+        text, *times = ("" if at is None or at >= len(cells) else cells[at].strip() for at in columns)
+        side = side_of(text)
+        if side is None:
+            raise FormatError(f"{path}, line {line}: side is {text[:40]!r}, so it has no events; allowed: left, right")
+        values = [float("nan") if not time else number(time) for time in times]
+        if None in values:
+            raise FormatError(f"{path}, line {line}: a time is none; allowed: numbers in s, or empty")
+        out.setdefault(side, []).append((values[0] or 0.0, values[1] or 0.0))
     return out
 
 
-def _report_rows(data: bytes) -> dict[Side, list[tuple[float, float]]]:
-    """Strike and lift of each row of the sheets that a side's steps are on."""
-    out: dict[Side, list[tuple[float, float]]] = {}
-    with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        for name, part in _sheets(archive).items():
+def _report_rows(path: str | os.PathLike[str]) -> Pairs:
+    """The rows of the sheets of a report that a side's steps are on."""
+    out: Pairs = {}
+    with open_archive(path, FormatError, _MOST) as (archive, _):
+        for name, part in _sheets(path, archive):
             side = side_of(name)
             if side is None or "step" not in name.lower():
                 continue
-            for row in _root(archive, part).iter(f"{_SHEET}row"):
+            for count, row in enumerate(_root(path, archive, part).iter(f"{_SHEET}row")):
+                if count > _MOST_ROWS:
+                    raise FormatError(f"{path}: a sheet of more than {_MOST_ROWS} rows")
                 cells = {re.sub(r"\d", "", c.get("r", "")): c for c in row}
                 strike, lift = (_number(cells.get(column)) for column in ("B", "C"))
                 if np.isfinite(strike):
@@ -100,21 +100,21 @@ def _report_rows(data: bytes) -> dict[Side, list[tuple[float, float]]]:
 
 def _number(cell: ElementTree.Element | None) -> float:
     """Number of a cell; NaN where it holds a text, which is kept elsewhere, or nothing."""
-    return float("nan") if cell is None or cell.get("t") == "s" else _value(cell.findtext(f"{_SHEET}v"))
+    text = None if cell is None or cell.get("t") == "s" else cell.findtext(f"{_SHEET}v")
+    found = None if text is None else number(text)
+    return float("nan") if found is None else found
 
 
-def _root(archive: zipfile.ZipFile, part: str) -> ElementTree.Element:
-    """A part of a report as XML; refused where it is large or declares entities, which may unpack without end."""
-    if archive.getinfo(part).file_size > _LARGEST:
-        raise ValueError("too large")
-    data = archive.read(part)
-    if b"<!ENTITY" in data or b"<!DOCTYPE" in data:
-        raise ValueError("a document type in a report")
-    return ElementTree.fromstring(data)
+def _root(path: str | os.PathLike[str], archive: zipfile.ZipFile, part: str) -> ElementTree.Element:
+    """A part of a report as XML."""
+    return parse_xml(read_part(archive, part, FormatError, f"{path}: no events ({part[:80]})"), FormatError, str(path))
 
 
-def _sheets(archive: zipfile.ZipFile) -> Mapping[str, str]:
-    """Path of each sheet by its name."""
-    links = {r.get("Id"): r.get("Target", "") for r in _root(archive, "xl/_rels/workbook.xml.rels")}
-    sheets = _root(archive, "xl/workbook.xml").iter(f"{_SHEET}sheet")
-    return {s.get("name", ""): str(Path("xl") / links.get(s.get(_LINK), "").removeprefix("/xl/")) for s in sheets}
+def _sheets(path: str | os.PathLike[str], archive: zipfile.ZipFile) -> list[tuple[str, str]]:
+    """Name and path of each sheet; a sheet is read once."""
+    links = {r.get("Id"): r.get("Target", "") for r in _root(path, archive, "xl/_rels/workbook.xml.rels")}
+    sheets = list(_root(path, archive, "xl/workbook.xml").iter(f"{_SHEET}sheet"))
+    if len(sheets) > _MOST_SHEETS:
+        raise FormatError(f"{path}: a report of {len(sheets)} sheets; allowed: up to {_MOST_SHEETS}")
+    found = [(s.get("name", ""), f"xl/{links.get(s.get(_LINK), '').removeprefix('/xl/')}") for s in sheets]
+    return list({part: (name, part) for name, part in found}.values())

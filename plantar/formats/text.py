@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.files.input_file import open_input
+from plantar.files.text_table import encoding_of
 
 __all__ = [
     "blocks_of_lines",
-    "encoding_of",
     "head_text",
     "number",
     "number_in",
@@ -26,8 +26,6 @@ __all__ = [
 ]
 
 _LONGEST_LINE = 1_000_000
-_SEEN = 1024
-"""Bytes in which the zeros of UTF-16 are looked for."""
 _ZEROS = 0.01
 """Share of zeros that damage may put into a text."""
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
@@ -99,28 +97,6 @@ def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16
             block, size = [], 0
     if block:
         yield block
-
-
-def encoding_of(head: bytes) -> str:
-    """Encoding of a text from its first bytes: UTF-16 and UTF-8 where they are marked or seen, else Latin-1.
-
-    Example:
-        >>> encoding_of("N/cm²".encode()), encoding_of("N/cm²".encode("latin-1"))
-        ('utf-8', 'latin-1')
-    """
-    for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"\xef\xbb\xbf", "utf-8-sig")):
-        if head.startswith(mark):
-            return encoding
-    for first, encoding in ((0, "utf-16-be"), (1, "utf-16-le")):  # without a mark: every other byte of it is 0
-        zeros, others = head[first:_SEEN:2].count(0), head[1 - first : _SEEN : 2].count(0)
-        if len(head) > 64 and zeros > 0.45 * min(len(head), _SEEN) and others == 0:
-            return encoding
-    try:
-        head[: -4 if len(head) > 4096 else None].decode("utf-8")
-    except UnicodeDecodeError:
-        good = len(re.findall(rb"[\xc2-\xdf][\x80-\xbf]|[\xe0-\xef][\x80-\xbf]{2}", head))
-        return "utf-8" if good else "latin-1"  # one damaged byte does not make another encoding
-    return "utf-8"
 
 
 def head_text(head: bytes) -> str | None:

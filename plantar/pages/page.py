@@ -10,6 +10,8 @@ from importlib.resources import files
 from pathlib import Path
 from typing import NamedTuple
 
+from plantar.pages.policy import with_policy
+
 __all__ = [
     "Section",
     "embedded",
@@ -56,7 +58,7 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "", 
         f'<section aria-labelledby="{key}"><h2 id="{key}" tabindex="-1">{name}</h2>\n{content}</section>'
         for key, name, content in sections
     )
-    return (
+    return with_policy(
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<link rel="icon" href="data:,"><title>{html.escape(title)}</title>'

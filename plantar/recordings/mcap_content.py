@@ -7,7 +7,7 @@ import os
 import re
 import struct
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
 from io import BytesIO
 from typing import Any, BinaryIO
@@ -23,7 +23,10 @@ from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.foxglove import SCHEMAS
 from plantar.recordings.frame_table import FrameTable
 
-__all__ = ["MCAP_MAGIC", "McapContent"]
+__all__ = ["MCAP_MAGIC", "McapContent", "Sink", "message_values"]
+
+Sink = Callable[[float, bytes, list[tuple[str, int]] | None], None]
+"""Receives a message's time in s, its encoding, and names and widths of its fields where all are float64."""
 
 MCAP_MAGIC = bytes([137, 77, 67, 65, 80, 48, 13, 10])
 """The bytes with which an MCAP file starts, and ends where it was closed."""
@@ -92,17 +95,16 @@ class McapContent:
         metadata: What was stored beside the data.
         layouts: Sole layout of each side that has one.
         topics: The topics whose messages are made of float64 fields, by the number of their channel.
-        drawn: Time in s and encoding of each message for viewers, by topic; empty unless they are wanted.
         warnings: What was missing, damaged or skipped, one line each.
 
     Args:
-        with_drawn: Whether messages for viewers (`plantar.recordings.foxglove.SCHEMAS`) are wanted.
+        sinks: For a recording that is read by pieces: what receives each message of a topic; other topics are skipped,
+            and `topics` stays empty. None gathers all topics.
     """
 
-    def __init__(self, with_drawn: bool = False) -> None:
-        self.drawn: dict[str, list[tuple[float, bytes]]] = {}
-        self._with_drawn = with_drawn
-        self._drawn_channels: dict[int, list[tuple[float, bytes]]] = {}
+    def __init__(self, sinks: Mapping[str, Sink] | None = None) -> None:
+        self._sinks = sinks
+        self._sunk: dict[int, tuple[Sink, list[tuple[str, int]] | None]] = {}
         self.metadata: dict[str, Any] = {}
         self.layouts: dict[str, SoleLayout] = {}
         self.topics: dict[int, _Topic] = {}
@@ -170,8 +172,9 @@ class McapContent:
             number, _, time = struct.unpack_from("<HIQ", body)
             if number in self.topics:
                 self.topics[number].gather(time, body[22:])
-            elif number in self._drawn_channels:
-                self._drawn_channels[number].append((time * 1e-9, body[22:]))
+            elif number in self._sunk:
+                sink, fields = self._sunk[number]
+                sink(time * 1e-9, body[22:], fields)
             else:
                 self._undescribed += number not in self._others
         elif opcode == _OPCODES["schema"]:
@@ -192,20 +195,22 @@ class McapContent:
             self._take_attachment(parsed(records.Attachment))
 
     def _take_channel(self, channel: Any) -> None:
-        if channel.id in self.topics or channel.id in self._others:
+        if channel.id in self.topics or channel.id in self._others or channel.id in self._sunk:
             return
-        if len(self.topics) + len(self._others) >= _MOST_TOPICS:
+        if len(self.topics) + len(self._others) + len(self._sunk) >= _MOST_TOPICS:
             raise ValueError("too many topics")
         schema = self._schemas.get(channel.schema_id)
         fields = _float_fields(channel, schema)
-        if fields is None:
+        if self._sinks is not None:
+            if channel.topic in self._sinks:
+                self._sunk[channel.id] = self._sinks[channel.topic], fields
+            else:
+                self._others.add(channel.id)
+        elif fields is None:
             self._others.add(channel.id)
             kind = schema.name if schema is not None else "without a schema"
-            if kind in SCHEMAS:  # drawn by viewers; its numbers stand in other topics
-                if self._with_drawn:
-                    self._drawn_channels[channel.id] = self.drawn.setdefault(channel.topic, [])
-                return
-            self.warnings.append(f"topic {channel.topic} is skipped: its type {kind} is not made of float64 fields")
+            if kind not in SCHEMAS:  # those are drawn by viewers; other topics hold their numbers
+                self.warnings.append(f"topic {channel.topic} is skipped: its type {kind} is not made of float64 fields")
         else:
             self.topics[channel.id] = _Topic(channel.topic, fields)
 
@@ -244,6 +249,24 @@ class McapContent:
     def _flush(self) -> None:
         for topic in self.topics.values():
             topic.flush()
+
+
+def message_values(payload: bytes, fields: list[tuple[str, int]]) -> NDArray[np.float64]:
+    """The numbers of a message.
+
+    Args:
+        payload: Its encoding (CDR).
+        fields: Names and widths of its fields.
+
+    Returns:
+        The values (k,), one field after the other.
+
+    Raises:
+        ValueError: If it is of another size.
+    """
+    if len(payload) != 4 + 8 * sum(width for _, width in fields) or payload[0] or payload[1] not in (0, 1):
+        raise ValueError("a message is of another size than its fields")
+    return np.frombuffer(payload, "<f8" if payload[1] else ">f8", offset=4).astype(float)
 
 
 def _unpacked(chunk: Any) -> bytes:

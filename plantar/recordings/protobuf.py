@@ -214,6 +214,9 @@ class Template:
         times = np.array(whole.times, dtype=np.int64).reshape(-1, 1)
         self._seconds = times + np.arange(_LONG)
         self._nanoseconds = self._seconds + _LONG + 1
+        self._filled_in = np.zeros(len(self._data), dtype=bool)
+        for at in (self._where, self._seconds, self._nanoseconds):
+            self._filled_in[at] = True
 
     def filled(self, time_s: float, values: ArrayLike = ()) -> bytes:
         """The message at a time.
@@ -246,6 +249,20 @@ class Template:
         out[:, self._nanoseconds] = _long_varints(nanoseconds)[:, None]
         return out
 
+    def matches(self, message: bytes) -> bool:
+        """Whether a message differs from this template only in the values and times that are filled in.
+
+        Args:
+            message: The message.
+
+        Returns:
+            Whether it does.
+        """
+        if len(message) != len(self._data):
+            return False
+        same = np.frombuffer(message, dtype=np.uint8) == self._data
+        return bool((same | self._filled_in).all())
+
     def values_of(self, messages: Sequence[bytes]) -> NDArray[np.float64]:
         """The values with which messages were filled.
 
@@ -256,10 +273,10 @@ class Template:
             The values (n, k) of the slots 0 to k - 1.
 
         Raises:
-            ValueError: If a message is not of this template's length.
+            ValueError: If a message is not of this template.
         """
-        if any(len(message) != len(self._data) for message in messages):
-            raise ValueError(f"a message is not of {len(self._data)} bytes")
+        if not all(map(self.matches, messages)):
+            raise ValueError("a message is of another template")
         data = np.frombuffer(b"".join(messages), dtype=np.uint8).reshape(len(messages), -1)
         out = np.empty((len(messages), int(self._slots.max(initial=-1)) + 1))
         out[:, self._slots] = np.ascontiguousarray(data[:, self._where]).view("<f8")[..., 0]
@@ -293,10 +310,11 @@ def read_fields(message: bytes) -> Iterator[tuple[int, int | float | bytes]]:
         value: int | float | bytes
         if kind == _VARINT:
             value, position = _read_varint(message, position)
-        elif kind == _EIGHT_BYTES:
-            (value,), position = struct.unpack_from("<d", message[position : position + 8]), position + 8
-        elif kind == _FOUR_BYTES:
-            (value,), position = struct.unpack_from("<I", message[position : position + 4]), position + 4
+        elif kind in (_EIGHT_BYTES, _FOUR_BYTES):
+            form, length = ("<d", 8) if kind == _EIGHT_BYTES else ("<I", 4)
+            if position + length > len(message):
+                raise ValueError(f"field {field} is cut short")
+            (value,), position = struct.unpack_from(form, message, position), position + length
         elif kind == _BYTES:
             length, position = _read_varint(message, position)
             value, position = message[position : position + length], position + length

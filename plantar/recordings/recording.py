@@ -19,7 +19,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.recordings.mcap_content import MCAP_MAGIC, McapContent
 
-__all__ = ["Recording", "Table", "read_mcap"]
+__all__ = ["Recording", "Table", "read_mcap", "take_mcap"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,6 @@ class Recording:
         layouts: Sole layout of each side that has one.
         topics: Table of each topic.
         warnings: What was missing, damaged or skipped, one line each.
-        drawn: Time in s and encoding of each message for viewers, by topic; empty unless they were asked for.
     """
 
     path: Path
@@ -56,7 +55,6 @@ class Recording:
     layouts: Mapping[str, SoleLayout] = field(default_factory=dict)
     topics: Mapping[str, Table] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
-    drawn: Mapping[str, list[tuple[float, bytes]]] = field(default_factory=dict)
 
     def to_npz(self, path: str | os.PathLike[str]) -> Path:
         """Write all tables to one compressed NPZ; it appears whole or not at all.
@@ -111,7 +109,7 @@ class Recording:
         return [Path(folder) / name for name in [*texts, *names]]
 
 
-def read_mcap(path: str | os.PathLike[str], *, drawn: bool = False) -> Recording:
+def read_mcap(path: str | os.PathLike[str]) -> Recording:
     """Read an MCAP recording whose topics are made of float64 fields.
 
     A file that was cut short, by a killed run or a full disk, is read up to its last whole chunk; a damaged chunk is
@@ -119,7 +117,6 @@ def read_mcap(path: str | os.PathLike[str], *, drawn: bool = False) -> Recording
 
     Args:
         path: The file.
-        drawn: Whether to keep the messages for viewers, too (`plantar.recordings.foxglove`).
 
     Returns:
         The recording.
@@ -132,17 +129,8 @@ def read_mcap(path: str | os.PathLike[str], *, drawn: bool = False) -> Recording
         Traceback (most recent call last):
         plantar.errors.FormatError: none.mcap: cannot be read (No such file or directory)
     """
-    content = McapContent(drawn)
-    with open_input(path, FormatError) as stream:
-        head = stream.read(len(MCAP_MAGIC))
-        if not head:
-            raise FormatError(f"{path}: the file is empty")
-        if head != MCAP_MAGIC:
-            raise FormatError(f"{path}: not an MCAP recording (its first bytes are {head!r})")
-        try:
-            content.take_file(stream)
-        except FormatError as error:
-            raise FormatError(f"{path}: {error}") from None
+    content = McapContent()
+    take_mcap(path, content)
     topics = {topic.name: Table(*topic.columns()) for topic in content.topics.values()}
     if not topics and not content.metadata and not content.layouts:
         why = f": {content.warnings[0]}" if content.warnings else ""
@@ -153,5 +141,26 @@ def read_mcap(path: str | os.PathLike[str], *, drawn: bool = False) -> Recording
         layouts=content.layouts,
         topics=topics,
         warnings=tuple(content.warnings),
-        drawn=content.drawn,
     )
+
+
+def take_mcap(path: str | os.PathLike[str], content: McapContent) -> None:
+    """Pass the records of an MCAP file to what takes them.
+
+    Args:
+        path: The file.
+        content: What takes them.
+
+    Raises:
+        FormatError: If the file cannot be read or is not MCAP.
+    """
+    with open_input(path, FormatError) as stream:
+        head = stream.read(len(MCAP_MAGIC))
+        if not head:
+            raise FormatError(f"{path}: the file is empty")
+        if head != MCAP_MAGIC:
+            raise FormatError(f"{path}: not an MCAP recording (its first bytes are {head!r})")
+        try:
+            content.take_file(stream)
+        except FormatError as error:
+            raise FormatError(f"{path}: {error}") from None

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from itertools import count
 
 import numpy as np
-from numpy.typing import NDArray
 
 from plantar.recordings.foxglove import frame_transform
 from plantar.recordings.protobuf import Slot, Template, read_fields
 
-__all__ = ["Entity", "Shape", "deleted_all", "entities", "transforms"]
+__all__ = ["Entity", "Shape", "deleted_all", "entities", "transform_template", "transforms"]
 
 _KINDS = {7: "arrow", 8: "cube", 9: "sphere", 10: "cylinder", 11: "line", 12: "triangles", 13: "text"}
 _COLOUR_FIELD = {"arrow": 6, "cube": 3, "sphere": 3, "cylinder": 5, "line": 6, "triangles": 3, "text": 5}
 _POINTS_FIELD = {"line": 5, "triangles": 2}
+Value = int | float | bytes
 _WHOLE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
@@ -56,30 +57,45 @@ class Entity:
     shapes: tuple[Shape, ...] = field(default=())
 
 
-def transforms(messages: Sequence[bytes]) -> tuple[list[str], NDArray[np.float64]]:
-    """The frames of foxglove.FrameTransforms messages that have the same ones.
+def transforms(message: bytes) -> Iterator[tuple[str, str, tuple[float, ...]]]:
+    """The frames of a foxglove.FrameTransforms, of any library that wrote it.
 
     Args:
-        messages: At least one message, as `plantar.recordings.foxglove.frame_transform` makes them.
+        message: Its encoding; fields that are left out have their default, 0.
 
-    Returns:
-        Names of the frames of the first message, and the poses (n, k, 7) of all.
+    Yields:
+        Name of each frame, of its parent, and its pose in that: position in m and quaternion (x, y, z, w).
 
     Raises:
-        ValueError: If a message has other frames.
+        ValueError: If the message is damaged.
     """
-    names = []
-    for _, part in read_fields(messages[0]):
-        fields: dict[int, Any] = dict(read_fields(_bytes(part)))
-        names.append(fields[3].decode())
-    slots = [[Slot(7 * i + j) for j in range(7)] for i in range(len(names))]
-    template = Template(*(frame_transform(n, s[:3], s[3:]) for n, s in zip(names, slots, strict=True)))
-    return names, template.values_of(messages).reshape(len(messages), len(names), 7)
+    for number, part in read_fields(message):
+        if number == 1:
+            fields = _fields(part)
+            turn = _numbers(fields.get(5, b""), 4)
+            yield _text(fields.get(3)), _text(fields.get(2)), (*_numbers(fields.get(4, b""), 3), *_whole_turn(turn))
+
+
+def transform_template(message: bytes) -> Template:
+    """The template of messages that have the frames of a given one and that `plantar.recordings` wrote.
+
+    Args:
+        message: The message.
+
+    Returns:
+        The template; its slots are the poses (k, 7), one after the other.
+
+    Raises:
+        ValueError: If the message is damaged.
+    """
+    slots = ([Slot(7 * i + j) for j in range(7)] for i in count())
+    frames = zip(transforms(message), slots, strict=False)
+    return Template(*(frame_transform(name, s[:3], s[3:], parent) for (name, parent, _), s in frames))
 
 
 def deleted_all(message: bytes) -> bool:
-    """Whether a foxglove.SceneUpdate takes away all that was drawn before."""
-    return any(number == 1 and dict(read_fields(_bytes(part))).get(2) == 1 for number, part in read_fields(message))
+    """Whether a foxglove.SceneUpdate removes all that was drawn before."""
+    return any(number == 1 and _fields(part).get(2) == 1 for number, part in read_fields(message))
 
 
 def entities(message: bytes) -> list[Entity]:
@@ -89,46 +105,64 @@ def entities(message: bytes) -> list[Entity]:
         message: Its encoding.
 
     Returns:
-        Them; of their primitives those that a viewer of walks knows.
+        Its entities, with the primitives that the viewer draws.
+
+    Raises:
+        ValueError: If the message is damaged.
     """
     found = []
     for number, part in read_fields(message):
         if number != 2:
             continue
         fields = list(read_fields(_bytes(part)))
-        texts = {key: value.decode() for key, value in fields if key in (2, 3) and isinstance(value, bytes)}
-        shapes = tuple(_shape(_KINDS[key], _bytes(value)) for key, value in fields if key in _KINDS)
+        texts = {key: _text(value) for key, value in fields if key in (2, 3)}
+        shapes = tuple(_shape(_KINDS[key], value) for key, value in fields if key in _KINDS)
         found.append(Entity(texts.get(3, ""), texts.get(2, "world"), shapes))
     return found
 
 
-def _shape(kind: str, message: bytes) -> Shape:
-    fields = list(read_fields(message))
-    single: dict[int, Any] = dict(fields)
+def _shape(kind: str, message: Value) -> Shape:
+    fields = list(read_fields(_bytes(message)))
+    single = dict(fields)
     pose: tuple[float, ...] = _WHOLE
     if kind != "line":
-        place: dict[int, Any] = dict(read_fields(single[1]))
-        pose = (*_numbers(place[1], 3), *_numbers(place[2], 4))
-    points = tuple(_numbers(_bytes(v), 3) for key, v in fields if key == _POINTS_FIELD.get(kind))
-    indices = np.frombuffer(single[5], dtype="<u4") if kind == "triangles" and 5 in single else ()
+        place = _fields(single.get(1, b""))
+        pose = (*_numbers(place.get(1, b""), 3), *_whole_turn(_numbers(place.get(2, b""), 4)))
+    points = tuple(_numbers(v, 3) for key, v in fields if key == _POINTS_FIELD.get(kind))
+    packed = _bytes(single.get(5, b"")) if kind == "triangles" else b""
     sized = kind in ("cube", "sphere", "cylinder")
     return Shape(
         kind=kind,
         pose=pose,
-        size=_numbers(single[2], 3) if sized else (),
-        colour=_numbers(single[_COLOUR_FIELD[kind]], 4),
+        size=_numbers(single.get(2, b""), 3) if sized else (),
+        colour=_numbers(single.get(_COLOUR_FIELD[kind], b""), 4),
         points=points,
-        indices=tuple(int(i) for i in indices),
+        indices=tuple(int(i) for i in np.frombuffer(packed, dtype="<u4")),
     )
 
 
-def _numbers(message: bytes, count: int) -> tuple[float, ...]:
-    """The doubles of a message that are numbered from 1 on."""
-    values: dict[int, Any] = dict(read_fields(message))
-    return tuple(float(values.get(i, 0.0)) for i in range(1, count + 1))
+def _numbers(message: Value, size: int) -> tuple[float, ...]:
+    """The doubles of a message that are numbered from 1 on; all must be finite."""
+    values = [_fields(message).get(i, 0.0) for i in range(1, size + 1)]
+    if not all(isinstance(value, float) and math.isfinite(value) for value in values):
+        raise ValueError("a number of a message is none")
+    return tuple(float(value) for value in values)
 
 
-def _bytes(value: int | float | bytes) -> bytes:
+def _whole_turn(turn: tuple[float, ...]) -> tuple[float, ...]:
+    """A quaternion; the one of no turn where all its numbers are left out."""
+    return turn if any(turn) else _WHOLE[3:]
+
+
+def _fields(message: Value) -> dict[int, Value]:
+    return dict(read_fields(_bytes(message)))
+
+
+def _text(value: Value | None) -> str:
+    return "" if value is None else _bytes(value).decode(errors="replace")
+
+
+def _bytes(value: Value) -> bytes:
     if not isinstance(value, bytes):
-        raise ValueError("a message is no message but a number")
+        raise ValueError("a number where a message is due")
     return value

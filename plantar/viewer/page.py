@@ -12,7 +12,7 @@ import html
 import json
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from importlib.resources import files as package_files
 from pathlib import Path
@@ -21,8 +21,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from plantar.atomic import write_text
+from plantar.atomic import replacing
 from plantar.errors import InputError
+from plantar.pages.policy import with_policy
 from plantar.viewer.messages import Entity, Shape
 from plantar.viewer.walk import Walk, read_walk
 
@@ -30,6 +31,7 @@ __all__ = ["page_of", "view_text", "write_page"]
 
 _MOST = 2  # walks side by side
 _NOT_MEASURED = 0xFFFF
+_FARTHEST = 1e9  # m, or s: what damaged numbers of 32 bits are limited to
 _EXPORT = re.compile(r"export\s*\{([^}]*)\};?\s*$")
 
 
@@ -55,11 +57,14 @@ def write_page(recordings: Sequence[str | os.PathLike[str]], path: str | os.Path
         files = [Path(recording) for recording in recordings]
         known = [file.stem if len({f.stem for f in files}) == len(files) else str(file) for file in files]
         walks = [replace(walk, name=f"{walk.name} ({name})") for walk, name in zip(walks, known, strict=True)]
-    text = page_of(walks)
-    write_text(path, text)
+    size = 0
+    with replacing(path) as temporary, temporary.open("w", encoding="utf-8") as file:
+        for piece in _pieces(walks):
+            size += len(piece.encode())
+            file.write(piece)
     return {
         "file": str(Path(path)),
-        "bytes": len(text.encode()),
+        "bytes": size,
         "walks": [
             {"name": walk.name, "duration_s": round(float(np.ptp(walk.time)), 3), "log_lines": len(walk.events)}
             for walk in walks
@@ -90,16 +95,26 @@ def page_of(walks: Sequence[Walk]) -> str:
     Returns:
         HTML.
     """
-    title = " and ".join(walk.name for walk in walks)
-    data = json.dumps([_walk(walk) for walk in walks], separators=(",", ":")).replace("<", "\\u003c")
+    return "".join(_pieces(walks))
+
+
+def _pieces(walks: Sequence[Walk]) -> Iterator[str]:
+    """The page piece by piece: what soles measured in an hour is large."""
     parts = {
-        "TITLE": html.escape(title),
+        "TITLE": html.escape(" and ".join(walk.name for walk in walks)),
         "STYLE": _asset("view.css"),
         "VIEWS": "\n".join(_view(number, walk, len(walks) == 1) for number, walk in enumerate(walks)),
-        "DATA": data,
+        "DATA": "{{DATA}}",
         "SCRIPT": _three() + _asset("view.js"),
     }
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], _asset("view.html"))
+    text = re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], _asset("view.html"))
+    before, _, after = with_policy(text).rpartition("{{DATA}}")
+    yield before
+    for number, walk in enumerate(walks):
+        yield "[" if number == 0 else ","
+        for piece in json.JSONEncoder(separators=(",", ":"), allow_nan=False).iterencode(_walk(walk)):
+            yield piece.replace("<", "\\u003c")
+    yield "]" + after
 
 
 def _asset(name: str) -> str:
@@ -199,4 +214,7 @@ def _shape(shape: Shape) -> dict[str, Any]:
 
 
 def _packed(values: ArrayLike, kind: str) -> str:
-    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode()
+    found = np.asarray(values)
+    if kind == "<f4":
+        found = np.clip(found, -_FARTHEST, _FARTHEST)
+    return base64.b64encode(np.ascontiguousarray(found, dtype=kind).tobytes()).decode()

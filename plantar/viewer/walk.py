@@ -1,4 +1,4 @@
-"""What a page shows of a recording: frames that move, shapes in them, and what the soles feel, at common times.
+"""What a page shows of a recording: frames that move, shapes in them, and the force on the soles, at common times.
 
 A recording of `plantar sim` brings frames and shapes with it (topics "/tf" and "/scene/..."). Of an older one, or one
 of another robot, the soles are shown by themselves: where "/truth/left" says they are, or side by side.
@@ -7,8 +7,11 @@ of another robot, the soles are shown by themselves: where "/truth/left" says th
 from __future__ import annotations
 
 import os
+from array import array
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,17 +22,30 @@ from plantar.errors import FormatError
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.foxglove import LEVELS
+from plantar.recordings.mcap_content import McapContent, Sink, message_values
 from plantar.recordings.protobuf import read_fields
-from plantar.recordings.recording import Recording, read_mcap
+from plantar.recordings.recording import take_mcap
 from plantar.sides import SIDES, Side
 from plantar.viewer.messages import Entity, deleted_all, entities, transforms
+from plantar.viewer.sampling import FramePoses, Latest
 
 __all__ = ["Event", "Walk", "read_walk"]
 
 _RATE = 50.0  # pictures a second, as many as "/tf" has
 _MOST = 30_000  # pictures of a walk: 10 min; a longer one is shown with fewer a second
 _CORNERS = 12  # of a support polygon
-_APART = 0.2  # m between soles of which nobody says where they are
+_APART = 0.2  # m between soles whose poses are not recorded
+_HEAVIEST = 1e5  # kg
+_LONGEST_NAME, _LONGEST_LINE = 200, 2000  # characters
+_SEARCHED = 200  # messages of "/tf" in which the frames' names are looked for
+_MOST_FRAMES = 200
+_MOST_EVENTS = 10_000
+_MOST_SHAPES = 500_000  # shapes, points and triangles on a page
+_ROOTS = ("world", "map", "")
+_POSE = ("position", "rotation")
+_WIDTHS = {"position": 3, "rotation": 9, "com": 3}
+
+Fields = list[tuple[str, int]] | None
 
 
 @dataclass(frozen=True)
@@ -57,7 +73,7 @@ class Walk:
         poses: Position and quaternion (x, y, z, w) of each frame (n, 7) in the world in m.
         shapes: What is drawn in the frames.
         layouts: The soles, by side; their frames are "sole_left" and "sole_right".
-        force: Force (n, k) in N on the taxels of each sole.
+        force: Force (n, k) in N on the taxels of each sole, float32.
         zmp: True zero moment point (n, 3) in m, NaN where there is none or none is known.
         polygon: Corners (n, 12, 3) of the true support polygon in m, likewise.
         footsteps: Times in s, and the footsteps that are planned from then on.
@@ -71,7 +87,7 @@ class Walk:
     poses: Mapping[str, NDArray[np.float64]]
     shapes: tuple[Entity, ...]
     layouts: Mapping[Side, SoleLayout]
-    force: Mapping[Side, NDArray[np.float64]]
+    force: Mapping[Side, NDArray[np.float32]]
     zmp: NDArray[np.float64]
     polygon: NDArray[np.float64]
     footsteps: tuple[tuple[float, tuple[Entity, ...]], ...]
@@ -81,7 +97,9 @@ class Walk:
 
 
 def read_walk(path: str | os.PathLike[str]) -> Walk:
-    """Read what is shown of a recording.
+    """Read what is shown of a recording, piece by piece: an hour of it takes no more memory than ten minutes.
+
+    The file is read twice: first for the times to show and what is drawn once, then for what holds at those times.
 
     Args:
         path: MCAP file with taxel forces.
@@ -92,94 +110,265 @@ def read_walk(path: str | os.PathLike[str]) -> Walk:
     Raises:
         FormatError: If it cannot be read, or holds no taxel forces with layouts.
     """
-    run = read_mcap(path, drawn=True)
-    felt = {s: run.topics[f"/skin/{s}"] for s in SIDES if len(run.topics.get(f"/skin/{s}", ()))}
-    layouts = {side: run.layouts[side] for side in felt if side in run.layouts}
+    drawn = _Drawn()
+    content = McapContent(drawn.sinks())
+    take_mcap(path, content)
+    layouts = {side: content.layouts[side] for side in drawn.skin if side in content.layouts}
     if not layouts:
         raise FormatError(f"{path}: no taxel forces (/skin/left, /skin/right) with layouts of the soles to show")
-    time = _times(run, *(felt[side].time for side in layouts))
-    known = _recorded_poses(run, time) or _sole_poses(run, time, layouts)
-    force = {}
     for side, layout in layouts.items():
-        values = felt[side].fields.get("force", np.empty((0, 0)))
-        if values.shape[1] != len(layout):
-            raise FormatError(f"{path}: the {side} sole has {values.shape[1]} taxels, its layout {len(layout)}")
-        force[side] = _latest(felt[side].time, values, time)
-    zmp, polygon = _balance(run, time)
-    total = sum(np.nan_to_num(values).sum(axis=1) for values in force.values())
-    mass = run.metadata.get("mass_kg")
-    weight = GRAVITY * mass if isinstance(mass, (int, float)) and mass > 0 else float(np.percentile(total, 90)) or 1.0
+        if drawn.skin[side].width != len(layout):
+            raise FormatError(f"{path}: the {side} sole has {drawn.skin[side].width} taxels, its layout {len(layout)}")
+    time = _times(drawn, layouts)
+    shown = _Shown(drawn, layouts, time)
+    take_mcap(path, McapContent(shown.sinks()))
+    shown.finish()
+    total = sum(np.nan_to_num(values).sum(axis=1, dtype=float) for values in shown.force.values())
+    mass = content.metadata.get("mass_kg")
+    known = isinstance(mass, (int, float)) and 0.0 < mass < _HEAVIEST
     return Walk(
-        name=_name(run),
+        name=_name(path, content.metadata),
         time=time,
-        poses=known,
-        shapes=tuple(e for _, message in run.drawn.get("/scene/world", ()) for e in entities(message)),
+        poses=shown.frames(),
+        shapes=tuple(drawn.world),
         layouts=layouts,
-        force=force,
-        zmp=zmp,
-        polygon=polygon,
-        footsteps=_footsteps(run),
-        events=tuple(_event(time_s, message) for time_s, message in run.drawn.get("/log", ())),
-        weight=weight,
-        warnings=run.warnings,
+        force=shown.force,
+        zmp=shown.zmp,
+        polygon=shown.polygon,
+        footsteps=tuple(drawn.footsteps),
+        events=tuple(drawn.events),
+        weight=GRAVITY * float(mass) if known and mass is not None else float(np.percentile(total, 90)) or 1.0,
+        warnings=(*content.warnings, *drawn.warnings(), *shown.warnings()),
     )
 
 
-def _name(run: Recording) -> str:
-    said = [str(run.metadata[key]) for key in ("scene", "robot") if key in run.metadata]
-    seed = [f"seed {run.metadata['seed']}"] if "seed" in run.metadata else []
-    return ", ".join([*said, *seed]) or Path(run.path).stem
+def _name(path: str | os.PathLike[str], metadata: Mapping[str, Any]) -> str:
+    words = [str(metadata[key])[:_LONGEST_NAME] for key in ("scene", "robot") if key in metadata]
+    seed = [f"seed {metadata['seed']}"[:_LONGEST_NAME]] if "seed" in metadata else []
+    return ", ".join([*words, *seed]) or Path(path).stem
 
 
-def _times(run: Recording, *others: NDArray[np.float64]) -> NDArray[np.float64]:
+@dataclass
+class _Skin:
+    """The messages of a sole: numbers in each, and the first and last time in s."""
+
+    width: int
+    first: float
+    last: float
+
+
+class _Drawn:
+    """What a first reading finds: times, the frames' names, and what is drawn once or now and then."""
+
+    def __init__(self) -> None:
+        self.skin: dict[Side, _Skin] = {}
+        self.frame_times = array("d")
+        self.first_frames = b""
+        self.frames: list[str] = []
+        self.elsewhere: set[str] = set()
+        self.world: list[Entity] = []
+        self.footsteps: list[tuple[float, tuple[Entity, ...]]] = []
+        self.events: list[Event] = []
+        self._shapes = self._damaged = self._dropped = 0
+
+    def sinks(self) -> dict[str, Sink]:
+        """What takes the topics."""
+        return {
+            "/tf": self._guarded(self._take_frames),
+            "/scene/world": self._guarded(self._take_world),
+            "/scene/footsteps": self._guarded(self._take_footsteps),
+            "/log": self._guarded(self._take_event),
+            **{f"/skin/{side}": partial(self._take_skin, side) for side in SIDES},
+        }
+
+    def warnings(self) -> list[str]:
+        """What was left out, one line each."""
+        out = [f"{self._damaged} damaged message(s) of what is drawn were left out"] if self._damaged else []
+        if self._dropped:
+            out.append(f"{self._dropped} message(s) were left out: more is drawn, or logged, than a page can show")
+        if self.elsewhere:
+            out.append(f"{len(self.elsewhere)} frame(s) whose parent is not the world are not shown")
+        return out
+
+    def _guarded(self, take: Callable[[float, bytes], None]) -> Sink:
+        def sink(time: float, message: bytes, fields: Fields) -> None:
+            try:
+                take(time, message)
+            except ValueError:
+                self._damaged += 1
+
+        return sink
+
+    def _take_skin(self, side: Side, time: float, message: bytes, fields: Fields) -> None:
+        span = _span(fields, "force")
+        if span is not None:
+            found = self.skin.setdefault(side, _Skin(span[1] - span[0], time, time))
+            found.first, found.last = min(found.first, time), max(found.last, time)
+
+    def _take_frames(self, time: float, message: bytes) -> None:
+        self.frame_times.append(time)
+        if len(self.frame_times) > _SEARCHED:
+            return
+        for name, parent, _ in transforms(message):
+            if parent not in _ROOTS:
+                self.elsewhere.add(name)
+            elif name not in self.frames and len(self.frames) < _MOST_FRAMES:
+                self.frames.append(name)
+        self.first_frames = self.first_frames or message
+
+    def _take_world(self, time: float, message: bytes) -> None:
+        self.world += self._counted(entities(message))
+
+    def _take_footsteps(self, time: float, message: bytes) -> None:
+        before = () if deleted_all(message) or not self.footsteps else self.footsteps[-1][1]
+        updated = {entity.name: entity for entity in (*before, *entities(message))}
+        self.footsteps.append((time, tuple(self._counted(list(updated.values())))))
+
+    def _take_event(self, time: float, message: bytes) -> None:
+        if len(self.events) >= _MOST_EVENTS:
+            self._dropped += 1
+            return
+        found: dict[int, Any] = dict(read_fields(message))
+        text = found.get(3, b"")
+        if not isinstance(text, bytes):
+            raise ValueError("the text of a log line is none")
+        names = {number: name for name, number in LEVELS.items()}
+        self.events.append(
+            Event(time, text[:_LONGEST_LINE].decode(errors="replace"), names.get(found.get(2, 2), "info"))
+        )
+
+    def _counted(self, found: list[Entity]) -> list[Entity]:
+        """Entities, as long as the page has room for them."""
+        count = sum(1 + len(shape.points) + len(shape.indices) // 3 for e in found for shape in e.shapes)
+        if self._shapes + count > _MOST_SHAPES:
+            self._dropped += 1
+            return []
+        self._shapes += count
+        return found
+
+
+class _Shown:
+    """What a second reading keeps: what holds at each of the times to show."""
+
+    def __init__(self, drawn: _Drawn, layouts: Mapping[Side, SoleLayout], time: NDArray[np.float64]) -> None:
+        n = len(time)
+        self._damaged = 0
+        self._drawn = drawn
+        self._layouts = layouts
+        self._time = time
+        self.force = {side: np.full((n, len(layout)), np.nan, np.float32) for side, layout in layouts.items()}
+        self.zmp, self.polygon = np.full((n, 3), np.nan), np.full((n, _CORNERS, 3), np.nan)
+        self._poses = _sole_poses(n, layouts)
+        self._latest = {f"/skin/{side}": Latest(time, self.force[side].__setitem__) for side in layouts}
+        self._latest["/scene/balance"] = Latest(time, self._keep_balance)
+        self._framed: FramePoses | None = None
+        if {f"sole_{side}" for side in SIDES} <= set(drawn.frames):
+            self._framed = FramePoses(drawn.first_frames, drawn.frames, time)
+            self._latest["/tf"] = self._framed.latest
+        else:
+            for topic, keep in ((f"/truth/{side}", partial(self._keep_sole, side)) for side in layouts):
+                self._latest[topic] = Latest(time, keep)
+            self._latest["/truth/body"] = Latest(time, self._keep_body)
+
+    def sinks(self) -> dict[str, Sink]:
+        """What takes the topics."""
+        out: dict[str, Sink] = {}
+        for topic, latest in self._latest.items():
+            wanted = ("force",) if topic.startswith("/skin") else ("com",) if topic == "/truth/body" else _POSE
+            out[topic] = partial(self._take_numbers, latest, wanted)
+        out["/scene/balance"] = self._take_balance
+        if self._framed is not None:
+            out["/tf"] = self._take_frames
+        return out
+
+    def finish(self) -> None:
+        """Let the last messages hold to the end."""
+        for latest in self._latest.values():
+            latest.finish()
+
+    def frames(self) -> dict[str, NDArray[np.float64]]:
+        """Poses (n, 7) of the frames by name."""
+        if self._framed is not None:
+            return {name: self._framed.poses[:, i] for i, name in enumerate(self._drawn.frames)}
+        return self._poses
+
+    def warnings(self) -> list[str]:
+        """What was left out, one line each."""
+        late = sum(latest.late for latest in self._latest.values())
+        out = [f"{late} message(s) that are not in the order of time were left out"] if late else []
+        return out + ([f"{self._damaged} damaged message(s) of poses or ZMP were left out"] if self._damaged else [])
+
+    def _take_numbers(self, latest: Latest, names: tuple[str, ...], time: float, data: bytes, fields: Fields) -> None:
+        spans = [_span(fields, name) for name in names]
+        if None not in spans:
+            with suppress(ValueError):  # of another size: counted in the warnings of the file
+                values = message_values(data, fields or [])
+                latest.take(time, lambda: np.concatenate([values[slice(*span)] for span in spans if span is not None]))
+
+    def _take_frames(self, time: float, message: bytes, fields: Fields) -> None:
+        assert self._framed is not None
+        try:
+            self._framed.take(time, message)
+        except ValueError:
+            self._damaged += 1
+
+    def _take_balance(self, time: float, message: bytes, fields: Fields) -> None:
+        self._latest["/scene/balance"].take(time, lambda: message)
+
+    def _keep_balance(self, rows: slice, message: bytes) -> None:
+        """Keep ZMP and support polygon; without colour there is none."""
+        try:
+            found = entities(message)
+        except ValueError:
+            self._damaged += 1
+            return
+        for entity in found:
+            for shape in entity.shapes:
+                if shape.colour[3] <= 0.0:
+                    continue
+                if entity.name == "ZMP":
+                    self.zmp[rows] = shape.pose[:3]
+                elif entity.name == "support polygon" and len(shape.points) == _CORNERS:
+                    self.polygon[rows] = shape.points
+
+    def _keep_sole(self, side: Side, rows: slice, values: NDArray[np.float64]) -> None:
+        pose = self._poses[f"sole_{side}"]
+        pose[rows, :3] = values[:3]
+        pose[rows, 3:] = _quaternions(values[3:].reshape(1, 3, 3))
+
+    def _keep_body(self, rows: slice, values: NDArray[np.float64]) -> None:
+        pose = self._poses.setdefault("center_of_mass", np.zeros((len(self._time), 7)))
+        pose[rows, :3], pose[rows, 6] = values, 1.0
+
+
+def _span(fields: Fields, wanted: str) -> tuple[int, int] | None:
+    """Where a field's numbers are in a message; None where there is no such field."""
+    start = 0
+    for name, width in fields or ():
+        if name == wanted:
+            sized = _WIDTHS.get(name, width)
+            return (start, start + width) if width == sized else None
+        start += width
+    return None
+
+
+def _times(drawn: _Drawn, layouts: Mapping[Side, SoleLayout]) -> NDArray[np.float64]:
     """When the walk is shown: at the times of its frames, else evenly as long as it lasts."""
-    frames = np.array([time for time, _ in run.drawn.get("/tf", ())])
+    frames = np.unique(np.array(drawn.frame_times))
     if len(frames) > 1:
-        return frames[:: -(-len(frames) // _MOST)]
-    first, last = min(t[0] for t in others), max(t[-1] for t in others)
+        return np.asarray(frames[:: -(-len(frames) // _MOST)])
+    first, last = min(drawn.skin[s].first for s in layouts), max(drawn.skin[s].last for s in layouts)
     count = int(np.clip((last - first) * _RATE, 1, _MOST - 1))
     return np.linspace(first, last, count + 1)
 
 
-def _latest(time: NDArray[np.float64], values: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The last value (n, ...) before or at each time that is wanted; the first one before that."""
-    rows = np.searchsorted(time, wanted + 1e-9, side="right") - 1
-    return np.asarray(values[np.maximum(rows, 0)])
-
-
-def _recorded_poses(run: Recording, time: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-    """Poses of the frames of "/tf"; nothing where that lacks a sole."""
-    messages = run.drawn.get("/tf", ())
-    if not messages:
-        return {}
-    names, poses = transforms([message for _, message in messages])
-    if not {f"sole_{side}" for side in SIDES} <= set(names):
-        return {}
-    poses = _latest(np.array([t for t, _ in messages]), poses, time)
-    return {name: poses[:, i] for i, name in enumerate(names)}
-
-
-def _sole_poses(
-    run: Recording, time: NDArray[np.float64], layouts: Mapping[Side, SoleLayout]
-) -> dict[str, NDArray[np.float64]]:
-    """Poses of the soles alone, as "/truth/<side>" has them; side by side where that is not recorded."""
+def _sole_poses(count: int, layouts: Mapping[Side, SoleLayout]) -> dict[str, NDArray[np.float64]]:
+    """Soles that lie side by side, as nothing is known of where they are."""
     poses = {}
     for number, side in enumerate(SIDES):
-        if side not in layouts:
-            continue
-        pose = np.zeros((len(time), 7))
-        pose[:, 1], pose[:, 6] = _APART * (0.5 - number), 1.0
-        truth = run.topics.get(f"/truth/{side}")
-        if truth is not None and len(truth) and {"position", "rotation"} <= set(truth.fields):
-            pose[:, :3] = _latest(truth.time, truth.fields["position"], time)
-            turns = _latest(truth.time, truth.fields["rotation"], time).reshape(-1, 3, 3)
-            pose[:, 3:] = _quaternions(turns)
-        poses[f"sole_{side}"] = pose
-    body = run.topics.get("/truth/body")
-    if body is not None and len(body) and "com" in body.fields:
-        com = np.zeros((len(time), 7))
-        com[:, :3], com[:, 6] = _latest(body.time, body.fields["com"], time), 1.0
-        poses["center_of_mass"] = com
+        if side in layouts:
+            pose = poses[f"sole_{side}"] = np.zeros((count, 7))
+            pose[:, 1], pose[:, 6] = _APART * (0.5 - number), 1.0
     return poses
 
 
@@ -202,37 +391,3 @@ def _quaternions(turns: NDArray[np.float64]) -> NDArray[np.float64]:
     )
     best = rows[np.arange(len(rows)), np.argmax(np.einsum("nii->ni", rows), axis=1)]
     return np.asarray(best / np.linalg.norm(best, axis=1, keepdims=True))
-
-
-def _balance(run: Recording, time: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """ZMP (n, 3) and support polygon (n, 12, 3) in m, NaN where they are not drawn."""
-    messages = run.drawn.get("/scene/balance", ())
-    zmp, polygon = np.full((len(messages), 3), np.nan), np.full((len(messages), _CORNERS, 3), np.nan)
-    for i, (_, message) in enumerate(messages):
-        for found in entities(message):
-            for shape in found.shapes:
-                if found.name == "ZMP" and shape.colour[3] > 0.0:
-                    zmp[i] = shape.pose[:3]
-                if found.name == "support polygon" and shape.colour[3] > 0.0 and len(shape.points) == _CORNERS:
-                    polygon[i] = shape.points
-    if not messages:
-        return np.full((len(time), 3), np.nan), np.full((len(time), _CORNERS, 3), np.nan)
-    times = np.array([t for t, _ in messages])
-    return _latest(times, zmp, time), _latest(times, polygon, time)
-
-
-def _footsteps(run: Recording) -> tuple[tuple[float, tuple[Entity, ...]], ...]:
-    """The footsteps that are drawn from each time on."""
-    shown: tuple[Entity, ...] = ()
-    out = []
-    for time, message in run.drawn.get("/scene/footsteps", ()):
-        shown = (*(() if deleted_all(message) else shown), *entities(message))
-        out.append((time, shown))
-    return tuple(out)
-
-
-def _event(time: float, message: bytes) -> Event:
-    found: dict[int, Any] = dict(read_fields(message))
-    names = {number: name for name, number in LEVELS.items()}
-    text: Callable[[int], str] = lambda number: bytes(found.get(number, b"")).decode(errors="replace")  # noqa: E731
-    return Event(time, text(3), names.get(found.get(2, 2), "info"))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import json
 import os
@@ -14,6 +13,7 @@ import numpy as np
 
 from plantar import __version__
 from plantar.atomic import parent_folder, replacing, write_text
+from plantar.csv_table import write_csv_rows
 from plantar.errors import InputError
 from plantar.gait.analysis.results import Analysis
 from plantar.layouts.layout_file import layout_to_dict
@@ -134,12 +134,12 @@ def _write_csv(analysis: Analysis, path: Path) -> None:
     feet = recording.feet.items()
     ids = {s: np.arange(1, f.force.shape[1] + 1) if f.layout is None else f.layout.ids for s, f in feet}
     with path.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(["time [s]", *(f"{side} {cell} [{_unit(analysis)}]" for side in ids for cell in ids[side])])
+        names = ["time [s]", *(f"{side} {cell} [{_unit(analysis)}]" for side in ids for cell in ids[side])]
+        write_csv_rows(stream, [names])
         for begin in range(0, len(recording.time), _BLOCK):
             part = slice(begin, begin + _BLOCK)
             block = np.column_stack([recording.time[part], *(foot.force[part] for _, foot in feet)])
-            writer.writerows([["" if v != v else f"{v:.9g}" for v in row] for row in block.tolist()])
+            write_csv_rows(stream, ([None if v != v else f"{v:.9g}" for v in row] for row in block.tolist()))
 
 
 def _write_c3d(analysis: Analysis, path: Path) -> None:

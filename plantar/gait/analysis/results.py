@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import math
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -16,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.csv_table import csv_text
 from plantar.errors import InputError
 from plantar.gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
@@ -24,7 +23,6 @@ from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["Analysis", "as_data_frame", "write_analysis"]
 
-_ENDLESS = (math.inf, -math.inf)
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +141,7 @@ def _in_order(feet: Mapping[Side, FootGait]) -> list[Step]:
 def _steps_csv(columns: Mapping[str, NDArray[Any]]) -> str:
     """One row a complete step; empty where a value is not known."""
     whole = {name: values.astype(int) if values.dtype == bool else values for name, values in columns.items()}
-    return _csv(list(whole), list(zip(*(values.tolist() for values in whole.values()), strict=True)))
+    return csv_text(list(whole), list(zip(*(values.tolist() for values in whole.values()), strict=True)))
 
 
 def _regions_csv(feet: Mapping[Side, FootGait], raw: bool) -> str:
@@ -154,13 +152,4 @@ def _regions_csv(feet: Mapping[Side, FootGait], raw: bool) -> str:
         for s in _in_order(feet)
         for region, values in s.regions.items()
     ]
-    return _csv(["side", "number", "region", *(named(name) for name in REGION_MEASURES)], rows)
-
-
-def _csv(names: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(names)
-    for row in rows:
-        writer.writerow(["" if v != v or v in _ENDLESS else v for v in row])  # only NaN differs from itself
-    return text.getvalue()
+    return csv_text(["side", "number", "region", *(named(name) for name in REGION_MEASURES)], rows)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from plantar.csv_table import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.checks.weights import BOARD_UP, Weights
 from plantar.shoes.plan.cell_room import tail_lines
@@ -129,10 +128,5 @@ def bill_text(bills: dict[str, list[Part]]) -> str:
     Returns:
         The text, a header first.
     """
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["side", *Part.__dataclass_fields__])
-    for side, parts in bills.items():
-        for part in parts:
-            writer.writerow([side, *("" if v is None else v for v in asdict(part).values())])
-    return out.getvalue()
+    rows = ([side, *asdict(part).values()] for side, parts in bills.items() for part in parts)
+    return csv_text(["side", *Part.__dataclass_fields__], rows)

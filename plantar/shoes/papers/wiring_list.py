@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
+from plantar.csv_table import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
@@ -34,10 +33,8 @@ def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
         the wire from that cell's centre through the port to its own, slack not counted (of a connector along its
         channel); of a sheet's its row and column. Of cells without ways for a cable only place and area.
     """
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
+    rows: list[list[Any]] = []
     sheet = shoes[0].plan.lines is not None
-    writer.writerow((*_HEADER, *(_SHEET_HEADER if sheet else ())))
     for shoe in shoes:
         plan, ids = shoe.plan, shoe.layout.ids.tolist()
         centres = to_mm(shoe.layout.positions[:, :2])
@@ -56,8 +53,8 @@ def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
             wire = round(length_of(wires[j]), 1) if j in wires else ""
             lines = [] if plan.lines is None else plan.lines[j].tolist()
             area = round(1e6 * float(shoe.layout.areas[j]), 2)
-            writer.writerow([shoe.side, ids[j], patch.get(j, ""), x, y, area, hop.get(j, ""), *port, wire, *lines])
-    return out.getvalue()
+            rows.append([shoe.side, ids[j], patch.get(j, ""), x, y, area, hop.get(j, ""), *port, wire, *lines])
+    return csv_text((*_HEADER, *(_SHEET_HEADER if sheet else ())), rows)
 
 
 def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from plantar.csv_table import original_cell, write_csv_rows
 from plantar.errors import InputError
 
 __all__ = ["GrowingTable"]
@@ -47,7 +48,7 @@ class GrowingTable:
         reader = csv.DictReader(io.StringIO(whole))
         if tuple(reader.fieldnames or ()) != self._columns:
             raise InputError(f"{path} is no table of {what}: its first line has to be {','.join(self._columns)}")
-        self.rows = list(reader)
+        self.rows = [{name: original_cell(text or "") for name, text in row.items()} for row in reader]
         if whole != text:
             path.write_text(whole, encoding="utf-8")
 
@@ -60,8 +61,5 @@ class GrowingTable:
         whole = {name: str(row.get(name, "")) for name in self._columns}
         new = not self._path.exists()
         with self._path.open("a", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, self._columns, lineterminator="\n")
-            if new:
-                writer.writeheader()
-            writer.writerow(whole)
+            write_csv_rows(file, [*([self._columns] if new else []), list(whole.values())])
         self.rows.append(whole)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
@@ -13,6 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from plantar.atomic import write_text
+from plantar.csv_table import csv_text, mapping_rows
 from plantar.percepts.percept import Percept
 from plantar.sim.bench.room_times import RoomTimes
 from plantar.sim.bench.skip_page import skip_page
@@ -166,8 +165,4 @@ def _csv(rows: Sequence[SkipRow]) -> str:
         for name in ("shares", "skipped", "computed"):
             cells |= {f"{name}: {key}": value for key, value in cells.pop(name).items()}
         flat.append(cells)
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(flat[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(flat)
-    return text.getvalue()
+    return csv_text(list(flat[0]), mapping_rows(list(flat[0]), flat))

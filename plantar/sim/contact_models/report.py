@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from plantar.atomic import write_text
+from plantar.csv_table import csv_text, mapping_rows
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.tiling import hex_layout
@@ -74,11 +73,9 @@ def write_contact_report(
 
 
 def _csv(rows: Sequence[dict[str, Any]]) -> str:
-    out = io.StringIO()
-    writer = csv.DictWriter(out, list(rows[0]) if rows else [], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
-    return out.getvalue()
+    names = list(rows[0]) if rows else []
+    cells = ({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
+    return csv_text(names, mapping_rows(names, cells))
 
 
 def _draw(path: Path, rows: Sequence[ContactRow]) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 import os
 import re
@@ -13,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from plantar.atomic import write_text
+from plantar.csv_table import csv_row, original_cell
 from plantar.errors import InputError
 from plantar.files.structured_text import read_json
 from plantar.sim.sweep.grid import canonical, is_word
@@ -161,10 +161,8 @@ def _known_inputs(
 
 
 def _line(cells: Sequence[str]) -> bytes:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerow(cells)
-    return text.getvalue().encode(errors="backslashreplace")
+    return csv_row(cells).encode(errors="backslashreplace")
 
 
 def _cells(line: str) -> list[str]:
-    return next(csv.reader([line]), [])
+    return [original_cell(cell) for cell in next(csv.reader([line]), [])]

@@ -15,9 +15,10 @@ from mcap.reader import make_reader
 
 from plantar import RecordingError, hex_layout
 from plantar.recordings import foxglove
+from plantar.recordings.mcap_content import McapContent, message_values
 from plantar.recordings.protobuf import Slot, Template
 from plantar.recordings.recorder import Recorder
-from plantar.recordings.recording import read_mcap
+from plantar.recordings.recording import read_mcap, take_mcap
 
 
 def write_walk(path: Path, seconds: float = 2.0) -> np.ndarray:
@@ -78,13 +79,17 @@ def test_messages_for_viewers_are_kept_beside_the_numbers_and_read_where_they_ar
             log.write(0.1 * i, message)
             scene.write(0.1 * i, np.array([float(i)]))
             numbers.write(0.1 * i, np.array([float(i)]))
-    plain, drawn = read_mcap(path), read_mcap(path, drawn=True)
-    assert plain.warnings == drawn.warnings == ()
-    assert list(plain.topics) == list(drawn.topics) == ["/numbers"]
-    assert plain.drawn == {}
-    assert [message for _, message in drawn.drawn["/log"]] == said
-    assert [time for time, _ in drawn.drawn["/scene"]] == pytest.approx([0.1 * i for i in range(20)])
-    assert [m for _, m in drawn.drawn["/scene"]] == [ball.filled(0.1 * i, [2.0 * i]) for i in range(20)]
+    plain = read_mcap(path)
+    assert plain.warnings == ()
+    assert list(plain.topics) == ["/numbers"]
+    taken: dict[str, list[tuple[float, bytes]]] = {"/log": [], "/scene": [], "/numbers": []}
+    content = McapContent({t: lambda time, data, fields, t=t: taken[t].append((time, data)) for t in taken})
+    take_mcap(path, content)
+    assert not content.topics
+    assert [message for _, message in taken["/log"]] == said
+    assert [time for time, _ in taken["/scene"]] == pytest.approx([0.1 * i for i in range(20)])
+    assert [m for _, m in taken["/scene"]] == [ball.filled(0.1 * i, [2.0 * i]) for i in range(20)]
+    assert [message_values(m, [("a", 1)]).tolist() for _, m in taken["/numbers"]] == [[float(i)] for i in range(20)]
 
 
 def test_a_schema_that_is_unknown_and_a_topic_that_exists_are_refused(tmp_path: Path) -> None:

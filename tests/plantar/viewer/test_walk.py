@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+import re
+import subprocess
+import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from mcap.reader import make_reader
 
-from plantar import FormatError
+from plantar import FormatError, grid_layout
+from plantar.layouts.layout import mirrored
+from plantar.recordings.foxglove import frame_transform
+from plantar.recordings.protobuf import Slot, Template, double, integer, raw, read_fields
 from plantar.recordings.recorder import Recorder
+from plantar.viewer.page import page_of
 from plantar.viewer.walk import read_walk
 
 from .small_walk import SECONDS, WEIGHT, forces, soles, turned, write_walk
@@ -87,3 +97,119 @@ def test_every_rotation_has_its_quaternion() -> None:
         axis=1,
     )
     assert np.abs(np.einsum("ni,ni->n", _quaternions(turns), wanted)) == pytest.approx(1.0, abs=1e-12)
+
+
+def other_library(message: bytes) -> bytes:
+    """A message as other protobuf libraries write it: times as short as they can be, and zeros left out."""
+    out = b""
+    for number, value in read_fields(message):
+        if isinstance(value, bytes) and number in (1, 4, 5):
+            inner = other_library(value)
+            out += raw(number, inner).data
+        elif isinstance(value, bytes):
+            out += raw(number, value).data
+        elif isinstance(value, float):
+            out += double(number, value).data if value else b""
+        else:
+            out += integer(number, value).data if value else b""
+    return out
+
+
+def rewritten(path: Path, change: Callable[[str, bytes], bytes]) -> Path:
+    """A copy of a recording whose messages were changed."""
+    out = path.with_name(f"changed-{path.name}")
+    with path.open("rb") as stream, Recorder(out, {"scene": "test"}, soles()) as recorder:
+        channels: dict[str, Any] = {}
+        for schema, channel, message in make_reader(stream).iter_messages():
+            assert schema is not None
+            if channel.topic not in channels and schema.name.startswith("foxglove"):
+                channels[channel.topic] = recorder.message_channel(channel.topic, schema.name)
+            elif channel.topic not in channels:
+                fields = [(name, int(n)) for n, name in re.findall(r"float64\[(\d+)\] (\w+)", schema.data.decode())]
+                channels[channel.topic] = recorder.channel(channel.topic, fields)
+            data = change(channel.topic, message.data)
+            values = data if schema.name.startswith("foxglove") else np.frombuffer(data, "<f8", offset=4)
+            channels[channel.topic].write(message.log_time * 1e-9, values)
+    return out
+
+
+def test_frames_that_another_library_wrote_are_where_they_were(tmp_path: Path) -> None:
+    path = write_walk(tmp_path / "run.mcap")
+    other = rewritten(path, lambda topic, data: other_library(data) if topic == "/tf" else data)
+    ours, theirs = read_walk(path), read_walk(other)
+    assert theirs.warnings == ()
+    assert theirs.time == pytest.approx(ours.time)
+    for frame, poses in ours.poses.items():
+        assert theirs.poses[frame] == pytest.approx(poses)
+
+
+def test_damaged_messages_of_what_is_drawn_are_left_out_and_counted(tmp_path: Path) -> None:
+    path = write_walk(tmp_path / "run.mcap")
+    for topic in ("/tf", "/scene/world", "/scene/balance", "/scene/footsteps", "/log"):
+        bomb = integer(1 if topic == "/tf" else 2, 2**40).data  # a number where a frame, an entity or a level is due
+        for damage in (bomb, b"\x0a\xff\xff\xff\xff\x0f", b"\x09\x00", raw(1, integer(3, 5).data).data):
+            found = read_walk(
+                rewritten(path, lambda t, data, topic=topic, damage=damage: damage if t == topic else data)
+            )
+            assert found.force["left"].shape[1] == 8
+            assert found.warnings or damage != bomb or topic == "/log", (topic, damage)
+
+
+def test_random_changes_of_a_recording_are_shown_or_refused(tmp_path: Path) -> None:
+    rng, good = np.random.default_rng(11), write_walk(tmp_path / "run.mcap")
+    for _ in range(15):
+        bad = rewritten_at_random(good, rng)
+        walk = read_walk(bad)
+        assert page_of([walk]).count("</html>") == 1
+
+
+def rewritten_at_random(path: Path, rng: np.random.Generator) -> Path:
+    """A recording some of whose drawn messages have other bytes; its checksums hold."""
+
+    def change(topic: str, data: bytes) -> bytes:
+        if topic.startswith(("/skin", "/truth")) or rng.random() < 0.9:
+            return data
+        bytes_of = bytearray(data)
+        for at in rng.integers(0, len(data), size=rng.integers(1, 4)):
+            bytes_of[at] = rng.integers(0, 256)
+        return bytes(bytes_of[: rng.integers(1, len(data) + 1)] if rng.random() < 0.3 else bytes_of)
+
+    return rewritten(path, change)
+
+
+def test_a_long_recording_is_shown_at_fewer_times_with_what_held_at_each(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "long.mcap"
+    with Recorder(path, {"mass_kg": 40.0}, soles()) as recorder:
+        channel = recorder.channel("/skin/left", [("force", 8)])
+        for i in range(20_000):
+            channel.write(0.005 * i, np.full(8, float(i % 50)))
+    monkeypatch.setattr("plantar.viewer.walk._MOST", 3000)
+    walk = read_walk(path)
+    assert len(walk.time) == 3000
+    assert (walk.force["left"][:, 0] == np.floor(walk.time / 0.005 + 1e-6) % 50).all()
+
+
+@pytest.mark.long
+def test_an_hour_is_shown_with_less_than_500_mb(tmp_path: Path) -> None:
+    layout = grid_layout([[-0.13, -0.05], [0.13, -0.05], [0.13, 0.05], [-0.13, 0.05]], pitch=(0.0118, 0.0118))
+    path, names = tmp_path / "hour.mcap", ["sole_left", "sole_right", *(f"link_{i}" for i in range(18))]
+    frames = Template(*(frame_transform(name, [Slot(0)] * 3, (0.0, 0.0, 0.0, 1.0)) for name in names))
+    with Recorder(path, {"mass_kg": 60.0}, {"left": layout, "right": mirrored(layout)}) as recorder:
+        skin = [recorder.channel(f"/skin/{side}", [("force", len(layout))]) for side in ("left", "right")]
+        tf = recorder.message_channel("/tf", "foxglove.FrameTransforms")
+        force = np.random.default_rng(3).uniform(0.0, 5.0, (500, len(layout))).round(1)
+        for i in range(360_000):
+            for channel in skin:
+                channel.write(0.01 * i, force[i % 500])
+            if i % 2 == 0:
+                tf.write(0.01 * i, frames.filled(0.01 * i, [1e-6 * i]))
+    code = (
+        "import resource, sys; from plantar.viewer.page import write_page; write_page(sys.argv[1:2], sys.argv[2]); "
+        "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3)"
+    )
+    command = [sys.executable, "-c", code, str(path), str(tmp_path / "view.html")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert float(done.stdout) < 500.0
+    assert (tmp_path / "view.html").stat().st_size < 100e6

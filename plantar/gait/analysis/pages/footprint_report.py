@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from dataclasses import asdict
 from pathlib import Path
@@ -12,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.csv_table import csv_text
 from plantar.formats.footprint_image import FootprintImage, Print, read_footprints
 from plantar.gait.analysis.pages.figure_files import write_figures
 from plantar.gait.analysis.pages.footprint_figure import draw_footprints
@@ -186,10 +185,5 @@ def _widest(print_: Footprint, low: float, high: float) -> float:
 
 
 def _csv(feet: dict[Side, dict[str, Any]]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
     names = [k for k in next(iter(feet.values())) if not isinstance(next(iter(feet.values()))[k], dict)]
-    writer.writerow(["side", *names])
-    for side, values in feet.items():
-        writer.writerow([side, *("" if values[name] is None else values[name] for name in names)])
-    return text.getvalue()
+    return csv_text(["side", *names], ([side, *(values[n] for n in names)] for side, values in feet.items()))

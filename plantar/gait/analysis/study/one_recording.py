@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from plantar import __version__
 from plantar.atomic import replacing
+from plantar.errors import FormatError
+from plantar.files.input_file import open_input
 from plantar.formats import ReadOptions
 from plantar.gait.analysis.analyse_one import analyse_one, with_layout
 from plantar.gait.analysis.measures import MEASURES, raw_name
@@ -98,10 +100,10 @@ def digest_of(path: Path) -> str:
     """
     found = hashlib.sha256()
     try:
-        with path.open("rb") as stream:
+        with open_input(path, FormatError) as stream:
             while block := stream.read(1 << 20):
                 found.update(block)
-    except OSError:
+    except (OSError, FormatError):
         return ""
     return found.hexdigest()
 

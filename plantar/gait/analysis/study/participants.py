@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import re
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from plantar.errors import FormatError, InputError
-from plantar.files.input_file import open_input
+from plantar.files.text_table import read_text_table
 from plantar.formats.text import number
 from plantar.gait.analysis.subject import BODY_MASSES, FOOT_LENGTHS
 from plantar.sides import SIDES
 
 __all__ = ["Participation", "read_participants"]
 
-_LARGEST = 20_000_000
 _NAMES = {
     "file": ("file", "recording", "filename", "path"),
     "participant": ("participant", "participant_id", "subject", "subject_id", "id", "patient"),
@@ -81,13 +79,9 @@ def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
         FormatError: If it has no rows, lacks a column, or names a file twice.
         InputError: If a value is not possible.
     """
-    with open_input(path, FormatError) as stream:
-        text = stream.read(_LARGEST).decode("utf-8-sig", errors="replace")
-    head = text.partition("\n")[0]
-    delimiter = max("\t;,", key=head.count)
-    rows = list(csv.reader(io.StringIO(text), delimiter=delimiter))
-    names = [name.strip().lower() for name in rows[0]] if rows else []
-    columns = {key: at for key, known in _NAMES.items() if (at := _column(names, known)) is not None}
+    table = read_text_table(path, FormatError)
+    names = table.names
+    columns = {key: at for key, known in _NAMES.items() if (at := table.column(*known)) is not None}
     missing = [key for key in ("file", "participant", "condition") if key not in columns]
     if missing:
         raise FormatError(
@@ -95,22 +89,15 @@ def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
             "participant "
             "and condition"
         )
-    lengths = _column(names, ("foot_length_mm",)), _column(names, ("foot_length_cm",))
-    out: list[Participation] = []
-    for line, row in enumerate(rows[1:], 2):
-        if any(cell.strip() for cell in row):
-            where = f"{os.fspath(path)}, line {line}"
-            out.append(_participation(where, names, row, columns, lengths))
-    twice = {p.file for p in out if sum(q.file == p.file for q in out) > 1} if len(out) < 5000 else set()
-    if twice:
-        raise FormatError(f"{os.fspath(path)}: {sorted(twice)[0]} is named twice")
+    lengths = table.column("foot_length_mm"), table.column("foot_length_cm")
+    out = [_participation(f"{os.fspath(path)}, line {line}", names, row, columns, lengths) for line, row in table.rows]
+    counts = Counter(participation.file for participation in out)
+    twice = next((file for file, count in counts.items() if count > 1), None)
+    if twice is not None:
+        raise FormatError(f"{os.fspath(path)}: {twice} is named twice")
     if not out:
         raise FormatError(f"{os.fspath(path)}: the table of participants has no rows")
     return out
-
-
-def _column(names: list[str], known: tuple[str, ...]) -> int | None:
-    return next((names.index(name) for name in known if name in names), None)
 
 
 def _participation(
@@ -138,8 +125,8 @@ def _participation(
     side = text("side")
     if side is not None and side.lower() not in SIDES:
         raise InputError(f"{where}: side is {side!r}; allowed: left, right, or empty")
-    file = text("file")
-    if file is None:
+    file = row[columns["file"]] if columns["file"] < len(row) else ""  # a name may begin with a blank
+    if not file.strip():
         raise InputError(f"{where}: names no file")
     used = set(columns.values()) | {at for at in lengths if at is not None}
     more = {re.sub(r"\W+", "_", names[i]): row[i].strip() for i in range(min(len(names), len(row))) if i not in used}

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import math
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -19,6 +17,7 @@ from numpy.typing import NDArray
 
 from plantar import __version__
 from plantar.atomic import write_text
+from plantar.csv_table import csv_text, mapping_rows
 from plantar.errors import InputError, PlantarError
 from plantar.formats import ReadOptions, formats
 from plantar.gait.analysis.options import AnalysisOptions
@@ -149,7 +148,7 @@ def run_study(
     tell = progress or (lambda fraction, text: None)
     root, target, chosen = Path(folder), Path(out), choices or AnalysisOptions()
     chosen.of_several("a study has")
-    listed = read_participants(participants) if participants is not None else []
+    listed = [_as_named(root, who) for who in read_participants(participants)] if participants is not None else []
     everything = [*listed, *_others(root, target, participants, {p.file for p in listed})]
     if not everything:
         raise InputError(
@@ -166,6 +165,11 @@ def run_study(
     files = _write(study, target, root)
     tell(1.0, "done")
     return Study(study.results, study.comparisons, chosen, files)
+
+
+def _as_named(root: Path, who: Participation) -> Participation:
+    """A participation whose file's name has the blanks around it that the file has, and no others."""
+    return who if (root / who.file).is_file() else replace(who, file=who.file.strip())
 
 
 def _others(
@@ -191,16 +195,16 @@ def _result(
     root: Path, cache: Path, who: Participation, choices: AnalysisOptions, options: ReadOptions | None
 ) -> RecordingResult:
     """The result of a recording: the one that was kept, or a new one, which is kept."""
-    path = root / who.file
-    digest = digest_of(path)
-    key = key_of(root, who, digest, choices, options)
-    kept = cache / f"{key[:24]}.npz"
-    found = read_result(kept, key)
-    if found is not None:
-        return found
+    path, digest, key = root / who.file, "", ""
     try:
         if not path.resolve().is_relative_to(root.resolve()):
             raise InputError(f"{who.file} is not in the study's folder")
+        digest = digest_of(path)
+        key = key_of(root, who, digest, choices, options)
+        kept = cache / f"{key[:24]}.npz"
+        found = read_result(kept, key)
+        if found is not None:
+            return found
         result = measure_recording(root, who, choices, digest, options)
     except PlantarError as error:
         text = str(error).replace(f"{path}: ", "").replace(f"{root}{os.sep}", "")
@@ -277,13 +281,8 @@ def _columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, NDArray[Any]]:
 
 def _csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
     """Rows as a CSV table; what is not known stays empty."""
-    stream = io.StringIO()
-    writer = csv.DictWriter(stream, _names(rows), restval="", lineterminator="\n")
-    writer.writeheader()
-    for row in rows:
-        known = ((k, v) for k, v in row.items() if v is not None)
-        writer.writerow({k: "" if isinstance(v, float) and not math.isfinite(v) else v for k, v in known})
-    return stream.getvalue()
+    names = _names(rows)
+    return csv_text(names, mapping_rows(names, rows))
 
 
 def _plain(comparison: Comparison) -> dict[str, Any]:

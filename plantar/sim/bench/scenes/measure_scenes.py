@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from plantar.atomic import write_text
+from plantar.csv_table import csv_text, mapping_rows
 from plantar.errors import InputError
 from plantar.sim.bench.scenes.scene_row import SceneRow, scene_rows
 from plantar.sim.bench.scenes.scene_runs import TABLE, SceneCase, SceneRuns
@@ -97,10 +96,6 @@ def _chosen(scenes: Sequence[str], robots: Sequence[str], quick: bool) -> list[S
 
 
 def _csv(rows: Sequence[SceneRow]) -> str:
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(rows[0].as_dict()), lineterminator="\n")
-    writer.writeheader()
-    for row in rows:
-        told = row.as_dict()
-        writer.writerow({k: f"{v:.5g}" if isinstance(v, float) else v for k, v in told.items()})
-    return text.getvalue()
+    names = list(rows[0].as_dict())
+    cells = ({k: f"{v:.5g}" if isinstance(v, float) else v for k, v in row.as_dict().items()} for row in rows)
+    return csv_text(names, mapping_rows(names, cells))

@@ -1,0 +1,86 @@
+"""CSV tables that a spreadsheet shows as they are: no cell of a table that Plantar writes is run as a formula."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TextIO
+
+__all__ = ["csv_row", "csv_text", "mapping_rows", "original_cell", "write_csv_rows"]
+
+_FORMULA = ("=", "+", "-", "@", "\t", "\n")
+_GUARD = "'"
+
+
+def csv_text(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
+    """A table as CSV.
+
+    A text that a spreadsheet would run (it begins with =, +, -, @, a tab or a line end, and is no number) is written
+    after an apostrophe, and line ends as line feeds. None, NaN and infinite numbers are empty cells.
+
+    Args:
+        names: Heads of the columns.
+        rows: Cells of each row.
+
+    Returns:
+        The text.
+
+    Example:
+        >>> csv_text(["file", "N"], [["=1+1.csv", -0.5], ["-2e3", None]])
+        "file,N\\n'=1+1.csv,-0.5\\n-2e3,\\n"
+    """
+    out = io.StringIO()
+    write_csv_rows(out, [names, *rows])
+    return out.getvalue()
+
+
+def write_csv_rows(stream: TextIO, rows: Iterable[Sequence[Any]]) -> None:
+    """Write rows of a table, as `csv_text` does.
+
+    Args:
+        stream: Where to; opened with newline="".
+        rows: Cells of each row.
+    """
+    csv.writer(stream, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
+
+
+def csv_row(cells: Sequence[Any]) -> str:
+    """One row with its line end, as `csv_text` writes it."""
+    out = io.StringIO()
+    write_csv_rows(out, [cells])
+    return out.getvalue()
+
+
+def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Iterable[list[Any]]:
+    """Cells of rows that are mappings, in the order of names; what a row lacks is None."""
+    return ([row.get(name) for name in names] for row in rows)
+
+
+def original_cell(text: str) -> str:
+    """A cell as it was before it was written.
+
+    Example:
+        >>> original_cell("'=1"), original_cell("'quoted'")
+        ('=1', "'quoted'")
+    """
+    return text[1:] if text.startswith(_GUARD) and text[1:].startswith((*_FORMULA, _GUARD)) else text
+
+
+def _cell(value: Any) -> Any:
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        return ""
+    if not isinstance(value, str):
+        return value
+    value = value.replace("\r\n", "\n").replace("\r", "\n")
+    guarded = value.startswith(_FORMULA) and not _is_number(value)
+    return _GUARD + value if guarded or (value.startswith(_GUARD) and original_cell(value) != value) else value
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return "_" not in text

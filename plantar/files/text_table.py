@@ -1,0 +1,96 @@
+"""Small tables of text (CSV, TSV) in any encoding: at most so large, of so many rows and columns."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import re
+from typing import NamedTuple
+
+from plantar.errors import PlantarError
+from plantar.files.input_file import read_input
+
+__all__ = ["TABLE_MOST", "TextTable", "encoding_of", "read_text_table"]
+
+TABLE_MOST = 20_000_000
+"""Largest table in bytes."""
+
+_MOST_ROWS, _MOST_COLUMNS = 200_000, 2000
+_SEEN = 1024  # bytes in which the zeros of UTF-16 are looked for
+
+
+class TextTable(NamedTuple):
+    """A table with a row of names.
+
+    Attributes:
+        names: The names, in small letters and without spaces around them.
+        rows: Line number and cells of each row that is not empty; as many cells as the line has.
+    """
+
+    names: list[str]
+    rows: list[tuple[int, list[str]]]
+
+    def column(self, *known: str) -> int | None:
+        """Index of the column that has the first of some names that one has; None where none has."""
+        return next((self.names.index(name) for name in known if name in self.names), None)
+
+
+def read_text_table(path: str | os.PathLike[str], error: type[PlantarError]) -> TextTable:
+    """Read a table: tabs, semicolons or commas between cells, a row of names first.
+
+    Args:
+        path: The file, of up to TABLE_MOST bytes; UTF-8, UTF-16 or Latin-1.
+        error: What is raised.
+
+    Returns:
+        The table.
+
+    Raises:
+        PlantarError: If it cannot be read, is no text, or has too many rows or columns; of the class `error`.
+
+    Example:
+        >>> read_text_table("none.csv", PlantarError)
+        Traceback (most recent call last):
+        plantar.errors.PlantarError: none.csv: cannot be read (No such file or directory)
+    """
+    data = read_input(path, error, TABLE_MOST)
+    text = data.decode(encoding_of(data), errors="replace").removeprefix("\ufeff")
+    if "\0" in text:
+        raise error(f"{path}: not a table of text (it holds zero bytes)")
+    head = text.partition("\n")[0]
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=max("\t;,", key=head.count), strict=True)
+    names: list[str] = []
+    rows: list[tuple[int, list[str]]] = []
+    try:
+        names = [name.strip().lower() for name in next(reader, [])]
+        for cells in reader:
+            if any(cell.strip() for cell in cells):
+                rows.append((reader.line_num, cells))
+            if len(rows) > _MOST_ROWS or len(cells) > _MOST_COLUMNS:
+                raise error(f"{path}: allowed: up to {_MOST_ROWS} rows and {_MOST_COLUMNS} columns")
+    except csv.Error as problem:
+        raise error(f"{path}, line {reader.line_num}: not a table that can be read ({problem})") from None
+    return TextTable(names, rows)
+
+
+def encoding_of(head: bytes) -> str:
+    """Encoding of a text from its first bytes: UTF-16 and UTF-8 where they are marked or seen, else Latin-1.
+
+    Example:
+        >>> encoding_of("N/cm²".encode()), encoding_of("N/cm²".encode("latin-1"))
+        ('utf-8', 'latin-1')
+    """
+    for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"\xef\xbb\xbf", "utf-8-sig")):
+        if head.startswith(mark):
+            return encoding
+    for first, encoding in ((0, "utf-16-be"), (1, "utf-16-le")):  # without a mark: every other byte of it is 0
+        zeros, others = head[first:_SEEN:2].count(0), head[1 - first : _SEEN : 2].count(0)
+        if len(head) > 64 and zeros > 0.45 * min(len(head), _SEEN) and others == 0:
+            return encoding
+    try:
+        head[: -4 if len(head) > 4096 else None].decode("utf-8")
+    except UnicodeDecodeError:
+        good = len(re.findall(rb"[\xc2-\xdf][\x80-\xbf]|[\xe0-\xef][\x80-\xbf]{2}", head))
+        return "utf-8" if good else "latin-1"  # one damaged byte does not make another encoding
+    return "utf-8"

@@ -1,0 +1,112 @@
+"""Messages of a topic reduced to the latest one at each of some times, while the file is read piece by piece."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.viewer.messages import transform_template, transforms
+
+__all__ = ["FramePoses", "Latest"]
+
+
+class Latest:
+    """Keeps, for each wanted time, the last value before or at it; the first one before that.
+
+    Args:
+        times: The wanted times (n,) in s, ascending.
+        keep: Called with a slice of rows and the value that holds there.
+
+    Attributes:
+        count: Values that were taken.
+        late: Values that were left out, as they came after later ones.
+
+    Example:
+        >>> rows = np.empty(3)
+        >>> latest = Latest(np.array([0.0, 1.0, 2.0]), rows.__setitem__)
+        >>> for time, value in ((0.5, 7.0), (1.5, 8.0)):
+        ...     latest.take(time, lambda value=value: value)
+        >>> latest.finish(), rows.tolist()
+        (None, [7.0, 7.0, 8.0])
+    """
+
+    def __init__(self, times: NDArray[np.float64], keep: Callable[[slice, Any], None]) -> None:
+        self._times = times
+        self._keep = keep
+        self._row = 0
+        self._held: Callable[[], Any] | None = None
+        self._since = -np.inf
+        self.count = self.late = 0
+
+    def take(self, time: float, value: Callable[[], Any]) -> None:
+        """Take a value; it is computed where it is kept.
+
+        Args:
+            time: Its time in s.
+            value: Computes it.
+        """
+        if time < self._since:
+            self.late += 1
+            return
+        self._fill(int(np.searchsorted(self._times, time - 1e-9)))
+        self._held, self._since = value, time
+        self.count += 1
+
+    def held(self) -> Any:
+        """The value taken last."""
+        return None if self._held is None else self._held()
+
+    def finish(self) -> None:
+        """Let the last value hold to the end."""
+        self._fill(len(self._times))
+
+    def _fill(self, end: int) -> None:
+        if self._held is not None and end > self._row:
+            self._keep(slice(self._row, end), self._held())
+            self._row = end
+
+
+class FramePoses:
+    """Poses of frames at wanted times, from foxglove.FrameTransforms messages; a frame missing in one stays.
+
+    Args:
+        first: The first message.
+        names: Names of the frames.
+        times: The wanted times (n,) in s.
+
+    Attributes:
+        poses: Poses (n, k, 7): position in m and quaternion (x, y, z, w).
+        latest: What takes the messages.
+    """
+
+    def __init__(self, first: bytes, names: list[str], times: NDArray[np.float64]) -> None:
+        self.poses = np.empty((len(times), len(names), 7))
+        self.latest = Latest(times, self.poses.__setitem__)
+        self._rows = {name: i for i, name in enumerate(names)}
+        self._start = np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (len(names), 1))
+        own = [name for name, _, _ in transforms(first)]
+        self._template = transform_template(first) if own == names else None
+
+    def take(self, time: float, message: bytes) -> None:
+        """Take a message.
+
+        Raises:
+            ValueError: If it is damaged.
+        """
+        template = self._template
+        if template is not None and template.matches(message):
+            self.latest.take(time, lambda: self._quick(message))
+            return
+        now = np.array(self.latest.held() if self.latest.count else self._start)
+        for name, _, pose in transforms(message):
+            if name in self._rows:
+                now[self._rows[name]] = pose
+        self.latest.take(time, lambda: now)
+
+    def _quick(self, message: bytes) -> NDArray[np.float64]:
+        """The poses of a message of the template."""
+        assert self._template is not None
+        return self._template.values_of([message]).reshape(-1, 7)
