@@ -24,7 +24,6 @@ from plantar.recordings.pressure_recording import PressureRecording
 __all__ = ["Analysis", "as_data_frame", "write_analysis"]
 
 
-
 @dataclass(frozen=True, eq=False)
 class Analysis:
     """A recording, its feet and what was measured.
