@@ -47,19 +47,40 @@ def write_csv_rows(stream: TextIO, rows: Iterable[Sequence[Any]]) -> None:
 
 
 def csv_row(cells: Sequence[Any]) -> str:
-    """One row with its line end, as `csv_text` writes it."""
+    """One row as `csv_text` writes it.
+
+    Args:
+        cells: Its cells.
+
+    Returns:
+        The row with its line end.
+    """
     out = io.StringIO()
     write_csv_rows(out, [cells])
     return out.getvalue()
 
 
 def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Iterable[list[Any]]:
-    """Cells of rows that are mappings, in the order of names; what a row lacks is None."""
+    """Cells of rows that are mappings.
+
+    Args:
+        names: Heads of the columns.
+        rows: Cells of each row by name.
+
+    Returns:
+        The cells of each row in the order of names; what a row lacks is None.
+    """
     return ([row.get(name) for name in names] for row in rows)
 
 
 def original_cell(text: str) -> str:
     """A cell as it was before it was written.
+
+    Args:
+        text: The cell as it was read.
+
+    Returns:
+        The text without the apostrophe that was added.
 
     Example:
         >>> original_cell("'=1"), original_cell("'quoted'")

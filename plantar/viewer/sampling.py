@@ -93,6 +93,10 @@ class FramePoses:
     def take(self, time: float, message: bytes) -> None:
         """Take a message.
 
+        Args:
+            time: Its time in s.
+            message: Its encoding.
+
         Raises:
             ValueError: If it is damaged.
         """
