@@ -11,6 +11,8 @@ cdef class ContactList:
     cdef const double[:] gaps
     cdef const int[:] addresses
     cdef const int[:] sizes
+    cdef bint pyramid
+    cdef const double[:, :] friction
 
 
 @cython.locals(foot=FootContacts)
@@ -56,3 +58,7 @@ cdef class FootContacts:
         pair=list, key=tuple
     )
     cpdef list pair_loads(self, const double[:, ::1] vectors, double reach)
+
+
+@cython.locals(start=Py_ssize_t, size=int, edge=Py_ssize_t, value=double, k=int)
+cdef double _along(ContactList listed, const double[:] forces, Py_ssize_t i, Py_ssize_t m) noexcept

@@ -16,16 +16,20 @@ class ContactList:
         frames: Contact frames (n, 9), axis by axis.
         gaps: Gaps (n,) in m.
         addresses: Where each contact's numbers begin among the forces (n,); negative for one that carries nothing.
-        sizes: How many numbers each contact has (n,), up to 6: force and torque along its axes.
+        sizes: In how many dimensions each contact acts (n,), up to 6: force and torque along its axes.
+        friction: Friction (n, 5) of each contact where its numbers are the forces along the edges of a pyramid, two for
+            each dimension after the first; None where they are those along the axes.
     """
 
-    def __init__(self, geoms, positions, frames, gaps, addresses, sizes):
+    def __init__(self, geoms, positions, frames, gaps, addresses, sizes, friction=None):
         self.geoms = geoms
         self.positions = positions
         self.frames = frames
         self.gaps = gaps
         self.addresses = addresses
         self.sizes = sizes
+        self.pyramid = friction is not None
+        self.friction = np.zeros((1, 5)) if friction is None else friction
 
 
 def gather_feet(feet, listed, forces):
@@ -124,7 +128,7 @@ class FootContacts:
             start = listed.addresses[i]
             if start >= 0:
                 for m in range(listed.sizes[i]):
-                    value = sign * forces[start + m]
+                    value = sign * _along(listed, forces, i, m)
                     half, axis = row + 1 if m < 3 else row + 2, 3 * (m % 3)
                     for j in range(3):
                         self.vectors[half, j] += value * listed.frames[i, axis + j]
@@ -197,3 +201,17 @@ class FootContacts:
             pair[2] += float(vectors[row + 2, 1] + z * fx - x * fz)
             pair[3].append((float(x), float(y)))
         return list(pairs.values())
+
+
+def _along(listed, forces, i, m):
+    """Force or torque of a contact that carries, along one of its axes."""
+    start, size = listed.addresses[i], listed.sizes[i]
+    if not listed.pyramid or size == 1:
+        return forces[start + m]
+    if m:
+        edge = start + 2 * (m - 1)
+        return listed.friction[i, m - 1] * (forces[edge] - forces[edge + 1])
+    value = 0.0
+    for k in range(2 * (size - 1)):
+        value += forces[start + k]
+    return value

@@ -12,13 +12,13 @@ import math
 from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.contacts.foot_contacts import ContactList, FootContacts, gather_feet
+from plantar.kernels.contacts.foot_contacts import FootContacts
 from plantar.kernels.contacts.ground_reaction import GroundReaction
 from plantar.kernels.geometry.few_points import small_hull
+from plantar.mujoco.contacts import REACH, ContactReader
 
 __all__ = [
     "REACH",
@@ -34,10 +34,6 @@ __all__ = [
     "support_polygon_of_contacts",
     "zmp_of_contacts",
 ]
-
-
-REACH = 5e-4
-"""Largest gap in m between sole and ground that still counts as contact: what the rubber sole of H1 gives."""
 
 
 class ContactSet(NamedTuple):
@@ -145,63 +141,6 @@ def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tup
         The contacts of each foot. A contact between two of the feet belongs to both.
     """
     return tuple(_set_of(foot) for foot in ContactReader(model, data, feet).read())
-
-
-class ContactReader:
-    """Gathers the contacts of several feet of one simulation again and again.
-
-    MuJoCo keeps all contacts at the head of one block of memory, which stays where it is as long as the data lives. So
-    the arrays that show it are made once for each number of contacts, not at each reading.
-
-    Args:
-        model: The MjModel, whose friction cones stay as they are.
-        data: Its MjData.
-        feet: Ids of each foot's geoms.
-    """
-
-    def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
-        self._model, self._data = model, data
-        own = np.zeros((len(feet), model.ngeom), dtype=np.uint8)
-        for mask, geom_ids in zip(own, feet, strict=True):
-            mask[list(geom_ids)] = 1
-        self._feet = tuple(FootContacts(mask) for mask in own)
-        self._elliptic = model.opt.cone == _ELLIPTIC
-        self._lists: dict[int, ContactList] = {}
-
-    def read(self) -> tuple[FootContacts, ...]:
-        """The contacts of each foot as the last `mj_step` or `mj_forward` left them; the same objects each time, which
-        the next reading changes."""
-        data, n = self._data, self._data.ncon
-        if not n:
-            for foot in self._feet:
-                foot.clear()
-            return self._feet
-        listed = self._lists.get(n)
-        if listed is None:
-            listed = self._lists[n] = self._list()
-        if self._elliptic:
-            gather_feet(self._feet, listed, data.efc_force)
-        else:
-            gather_feet(self._feet, *self._along_frames(n))
-        return self._feet
-
-    def _list(self) -> ContactList:
-        """Where MuJoCo lists so many contacts as there are now."""
-        c = self._data.contact
-        return ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim)
-
-    def _along_frames(self, n: int) -> tuple[ContactList, NDArray[np.float64]]:
-        """The contacts with force and torque of each in its frame, one after the other (6 n,), where the solver's own
-        numbers are along a pyramid's edges."""
-        local = np.zeros((n, 6))
-        for i in range(n):
-            mujoco.mj_contactForce(self._model, self._data, i, local[i])
-        c = self._data.contact
-        starts = np.where(c.efc_address >= 0, np.arange(0, 6 * n, 6), -1).astype(np.int32)
-        return ContactList(c.geom, c.pos, c.frame, c.dist, starts, np.full(n, 6, dtype=np.int32)), local.ravel()
-
-
-_ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
 
 
 def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,0 +1,461 @@
+"""Kernel of what each taxel of a sole carries, such that all of them together have the wrench of the sole's contacts."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+__all__ = ["TaxelLoad"]
+
+_SPREAD = 1e-3  # of the load: what cells beside the contact may carry where those in it cannot hold its moment
+_EXACT = 1e-12  # of the load and of the cells' extent: how exactly a pressure has the moment that is asked for
+
+
+class TaxelLoad:
+    """Spreads the wrench of a sole's contacts over its taxels, at each instant from the contacts alone.
+
+    1. The contact points of each pair of geoms span a patch. A cell's weight w is its area times the share of it that
+       the patch covers, a ramp over the cell's width in the distance of its taxel from the patch.
+    2. Each pair's normal load is spread as on springs that cannot pull: f = w max(0, a + b x + c y).
+    3. The sum over the pairs is corrected in the same way, with itself as weight, to have the load and the moments of
+       all contacts exactly. Where it cannot, cells beside it help out, and then all cells.
+    4. Tangential forces follow the normal ones, and turn about their centre, to have the rest of the wrench.
+
+    Args:
+        positions: Places (n, 3) of the taxels in the sole frame in m.
+        normals: Axis (n, 3) of each taxel that points into the body.
+        areas: Area (n,) of each cell in m^2.
+        widths: Distance (n,) in m from each taxel to the farthest corner of its cell.
+        hull: Convex hull (h, 2) of the places in m, counter-clockwise.
+
+    Attributes:
+        vectors: Force (n, 3) on each taxel in the sole frame in N.
+        forces: Its part (n,) along the taxel's axis in N.
+        depths: How deep (n,) the geoms overlap at each taxel in the contact in m, 0 elsewhere.
+        wrench: Wrench (6,) of the contacts about the sole frame's origin in N and N m.
+        carried: Whether the vectors have that wrench; if not, their sum is its force where it presses, zero where not.
+        pressed: Whether the contacts press on the sole.
+    """
+
+    def __init__(self, positions, normals, areas, widths, hull):
+        count = len(areas)
+        self.positions = positions
+        self.normals = normals
+        self.areas = areas
+        self.widths = widths
+        self.hull = hull
+        self.level = bool((positions[:, 2] == 0.0).all())
+        self.vectors = np.zeros((count, 3))
+        self._vectors = self.vectors
+        self.forces = np.zeros(count)
+        self._forces = self.forces
+        self.depths = np.zeros(count)
+        self._depths = self.depths
+        self.wrench = np.zeros(6)
+        self._wrench = self.wrench
+        self.weights = np.zeros(count)
+        self.prior = np.zeros(count)
+        self.normal = np.zeros(count)
+        self.gaps = np.zeros(count)
+        self.rows = np.zeros((count, 3))  # of the cells with a weight: weight and place, scaled
+        self.carried = True
+        self.pressed = False
+        self.room = 0
+        self._make_room(16)
+
+    def _make_room(self, room):
+        """Room for so many contact points."""
+        self.room = room
+        self.points = np.zeros((room, 3))  # x, y and overlap
+        self.ring = np.zeros((2 * room + 2, 2))
+        self.edges = np.zeros((2 * room + 2, 3))  # direction and length of each edge of the ring
+
+    def press(self, contacts, seen, reach):
+        """Set the attributes to what the contacts give.
+
+        Args:
+            contacts: The sole's `FootContacts`.
+            seen: `ContactsInSole`, which turns them into the sole frame.
+            reach: Gap in m beyond which a contact that carries nothing is left out.
+        """
+        count = self.areas.shape[0]
+        for i in range(6):
+            self._wrench[i] = 0.0
+        for i in range(count):
+            self.prior[i] = self._depths[i] = self._forces[i] = 0.0
+            self._vectors[i, 0] = self._vectors[i, 1] = self._vectors[i, 2] = 0.0
+        self.carried = True
+        self.pressed = False
+        seen.turn(contacts)
+        if contacts.size == 0:
+            return
+        if contacts.size > self.room:
+            self._make_room(2 * contacts.size)
+        self._sum(contacts, seen.vectors)
+        force = self._wrench[2]
+        if not force > 0.0:
+            for i in range(6):
+                if self._wrench[i] != 0.0:
+                    self.carried = False
+            return
+        self.pressed = True
+        self._spread_pairs(contacts, seen.vectors, reach)
+        self._balance(force)
+
+    def _sum(self, contacts, vectors):
+        """The wrench of all contacts about the sole frame's origin."""
+        for k in range(contacts.size):
+            row = 3 * k
+            x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
+            fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
+            self._wrench[0] += fx
+            self._wrench[1] += fy
+            self._wrench[2] += fz
+            self._wrench[3] += vectors[row + 2, 0] + y * fz - z * fy
+            self._wrench[4] += vectors[row + 2, 1] + z * fx - x * fz
+            self._wrench[5] += vectors[row + 2, 2] + x * fy - y * fx
+
+    def _spread_pairs(self, contacts, vectors, reach):
+        """Add what each pair of geoms presses to `prior` (steps 1 and 2)."""
+        count = self.areas.shape[0]
+        for k in range(contacts.size):
+            if contacts.gaps[k] > reach and vectors[3 * k + 1, 2] == 0.0:
+                continue
+            known = False
+            for j in range(k):
+                if _is_pair(contacts, j, k) and not (contacts.gaps[j] > reach and vectors[3 * j + 1, 2] == 0.0):
+                    known = True
+                    break
+            if known:
+                continue
+            force = about_x = about_y = 0.0
+            size = 0
+            for j in range(k, contacts.size):
+                if not _is_pair(contacts, j, k) or (contacts.gaps[j] > reach and vectors[3 * j + 1, 2] == 0.0):
+                    continue
+                row = 3 * j
+                x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
+                force += vectors[row + 1, 2]
+                about_x += vectors[row + 2, 0] + y * vectors[row + 1, 2] - z * vectors[row + 1, 1]
+                about_y += vectors[row + 2, 1] + z * vectors[row + 1, 0] - x * vectors[row + 1, 2]
+                self.points[size, 0], self.points[size, 1], self.points[size, 2] = x, y, -contacts.gaps[j]
+                size += 1
+            if force > 0.0:
+                self._cover(size)
+                self._press_deep(size)
+                if not self._tilt(self.weights, force, -about_y / force, about_x / force):
+                    total = 0.0
+                    for i in range(count):
+                        total += self.weights[i]
+                    for i in range(count):
+                        self.normal[i] = force * self.weights[i] / total
+                for i in range(count):
+                    self.prior[i] += self.normal[i]
+
+    def _cover(self, size):
+        """Set `weights` to what the first points' patch covers of each cell, in m^2; of the nearest where it misses
+        all."""
+        corners = self._hull_of(size)
+        count = self.areas.shape[0]
+        for k in range(corners):
+            j = k + 1 if k + 1 < corners else 0
+            x, y = self.ring[j, 0] - self.ring[k, 0], self.ring[j, 1] - self.ring[k, 1]
+            length = math.sqrt(x * x + y * y)
+            self.edges[k, 2] = length
+            self.edges[k, 0], self.edges[k, 1] = (x / length, y / length) if corners > 1 else (1.0, 0.0)
+        least = 1e300
+        for i in range(count):
+            gap = _distance(self.ring, self.edges, corners, self.positions[i, 0], self.positions[i, 1])
+            self.gaps[i] = gap
+            if gap - 0.5 * self.widths[i] < least:
+                least = gap - 0.5 * self.widths[i]
+        shift = least if least > 0.0 else 0.0
+        for i in range(count):
+            share = 0.5 - 0.5 * (self.gaps[i] - shift) / self.widths[i]
+            self.weights[i] = self.areas[i] * (0.0 if share < 0.0 else (1.0 if share > 1.0 else share))
+
+    def _press_deep(self, size):
+        """Raise `depths` of the covered cells to the overlap of the first points, the nearer the more."""
+        for i in range(self.areas.shape[0]):
+            if self.weights[i] > 0.0:
+                total = depth = 0.0
+                for k in range(size):
+                    x = self.points[k, 0] - self.positions[i, 0]
+                    y = self.points[k, 1] - self.positions[i, 1]
+                    near = 1.0 / (x * x + y * y + 1e-8)
+                    total += near
+                    depth += near * self.points[k, 2]
+                if depth > total * self._depths[i]:
+                    self._depths[i] = depth / total
+
+    def _hull_of(self, size):
+        """Put the convex hull of the first points into `ring`, counter-clockwise; how many corners it has."""
+        points, ring = self.points, self.ring
+        for k in range(1, size):  # in order of x, then y
+            x, y, z = points[k, 0], points[k, 1], points[k, 2]
+            j = k
+            while j > 0 and (points[j - 1, 0] > x or (points[j - 1, 0] == x and points[j - 1, 1] > y)):
+                points[j, 0], points[j, 1], points[j, 2] = points[j - 1, 0], points[j - 1, 1], points[j - 1, 2]
+                j -= 1
+            points[j, 0], points[j, 1], points[j, 2] = x, y, z
+        corners = 0
+        for k in range(size):
+            corners = _join(ring, corners, 0, points[k, 0], points[k, 1])
+        floor = corners - 1
+        for k in range(size - 2, -1, -1):
+            corners = _join(ring, corners, floor, points[k, 0], points[k, 1])
+        return corners - 1 if corners > 1 else corners
+
+    def _tilt(self, weights, force, x, y):
+        """Set `normal` to weights times max(0, a + b x + c y), with a load and its place.
+
+        The field is found by Newton's method on a convex problem, minimise 1/2 sum w max(0, p)^2 - load . field, whose
+        gradient is the pressure's wrench minus the load. Weights, load and place are scaled first.
+
+        Args:
+            weights: Weight (n,) of each cell, none negative.
+            force: Load in N.
+            x: Place of the load in m.
+            y: The same.
+
+        Returns:
+            Whether the cells can carry it; `normal` is not changed if not.
+        """
+        cells, rows = 0, self.rows
+        total = cx = cy = 0.0
+        for i in range(self.areas.shape[0]):
+            if weights[i] > 0.0:
+                w, p, q = weights[i], self.positions[i, 0], self.positions[i, 1]
+                rows[cells, 0], rows[cells, 1], rows[cells, 2] = w, p, q
+                total += w
+                cx += w * p
+                cy += w * q
+                cells += 1
+        if cells == 0:
+            return False
+        cx /= total
+        cy /= total
+        spread = 0.0
+        for i in range(cells):
+            p, q = rows[i, 1] - cx, rows[i, 2] - cy
+            spread += rows[i, 0] * (p * p + q * q)
+        scale = math.sqrt(spread / total)
+        if scale < 1e-4:
+            scale = 1e-4
+        for i in range(cells):
+            rows[i, 0] /= total
+            rows[i, 1] = (rows[i, 1] - cx) / scale
+            rows[i, 2] = (rows[i, 2] - cy) / scale
+        at_x, at_y = (x - cx) / scale, (y - cy) / scale
+        a, b, c = 1.0, 0.0, 0.0
+        step_a = step_b = step_c = slope = value = 0.0
+        rate = 1.0
+        for turn in range(60):
+            m00 = m01 = m02 = m11 = m12 = m22 = 0.0
+            for i in range(cells):
+                p, q = rows[i, 1], rows[i, 2]
+                if a + b * p + c * q > 0.0:
+                    w = rows[i, 0]
+                    m00 += w
+                    m01 += w * p
+                    m02 += w * q
+                    m11 += w * p * p
+                    m12 += w * p * q
+                    m22 += w * q * q
+            r0 = m00 * a + m01 * b + m02 * c
+            r1 = m01 * a + m11 * b + m12 * c
+            r2 = m02 * a + m12 * b + m22 * c
+            energy = 0.5 * (a * r0 + b * r1 + c * r2) - a - b * at_x - c * at_y
+            r0 -= 1.0
+            r1 -= at_x
+            r2 -= at_y
+            if max(abs(r0), abs(r1), abs(r2)) <= _EXACT:
+                cells = 0
+                for i in range(self.areas.shape[0]):
+                    pressure = 0.0
+                    if weights[i] > 0.0:
+                        pressure = a + b * rows[cells, 1] + c * rows[cells, 2]
+                        w = rows[cells, 0]
+                        cells += 1
+                    self.normal[i] = force * w * pressure if pressure > 0.0 else 0.0
+                return True
+            if turn and energy > value - 1e-4 * rate * slope + 1e-15 and rate > 1e-3:
+                rate *= 0.5  # too far: cells came on or off
+                a += rate * step_a
+                b += rate * step_b
+                c += rate * step_c
+                continue
+            value = energy
+            ridge = 1e-14 * (m00 + m11 + m22) + 1e-300
+            m00 += ridge
+            m11 += ridge
+            m22 += ridge
+            i00, i01, i02 = m11 * m22 - m12 * m12, m02 * m12 - m01 * m22, m01 * m12 - m02 * m11
+            i11, i12, i22 = m00 * m22 - m02 * m02, m01 * m02 - m00 * m12, m00 * m11 - m01 * m01
+            determinant = m00 * i00 + m01 * i01 + m02 * i02
+            if not determinant > 0.0:
+                return False
+            step_a = (i00 * r0 + i01 * r1 + i02 * r2) / determinant
+            step_b = (i01 * r0 + i11 * r1 + i12 * r2) / determinant
+            step_c = (i02 * r0 + i12 * r1 + i22 * r2) / determinant
+            if max(abs(step_a), abs(step_b), abs(step_c)) > 1e6 * (1.0 + abs(a) + abs(b) + abs(c)):
+                return False  # no pressure of these cells has this moment: the field grows without end
+            slope = r0 * step_a + r1 * step_b + r2 * step_c
+            rate = 1.0
+            a -= step_a
+            b -= step_b
+            c -= step_c
+        return False
+
+    def _balance(self, force):
+        """Set `vectors` and `forces` to what has the wrench of all contacts (steps 3 and 4)."""
+        count = self.areas.shape[0]
+        about_x, about_y = self._wrench[3], self._wrench[4]
+        for _ in range(1 if self.level else 60):
+            if not self._carry(force, -about_y / force, about_x / force):
+                self.carried = False
+            self._shear(force)
+            if self.level:
+                break
+            # Tangential forces on taxels above or below z = 0 have moments about x and y.
+            off_x, off_y = self._wrench[3], self._wrench[4]
+            for i in range(count):
+                x, y, z = self.positions[i, 0], self.positions[i, 1], self.positions[i, 2]
+                off_x -= y * self._vectors[i, 2] - z * self._vectors[i, 1]
+                off_y -= z * self._vectors[i, 0] - x * self._vectors[i, 2]
+            if not self.carried or max(abs(off_x), abs(off_y)) <= _EXACT * force:
+                break
+            about_x += off_x
+            about_y += off_y
+        for i in range(count):
+            self._forces[i] = (
+                self._vectors[i, 0] * self.normals[i, 0]
+                + self._vectors[i, 1] * self.normals[i, 1]
+                + self._vectors[i, 2] * self.normals[i, 2]
+            )
+
+    def _carry(self, force, x, y):
+        """Set `normal` to a load of all contacts and its place; whether the cells can carry it there."""
+        count = self.areas.shape[0]
+        if self._tilt(self.prior, force, x, y):
+            return True
+        for stage in range(2):
+            area = 0.0
+            for i in range(count):
+                near = stage == 1
+                if not near:
+                    for j in range(count):
+                        p = self.positions[i, 0] - self.positions[j, 0]
+                        q = self.positions[i, 1] - self.positions[j, 1]
+                        if self.prior[j] > 0.0 and p * p + q * q < 4.0 * self.widths[j] * self.widths[j]:
+                            near = True
+                            break
+                self.gaps[i] = self.areas[i] if near else 0.0
+                area += self.gaps[i]
+            for i in range(count):
+                self.weights[i] = self.prior[i] + _SPREAD * force * self.gaps[i] / area
+            if self._tilt(self.weights, force, x, y):
+                return True
+        # Beyond the outermost taxels: from the nearest place among them, a little inside.
+        inside_x = inside_y = 0.0
+        corners = self.hull.shape[0]
+        for k in range(corners):
+            inside_x += self.hull[k, 0] / corners
+            inside_y += self.hull[k, 1] / corners
+        near_x, near_y = _nearest(self.hull, x, y)
+        for _ in range(20):
+            near_x += 1e-3 * (inside_x - near_x)
+            near_y += 1e-3 * (inside_y - near_y)
+            if self._tilt(self.weights, force, near_x, near_y):
+                return False
+        total = 0.0
+        for i in range(count):
+            total += self.weights[i]
+        for i in range(count):
+            self.normal[i] = force * self.weights[i] / total
+        return False
+
+    def _shear(self, force):
+        """Set `vectors` to the normal forces, with tangential ones in their proportion that have the rest of the
+        wrench."""
+        count = self.areas.shape[0]
+        cx = cy = 0.0
+        for i in range(count):
+            cx += self.normal[i] * self.positions[i, 0]
+            cy += self.normal[i] * self.positions[i, 1]
+        cx /= force
+        cy /= force
+        spread = 0.0
+        for i in range(count):
+            p, q = self.positions[i, 0] - cx, self.positions[i, 1] - cy
+            spread += self.normal[i] * (p * p + q * q)
+        twist = self._wrench[5] - (cx * self._wrench[1] - cy * self._wrench[0])
+        turn = 0.0
+        if spread > 1e-12 * force:
+            turn = twist / spread
+        elif abs(twist) > _EXACT * force:
+            self.carried = False
+        for i in range(count):
+            share = self.normal[i] / force
+            p, q = self.positions[i, 0] - cx, self.positions[i, 1] - cy
+            self._vectors[i, 0] = share * self._wrench[0] - turn * self.normal[i] * q
+            self._vectors[i, 1] = share * self._wrench[1] + turn * self.normal[i] * p
+            self._vectors[i, 2] = self.normal[i]
+
+
+def _is_pair(contacts, j, k):
+    """Whether two contacts are between the same geoms."""
+    return contacts.ids[j, 0] == contacts.ids[k, 0] and contacts.ids[j, 1] == contacts.ids[k, 1]
+
+
+def _join(ring, corners, floor, x, y):
+    """Add a point to a hull that turns left, and drop the corners that it makes superfluous; how many are left."""
+    while corners - floor >= 2:
+        ax, ay = ring[corners - 1, 0] - ring[corners - 2, 0], ring[corners - 1, 1] - ring[corners - 2, 1]
+        if ax * (y - ring[corners - 2, 1]) - ay * (x - ring[corners - 2, 0]) > 0.0:
+            break
+        corners -= 1
+    if corners > 0 and ring[corners - 1, 0] == x and ring[corners - 1, 1] == y:
+        return corners
+    ring[corners, 0], ring[corners, 1] = x, y
+    return corners + 1
+
+
+def _distance(ring, edges, corners, x, y):
+    """Signed distance in m from a point to the convex polygon of the first corners, negative inside."""
+    deepest = -1e300
+    for k in range(corners):
+        out = edges[k, 1] * (x - ring[k, 0]) - edges[k, 0] * (y - ring[k, 1])
+        if out > deepest:
+            deepest = out
+    if corners >= 3 and deepest <= 0.0:
+        return deepest
+    nearest = 1e300
+    for k in range(corners):
+        px, py = x - ring[k, 0], y - ring[k, 1]
+        along = edges[k, 0] * px + edges[k, 1] * py
+        along = 0.0 if along < 0.0 else (edges[k, 2] if along > edges[k, 2] else along)
+        px -= along * edges[k, 0]
+        py -= along * edges[k, 1]
+        gap = px * px + py * py
+        if gap < nearest:
+            nearest = gap
+    return math.sqrt(nearest)
+
+
+def _nearest(hull, x, y):
+    """The point of a polygon's edge that is nearest to a point."""
+    best, best_x, best_y = 1e300, x, y
+    corners = hull.shape[0]
+    for k in range(corners):
+        j = k + 1 if k + 1 < corners else 0
+        ax, ay = hull[j, 0] - hull[k, 0], hull[j, 1] - hull[k, 1]
+        px, py = x - hull[k, 0], y - hull[k, 1]
+        square = ax * ax + ay * ay
+        along = (ax * px + ay * py) / square if square > 0.0 else 0.0
+        along = 0.0 if along < 0.0 else (1.0 if along > 1.0 else along)
+        gap = (px - along * ax) ** 2 + (py - along * ay) ** 2
+        if gap < best:
+            best, best_x, best_y = gap, hull[k, 0] + along * ax, hull[k, 1] + along * ay
+    return best_x, best_y

@@ -1,0 +1,285 @@
+"""`BoundSkin`: a plantar skin in a MuJoCo model, read from simulation data."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.arguments import integer
+from plantar.errors import InputError
+from plantar.geometry.polygon import convex_hull
+from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
+from plantar.kernels.contacts.foot_contacts import FootContacts
+from plantar.kernels.contacts.taxel_load import TaxelLoad
+from plantar.layouts.layout import SoleLayout
+from plantar.mujoco.contacts import ContactReader
+from plantar.percepts.percept import Percept
+from plantar.percepts.sole_pose import SolePose
+from plantar.sensing.reading import Reading
+
+__all__ = ["BoundSkin", "SkinReading"]
+
+_LIFT = 0.02  # m inside the body at which proximity rays begin
+_MOST_DATA = 4096
+
+
+class SkinReading(Reading):
+    """A `Reading`, and what of a contact only a simulation knows. All in the sole frame; n taxels.
+
+    Attributes:
+        force: Force (n,) along each taxel's axis in N, as in every `Reading`.
+        vectors: Force (n, 3) on each taxel in N; their sum and moment are those of `wrench` where `carried`.
+        wrench: Wrench (6,) of MuJoCo's contacts about the sole frame's origin, exerted on the body, in N and N m.
+        depth: How deep (n,) the geoms overlap at each taxel in the contact in m, 0 elsewhere.
+        carried: Whether the taxels have the whole wrench. False where its centre of pressure lies beyond the outermost
+            taxels, or the contacts pull: then the forces add up to the load alone.
+    """
+
+    vectors: NDArray[np.float64]
+    wrench: NDArray[np.float64]
+    depth: NDArray[np.float64]
+    carried: bool
+
+    @property
+    def position_cop_in_sole(self) -> NDArray[np.float64] | None:
+        """Centre of pressure (2,) of the contacts in the plane z = 0 in m, also beyond the taxels; None without load."""
+        fz = float(self.wrench[2])
+        return np.array([-self.wrench[4] / fz, self.wrench[3] / fz]) if fz > 0.0 else None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        kept = (self.time, self.force, self.proximity, self.vectors, self.wrench, self.depth, self.carried)
+        return _made, kept
+
+
+class BoundSkin:
+    """A skin in a model; `plantar.mujoco.Skin.bind` makes it. Reading it changes nothing in the simulation.
+
+    Attributes:
+        model: The MjModel.
+        layout: The sole, n taxels.
+        body: Id of the body.
+        geom_ids: Ids of the geoms that can touch.
+        position_in_body: Origin (3,) of the sole frame in the body's frame in m.
+        rotation_to_body: Rotation (3, 3) from the sole frame to the body's.
+    """
+
+    def __init__(
+        self,
+        model: Any,
+        layout: SoleLayout,
+        body: int,
+        geom_ids: Sequence[int],
+        position: NDArray[np.float64],
+        rotation: NDArray[np.float64],
+        *,
+        reach: float,
+        proximity: float | None,
+    ) -> None:
+        self.model = model
+        self.layout = layout
+        self.body = body
+        self.geom_ids = tuple(int(g) for g in geom_ids)
+        self.position_in_body = np.array(position)
+        self.rotation_to_body = np.array(rotation)
+        self._reach = reach
+        self._range = proximity
+        axes = layout.rotations[:, :, 2]
+        widths = [
+            float(np.hypot(*(layout.cell_polygon(i) - layout.positions[i, :2]).T).max()) for i in range(len(layout))
+        ]
+        self._sole = (
+            np.array(layout.positions),
+            np.ascontiguousarray(axes),
+            np.array(layout.areas),
+            np.array(widths),
+            np.ascontiguousarray(convex_hull(layout.positions[:, :2])),
+        )
+        self._views: dict[int, _View] = {}
+
+    def __len__(self) -> int:
+        return len(self.layout)
+
+    def __call__(self, data: Any) -> SkinReading:
+        """Read the skin.
+
+        Args:
+            data: An MjData of the model after `mj_step` or `mj_forward`.
+
+        Returns:
+            The reading, whose arrays are its own.
+
+        Raises:
+            InputError: If the data are of another model.
+        """
+        view = self._views.get(id(data))
+        if view is None:
+            view = self._look_in(data)
+        load = view.load()
+        proximity = None if self._range is None else self._distances(view)
+        return _made(
+            data.time,
+            load.forces.copy(),
+            proximity,
+            load.vectors.copy(),
+            load.wrench.copy(),
+            load.depths.copy(),
+            load.carried,
+        )
+
+    def percept(self, data: Any) -> Percept:
+        """The skin's reading with everything that Plantar computes of it, see `plantar.Percept`."""
+        return Percept(self.layout, self(data))
+
+    def pose(self, data: Any) -> SolePose:
+        """Where the sole frame is in the world."""
+        turn = data.xmat[self.body].reshape(3, 3)
+        return SolePose(turn @ self.rotation_to_body, data.xpos[self.body] + turn @ self.position_in_body)
+
+    def many(self, datas: Sequence[Any], threads: int = 1) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Read the skin in many simulations.
+
+        Args:
+            datas: MjData of the model, each after `mj_step` or `mj_forward`.
+            threads: How many threads share them.
+
+        Returns:
+            Force (b, n, 3) on each taxel in N and wrench (b, 6), in the sole frame.
+        """
+        vectors, wrenches = np.empty((len(datas), len(self), 3)), np.empty((len(datas), 6))
+        views = [self._views.get(id(d)) or self._look_in(d) for d in datas]
+
+        def work(start: int) -> None:
+            for i in range(start, len(views), threads):
+                load = views[i].load()
+                vectors[i], wrenches[i] = load.vectors, load.wrench
+
+        _shared(work, integer(threads, "threads", 1))
+        return vectors, wrenches
+
+    def rollout(
+        self, states: NDArray[np.float64], controls: NDArray[np.float64] | None = None, threads: int = 1
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Read the skin along trajectories as `mujoco.rollout` returns them.
+
+        Each state is set and passed through `mj_forward`, which computes its contacts.
+
+        Args:
+            states: Full physics states (..., nstate), of `mujoco.mjtState.mjSTATE_FULLPHYSICS`.
+            controls: Controls (..., nu) at these states; as the states' data have them where None.
+            threads: How many threads share the trajectories; MuJoCo's part runs in parallel.
+
+        Returns:
+            Force (..., n, 3) on each taxel in N and wrench (..., 6), in the sole frame.
+
+        Raises:
+            InputError: If states or controls have another size than the model's.
+        """
+        kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
+        given = np.asarray(states, dtype=np.float64)
+        size = mujoco.mj_stateSize(self.model, kind)
+        if given.ndim < 1 or given.shape[-1] != size:
+            raise InputError(f"states have shape {given.shape}; expected (..., {size}), the full physics state")
+        lead = given.shape[:-1]
+        flat = np.ascontiguousarray(given.reshape(-1, size))
+        control = None
+        if controls is not None:
+            control = np.asarray(controls, dtype=np.float64)
+            if control.shape != (*lead, self.model.nu):
+                raise InputError(f"controls have shape {control.shape}; expected {(*lead, self.model.nu)}")
+            control = control.reshape(-1, self.model.nu)
+        vectors, wrenches = np.empty((len(flat), len(self), 3)), np.empty((len(flat), 6))
+        threads = min(integer(threads, "threads", 1), max(len(flat), 1))
+
+        def work(thread: int) -> None:
+            data = mujoco.MjData(self.model)
+            view = _View(self, data)
+            for i in range(len(flat) * thread // threads, len(flat) * (thread + 1) // threads):
+                mujoco.mj_setState(self.model, data, flat[i], kind)
+                if control is not None:
+                    data.ctrl[:] = control[i]
+                mujoco.mj_forward(self.model, data)
+                load = view.load()
+                vectors[i], wrenches[i] = load.vectors, load.wrench
+
+        _shared(work, threads)
+        return vectors.reshape(*lead, len(self), 3), wrenches.reshape(*lead, 6)
+
+    def _look_in(self, data: Any) -> _View:
+        """What is kept for reading an MjData again."""
+        if not isinstance(data, mujoco.MjData):
+            raise InputError(f"a skin is read from a mujoco.MjData; got a {type(data).__name__}")
+        shapes = (data.qpos.size, data.qvel.size, len(data.xpos), len(data.geom_xpos))
+        model = self.model
+        if shapes != (model.nq, model.nv, model.nbody, model.ngeom):
+            raise InputError("the data are of another model than the skin was bound to; bind it to that model")
+        if len(self._views) >= _MOST_DATA:
+            self._views.pop(next(iter(self._views)))
+        view = self._views[id(data)] = _View(self, data)
+        return view
+
+    def _distances(self, view: _View) -> NDArray[np.float64]:
+        """Distance (n,) from each taxel along its outward axis to the nearest geom of another body in m; inf beyond the
+        range."""
+        axes = self._sole[1] @ view.rotation.T
+        starts = view.origin + self._sole[0] @ view.rotation.T + _LIFT * axes
+        geom = np.empty(1, dtype=np.int32)
+        out = np.full(len(self), math.inf)
+        for i, (start, axis) in enumerate(zip(starts, axes, strict=True)):
+            gap = mujoco.mj_ray(self.model, view.data, start, -axis, None, 1, self.body, geom) - _LIFT
+            if -_LIFT <= gap <= float(self._range or 0.0):
+                out[i] = gap
+        return out
+
+
+class _View:
+    """A skin's contacts in one MjData, which stays alive with it."""
+
+    def __init__(self, skin: BoundSkin, data: Any) -> None:
+        self.data = data
+        self._reader = ContactReader(skin.model, data, (skin.geom_ids,))
+        self._load = TaxelLoad(*skin._sole)
+        self._seen = ContactsInSole()
+        self._reach = skin._reach
+        self._place, self._turn = data.xpos[skin.body], data.xmat[skin.body].reshape(3, 3)
+        self._position, self._rotation = skin.position_in_body, skin.rotation_to_body
+        self.origin, self.rotation = np.zeros(3), np.eye(3)
+        self._seen.look_from(self.origin, self.rotation)
+
+    def load(self) -> TaxelLoad:
+        """What the taxels carry now; the same object each time."""
+        foot: FootContacts = self._reader.read()[0]
+        np.dot(self._turn, self._rotation, self.rotation)
+        np.dot(self._turn, self._position, self.origin)
+        self.origin += self._place
+        self._load.press(foot, self._seen, self._reach)
+        return self._load
+
+
+def _made(
+    time: float,
+    force: NDArray[np.float64],
+    proximity: NDArray[np.float64] | None,
+    vectors: NDArray[np.float64],
+    wrench: NDArray[np.float64],
+    depth: NDArray[np.float64],
+    carried: bool,
+) -> SkinReading:
+    reading = SkinReading.taken_over(time, force, proximity)
+    reading.__dict__.update(vectors=vectors, wrench=wrench, depth=depth, carried=carried)
+    return reading
+
+
+def _shared(work: Any, threads: int) -> None:
+    """Run some work once for each thread."""
+    if threads == 1:
+        work(0)
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        for done in [pool.submit(work, t) for t in range(threads)]:
+            done.result()

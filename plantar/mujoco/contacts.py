@@ -1,0 +1,61 @@
+"""The contacts of feet, as MuJoCo lists them after a step."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.kernels.contacts.foot_contacts import ContactList, FootContacts, gather_feet
+
+__all__ = ["REACH", "ContactReader"]
+
+REACH = 5e-4
+"""Largest gap in m between sole and ground that still counts as contact: what the rubber sole of H1 gives."""
+
+_ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
+
+
+class ContactReader:
+    """Gathers the contacts of several feet of one simulation again and again.
+
+    MuJoCo keeps all contacts at the head of one block of memory, which stays where it is as long as the data lives. So
+    the arrays that show it are made once for each number of contacts, not at each reading.
+
+    Args:
+        model: The MjModel, whose friction cones stay as they are.
+        data: Its MjData.
+        feet: Ids of each foot's geoms.
+    """
+
+    def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
+        self._model, self._data = model, data
+        own = np.zeros((len(feet), model.ngeom), dtype=np.uint8)
+        for mask, geom_ids in zip(own, feet, strict=True):
+            mask[list(geom_ids)] = 1
+        self._feet = tuple(FootContacts(mask) for mask in own)
+        self._elliptic = model.opt.cone == _ELLIPTIC
+        self._lists: dict[int, ContactList] = {}
+
+    def read(self) -> tuple[FootContacts, ...]:
+        """The contacts of each foot as the last `mj_step` or `mj_forward` left them; the same objects each time, which
+        the next reading changes."""
+        data, n = self._data, self._data.ncon
+        if not n:
+            for foot in self._feet:
+                foot.clear()
+            return self._feet
+        listed = self._lists.get(n)
+        if listed is None:
+            listed = self._lists[n] = self._list()
+        gather_feet(self._feet, listed, data.efc_force)
+        return self._feet
+
+    def _list(self) -> ContactList:
+        """Where MuJoCo lists so many contacts as there are now."""
+        c = self._data.contact
+        friction = None if self._elliptic else c.friction
+        return ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim, friction)

@@ -1,0 +1,277 @@
+"""`Skin`: what a plantar skin is to be on which body of a MuJoCo model, and the checks that it can be there."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import os
+import re
+from collections.abc import Sequence
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import instance, number
+from plantar.errors import InputError, LayoutError, RobotError
+from plantar.layouts.layout import SoleLayout, mirrored
+from plantar.layouts.layout_file import read_layout
+from plantar.layouts.tiling import hex_layout
+from plantar.mujoco.bound_skin import BoundSkin
+from plantar.mujoco.contacts import REACH
+from plantar.mujoco.sole_shape import SoleShape, rigid_geoms, sole_shape
+from plantar.sides import other_side
+
+__all__ = ["Skin"]
+
+_CELL_AREA = 691e-6  # m^2, of the papers' soles
+_CELLS = 30  # at least so many of a sole that is fitted
+_RIM = 0.005  # m: a shoe's sole may be so much wider than the shapes that collide
+_OUTSIDE = 0.1  # of a layout's cells: more than this beside the body's sole is a wrong layout or frame
+_COVERED = 0.3  # of the body's sole: a layout that covers less is too small to be of it
+_BETTER = 0.03  # of the sole: a layout that fits so much better turned or mirrored is so
+_LEVEL = math.cos(math.radians(3.0))
+_NEAR = 0.004  # m: how far a site may be from the face
+
+
+class Skin:
+    """A plantar skin for a body of any MuJoCo model.
+
+    Its layout is a file, a `SoleLayout`, or fitted to the body's own collision shapes. The sole frame is found from
+    these shapes: its face is the lowest in the model's reference pose (first keyframe, or `qpos0`), its origin lies
+    below the body's origin, x is the world's x in that pose. What geometry shows to be wrong is refused.
+
+    Args:
+        layout: Layout, or path of a layout file; None fits hexagons to the body's shapes.
+        body: Name of the body, for example "left_ankle_roll_link".
+        geoms: Names of the geoms that can touch; every colliding one of the body and of what is fixed to it where None.
+        site: Name of a site that is the sole frame, if the model has one; it is checked against the shapes.
+        outward: Which way (3,) the sole faces in the body's frame; down in the reference pose where None.
+        forward: Which way (3,) is forward in the body's frame; the world's x in the reference pose where None.
+        cell_area: Area of a fitted cell in m^2; 691 mm^2, or a thirtieth of a small sole, where None.
+        partial: Whether a layout may cover a small part of the sole.
+        proximity: Range in m of proximity sensors; None for none.
+        reach: Gap in m up to which a contact that carries nothing still counts as near.
+
+    Raises:
+        InputError: If an argument is not what it should be.
+        LayoutError: If the layout or its file is not valid, or a taxel does not face the ground.
+    """
+
+    def __init__(
+        self,
+        layout: SoleLayout | str | os.PathLike[str] | None = None,
+        body: str = "",
+        *,
+        geoms: Sequence[str] | None = None,
+        site: str | None = None,
+        outward: ArrayLike | None = None,
+        forward: ArrayLike | None = None,
+        cell_area: float | None = None,
+        partial: bool = False,
+        proximity: float | None = None,
+        reach: float = REACH,
+    ) -> None:
+        if layout is None or isinstance(layout, SoleLayout):
+            self.layout = layout
+        else:
+            self.layout = read_layout(instance(layout, os.PathLike) if not isinstance(layout, str) else layout)
+        if self.layout is not None and not (self.layout.rotations[:, 2, 2] > 0.1).all():
+            raise LayoutError("layout field 'rotations' holds a taxel that does not face the ground")
+        if not isinstance(body, str) or not body:
+            raise InputError("a skin needs the name of its body: Skin(body='left_ankle_roll_link')")
+        if isinstance(geoms, str):
+            raise InputError(f"geoms is {geoms!r}; expected a list of names")
+        self.body = body
+        self.geoms = None if geoms is None else tuple(geoms)
+        self.site = site
+        self.outward = None if outward is None else np.asarray(outward, dtype=np.float64)
+        self.forward = None if forward is None else np.asarray(forward, dtype=np.float64)
+        self.cell_area = None if cell_area is None else number(cell_area, "cell area", finite=True)
+        self.partial = partial
+        self.proximity = None if proximity is None else number(proximity, "proximity range", finite=True)
+        if self.proximity is not None and not self.proximity > 0.0:
+            raise InputError(f"proximity range is {proximity} m; allowed: above 0")
+        self.reach = number(reach, "reach", finite=True)
+
+    def edit(self, spec: Any) -> None:
+        """Add a site that shows the sole frame, "BODY_skin", to a `mujoco.MjSpec`; the physics stay as they are.
+
+        Without this step `bind` works, too: the site is for your own use, in viewers and MuJoCo's frame sensors.
+
+        Args:
+            spec: The specification, before it is compiled.
+
+        Raises:
+            RobotError: As `bind`.
+        """
+        model = spec.copy().compile()
+        _, shape = self._place(model)
+        body = next(b for b in spec.bodies if b.name == self.body)
+        quat = np.empty(4)
+        mujoco.mju_mat2Quat(quat, np.ascontiguousarray(shape.rotation).ravel())
+        body.add_site(name=f"{self.body}_skin", pos=shape.position, quat=quat, size=[0.005] * 3, group=4)
+
+    def bind(self, model: Any) -> BoundSkin:
+        """Place the skin in a compiled model.
+
+        Args:
+            model: The MjModel.
+
+        Returns:
+            What reads the skin: call it with an `MjData` after `mj_step` or `mj_forward`.
+
+        Raises:
+            RobotError: If the model has no such body, geom or site, the body has no shape that collides, or the layout
+                or the site cannot be right: turned, tilted, upside down, scaled, mirrored, or another body's.
+        """
+        geoms, shape = self._place(model)
+        layout = self.layout or self._fitted(shape)
+        if self.layout is not None:
+            self._check(layout, shape)
+        body = int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, self.body))
+        return BoundSkin(
+            model, layout, body, geoms, shape.position, shape.rotation, reach=self.reach, proximity=self.proximity
+        )
+
+    def _place(self, model: Any) -> tuple[list[int], SoleShape]:
+        """The geoms that can touch, and the sole that they make."""
+        if not isinstance(model, mujoco.MjModel):
+            raise InputError(f"a skin is bound to a mujoco.MjModel; got a {type(model).__name__}")
+        body = _found(model, "body", self.body)
+        if body == 0 or int(model.body_weldid[body]) == 0 and model.body_mocapid[body] < 0:
+            raise RobotError(f"body '{self.body}' is fixed to the world; a skin needs a body that moves")
+        geoms = rigid_geoms(model, body)
+        if self.geoms is not None:
+            named = [_found(model, "geom", name) for name in self.geoms]
+            for name, geom in zip(self.geoms, named, strict=True):
+                if geom not in geoms:
+                    owner = model.body(int(model.geom_bodyid[geom])).name
+                    why = f"is on body '{owner}'" if int(model.geom_bodyid[geom]) != body else "collides with nothing"
+                    raise RobotError(f"geom '{name}' {why}; allowed: colliding geoms of '{self.body}' or fixed to it")
+            geoms = named
+        if not geoms:
+            able = sorted({model.body(int(b)).name for b in model.geom_bodyid[model.geom_contype != 0] if b})
+            raise RobotError(f"body '{self.body}' has no geom that collides; bodies that have: {', '.join(able)}")
+        shape = sole_shape(model, body, geoms, self.outward, self.forward)
+        return geoms, shape if self.site is None else self._at_site(model, body, shape)
+
+    def _at_site(self, model: Any, body: int, shape: SoleShape) -> SoleShape:
+        """The sole with a site as its frame, which has to lie on the face and look the same way."""
+        site = _found(model, "site", str(self.site))
+        owner = int(model.site_bodyid[site])
+        if owner != body:
+            raise RobotError(f"site '{self.site}' is on body '{model.body(owner).name}'; the skin's is '{self.body}'")
+        turn = np.empty(9)
+        mujoco.mju_quat2Mat(turn, model.site_quat[site])
+        rotation, position = turn.reshape(3, 3), np.array(model.site_pos[site])
+        up = float(rotation[:, 2] @ shape.rotation[:, 2])
+        if up < -_LEVEL:
+            raise RobotError(f"site '{self.site}' is upside down: its z points out of the body; it should point into it")
+        if up < _LEVEL:
+            angle = math.degrees(math.acos(max(-1.0, min(1.0, up))))
+            raise RobotError(f"site '{self.site}' is tilted by {angle:.0f} deg from the sole of '{self.body}'")
+        height = float((position - shape.position) @ shape.rotation[:, 2])
+        if abs(height) > _NEAR:
+            raise RobotError(f"site '{self.site}' is {1e3 * height:.0f} mm above the sole's face; allowed: on it")
+        outline = (
+            np.column_stack([shape.outline, np.zeros(len(shape.outline))]) @ shape.rotation.T
+            + shape.position
+            - position
+        )
+        return shape._replace(position=position, rotation=rotation, outline=(outline @ rotation)[:, :2])
+
+    def _fitted(self, shape: SoleShape) -> SoleLayout:
+        """Hexagons on the body's own sole."""
+        import shapely
+
+        area = self.cell_area or min(_CELL_AREA, shapely.Polygon(shape.outline).area / _CELLS)
+        middle = shape.outline.mean(axis=0)
+        return hex_layout(
+            shape.outline,
+            name=self.body,
+            side="left" if shape.side == "left" else "right",
+            cell_area=area,
+            origin=(float(middle[0]), float(middle[1])),
+        )
+
+    def _check(self, layout: SoleLayout, shape: SoleShape) -> None:
+        """Refuse a layout that cannot be this body's."""
+        import shapely
+
+        side = _side_in(self.body)
+        if side == other_side(layout.side):
+            raise RobotError(f"layout '{layout.name}' is of the {layout.side} foot; body '{self.body}' is the {side} one")
+        sole = shapely.Polygon(shape.outline)
+        wide = sole.buffer(_RIM)
+        span, extent = _diameter(layout.positions), _diameter(shape.outline)
+        ratio = span / extent
+        best, fit = "", _fit(_cells(layout), sole)
+        for turn in range(4):
+            for name, other in (("", layout), ("mirrored", mirrored(layout))):
+                c, s = [(1, 0), (0, 1), (-1, 0), (0, -1)][turn]
+                cells = shapely.transform(_cells(other), lambda p, c=c, s=s: p @ np.array([[c, s], [-s, c]]))
+                value = _fit(cells, sole)
+                if value > fit + _BETTER:
+                    words = [name] if name else []
+                    words += [f"turned by {90 * turn} deg"] if turn else []
+                    best, fit = " and ".join(words), value
+        cells = _cells(layout)
+        outside = 1.0 - cells.intersection(wide).area / cells.area
+        covered = cells.intersection(sole).area / sole.area
+        where = f"layout '{layout.name}' on body '{self.body}'"
+        if ratio > 3.0 or ratio < 0.15:
+            raise RobotError(f"{where}: it is {span:.3g} m long and the sole {extent:.3g} m; is its unit right?")
+        if best:
+            raise RobotError(
+                f"{where} would fit {best} (it covers {100 * covered:.0f} % of the sole as it is); "
+                "turn it with forward=(x, y, z), or take the layout of the other foot"
+            )
+        if outside > _OUTSIDE:
+            raise RobotError(
+                f"{where}: {100 * outside:.0f} % of its cells lie beside the sole, which is "
+                f"{1e3 * np.ptp(shape.outline[:, 0]):.0f} x {1e3 * np.ptp(shape.outline[:, 1]):.0f} mm; "
+                f"allowed: {100 * _OUTSIDE:.0f} %. Is it another body's, or its frame elsewhere?"
+            )
+        if covered < _COVERED and not self.partial:
+            raise RobotError(
+                f"{where} covers {100 * covered:.0f} % of the sole; allowed: {100 * _COVERED:.0f} % or more, "
+                "or partial=True"
+            )
+
+
+def _cells(layout: SoleLayout) -> Any:
+    """The area that the cells cover, as one shape."""
+    import shapely
+
+    return shapely.union_all([shapely.Polygon(layout.cell_polygon(i)).buffer(1e-6) for i in range(len(layout))])
+
+
+def _fit(cells: Any, sole: Any) -> float:
+    """Share of cells and sole together that both cover."""
+    return float(cells.intersection(sole).area / cells.union(sole).area)
+
+
+def _diameter(points: NDArray[np.float64]) -> float:
+    return float(np.hypot(*np.ptp(points[:, :2], axis=0)))
+
+
+def _side_in(name: str) -> str | None:
+    """The side that a body's name holds as a word, or None."""
+    words = re.split(r"[^a-z]+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower())
+    sides = {"left" for w in words if w in ("left", "l")} | {"right" for w in words if w in ("right", "r")}
+    return sides.pop() if len(sides) == 1 else None
+
+
+def _found(model: Any, kind: str, name: str) -> int:
+    """Id of an object of the model."""
+    what = {"body": mujoco.mjtObj.mjOBJ_BODY, "geom": mujoco.mjtObj.mjOBJ_GEOM, "site": mujoco.mjtObj.mjOBJ_SITE}[kind]
+    found = int(mujoco.mj_name2id(model, what, name))
+    if found < 0:
+        count = {"body": model.nbody, "geom": model.ngeom, "site": model.nsite}[kind]
+        names = [n for i in range(count) if (n := mujoco.mj_id2name(model, what, i))]
+        close = difflib.get_close_matches(name, names, 3, 0.5)
+        hint = f"did you mean {' or '.join(close)}?" if close else f"it has: {', '.join(names[:20]) or 'none'}"
+        raise RobotError(f"the model has no {kind} named '{name}'; {hint}")
+    return found

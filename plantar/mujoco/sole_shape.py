@@ -1,0 +1,248 @@
+"""The sole of a body in a MuJoCo model, found from its collision geoms: which face it has, and its outline.
+
+All of it in the frame of the body, in m.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError
+
+__all__ = ["SoleShape", "rigid_geoms", "sole_shape"]
+
+_DEPTH = 0.01  # m above the lowest point: what of a round sole a load brings to the ground
+_TILT = math.cos(math.radians(35.0))  # a face that is turned farther from down is no sole
+_LEAST_FACE = 0.3  # of the sole's outline: a smaller face is a facet of something round
+
+
+class SoleShape(NamedTuple):
+    """A sole, in the frame of its body.
+
+    Attributes:
+        position: Origin (3,) of the sole frame: where the body's own origin meets the face, along its normal.
+        rotation: Rotation (3, 3) from the sole frame to the body's; columns forward, left, and into the body.
+        outline: Convex outline (k, 2) in the sole frame, counter-clockwise.
+        side: "left" where the body is to the left of the world's x axis in the reference pose, else "right".
+        is_flat: Whether the geoms have a face there; else the sole is round, and its frame is the world's.
+    """
+
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    outline: NDArray[np.float64]
+    side: str
+    is_flat: bool
+
+
+def rigid_geoms(model: Any, body: int) -> list[int]:
+    """Geoms that can collide, of a body and of those that are fixed to it.
+
+    Args:
+        model: The MjModel.
+        body: Id of the body.
+
+    Returns:
+        Ids of the geoms.
+    """
+    fixed = {body}
+    for child in range(body + 1, model.nbody):
+        if model.body_jntnum[child] == 0 and int(model.body_parentid[child]) in fixed and body != 0:
+            fixed.add(child)
+    paired = {int(g) for pair in (model.pair_geom1, model.pair_geom2) for g in pair}
+    return [
+        g
+        for g in range(model.ngeom)
+        if int(model.geom_bodyid[g]) in fixed and (model.geom_contype[g] or model.geom_conaffinity[g] or g in paired)
+    ]
+
+
+def sole_shape(
+    model: Any,
+    body: int,
+    geoms: Collection[int],
+    outward: NDArray[np.float64] | None = None,
+    forward: NDArray[np.float64] | None = None,
+) -> SoleShape:
+    """Find a body's sole: the face of its geoms that is lowest in the model's reference pose.
+
+    Args:
+        model: The MjModel; its reference pose is the first keyframe, or `qpos0` where it has none.
+        body: Id of the body.
+        geoms: Ids of the geoms that can touch.
+        outward: Which way (3,) the sole faces, in the body's frame; where gravity points in the reference pose if None.
+        forward: Which way (3,) is forward, in the body's frame; the world's x in the reference pose if None.
+
+    Returns:
+        The sole.
+
+    Raises:
+        RobotError: If the geoms have no extent, or the direction that is forward is the one that the sole faces.
+    """
+    data = mujoco.MjData(model)
+    if model.nkey:
+        mujoco.mj_resetDataKeyframe(model, data, 0)
+    mujoco.mj_kinematics(model, data)
+    place, turn = data.xpos[body].copy(), data.xmat[body].reshape(3, 3).copy()
+    parts = [_surface(model, data, g, place, turn) for g in geoms]
+    gravity = model.opt.gravity if np.linalg.norm(model.opt.gravity) > 1e-6 else np.array([0.0, 0.0, -1.0])
+    down = _unit(turn.T @ gravity if outward is None else np.asarray(outward, dtype=float), "outward")
+    down, is_flat = _face(parts, down, model)
+    ahead = turn.T @ np.array([1.0, 0.0, 0.0]) if forward is None else _unit(np.asarray(forward, dtype=float), "forward")
+    if abs(ahead @ down) > 0.95:
+        if forward is not None:
+            raise RobotError("the sole faces the way that is given as forward; give forward=(x, y, z) along the sole")
+        ahead = turn.T @ np.array([0.0, 0.0, 1.0])
+    x = ahead - (ahead @ down) * down
+    x /= np.linalg.norm(x)
+    rotation = np.column_stack([x, np.cross(-down, x), -down])
+    lowest = max(float((p.points @ down).max()) for p in parts)
+    position = lowest * down
+    outline = _outline(parts, position, rotation)
+    side = "left" if place[1] >= 0.0 else "right"
+    return SoleShape(position, rotation, outline, side, is_flat)
+
+
+class _Part(NamedTuple):
+    """Points (m, 3) on the surface of a geom in the frame of its body; the radius of a round one, whose centres
+    (c, 3) are its exact shape."""
+
+    points: NDArray[np.float64]
+    centres: NDArray[np.float64] | None = None
+    radius: float = 0.0
+
+
+def _surface(model: Any, data: Any, geom: int, place: NDArray[np.float64], turn: NDArray[np.float64]) -> _Part:
+    kind, size = int(model.geom_type[geom]), model.geom_size[geom]
+    kinds = mujoco.mjtGeom
+    centres = None
+    if kind == kinds.mjGEOM_MESH or kind == kinds.mjGEOM_SDF:
+        mesh = int(model.geom_dataid[geom])
+        start, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+        local = np.array(model.mesh_vert[start : start + count], dtype=np.float64)
+    elif kind == kinds.mjGEOM_BOX:
+        local = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * size
+    elif kind == kinds.mjGEOM_CYLINDER:
+        a = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)
+        rim = np.column_stack([size[0] * np.cos(a), size[0] * np.sin(a)])
+        local = np.vstack([np.column_stack([rim, np.full(48, z)]) for z in (-size[1], size[1])])
+    elif kind in (kinds.mjGEOM_SPHERE, kinds.mjGEOM_ELLIPSOID, kinds.mjGEOM_CAPSULE):
+        ball = _ball()
+        if kind == kinds.mjGEOM_ELLIPSOID:
+            local = ball * size
+        else:
+            half = size[1] if kind == kinds.mjGEOM_CAPSULE else 0.0
+            centres = np.array([[0.0, 0.0, -half], [0.0, 0.0, half]] if half else [[0.0, 0.0, 0.0]])
+            local = np.vstack([c + size[0] * ball for c in centres])
+    else:
+        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, geom) or geom
+        raise RobotError(f"geom {name} of the sole is a plane or height field; allowed: shapes with an inside")
+    to_body = turn.T @ data.geom_xmat[geom].reshape(3, 3)
+    shift = turn.T @ (data.geom_xpos[geom] - place)
+    seen = local @ to_body.T + shift
+    if centres is None:
+        return _Part(seen)
+    return _Part(seen, centres @ to_body.T + shift, float(size[0]))
+
+
+def _ball() -> NDArray[np.float64]:
+    """Points (400, 3) spread evenly over the unit sphere."""
+    i = np.arange(400) + 0.5
+    height, angle = 1.0 - i / 200.0, math.pi * (1.0 + math.sqrt(5.0)) * i
+    ring = np.sqrt(1.0 - height**2)
+    return np.column_stack([ring * np.cos(angle), ring * np.sin(angle), height])
+
+
+def _exact(part: _Part, down: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points of a part in which a face can lie: its corners, or of a round one those that are lowest."""
+    return part.points if part.centres is None else part.centres + part.radius * down
+
+
+def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[NDArray[np.float64], bool]:
+    """Outward normal (3,) of the large face that is nearest to a direction, and True; the direction, and False, where
+    there is none."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    start = down
+    found = False
+    for _ in range(4):
+        corners = np.vstack([_exact(p, down) for p in parts])
+        extent = float(np.ptp(corners, axis=0).max())
+        # A roof makes a flat set of points solid; no face that leans on it looks down.
+        roof = corners.mean(axis=0) - down * max(extent, 0.05)
+        try:
+            hull = ConvexHull(np.vstack([corners, roof]))
+        except QhullError:
+            return start, False
+        normals = hull.equations[:, :3]
+        faces = []
+        for normal in normals[normals @ start > _TILT]:
+            same = normals @ normal > 1.0 - 1e-5
+            area = sum(_triangle(hull.points[t]) for t in hull.simplices[same])
+            faces.append((area, tuple(normal)))
+        if not faces:
+            return start, False
+        area, normal = max(faces)
+        seen = np.vstack([p.points for p in parts])
+        across = seen - np.outer(seen @ start, start)
+        if area < _LEAST_FACE * _area_across(across[(seen @ start) > (seen @ start).max() - _DEPTH], start):
+            return start, False
+        found = True
+        if np.allclose(normal, down, atol=1e-12):
+            break
+        down = np.array(normal)
+        if all(p.centres is None for p in parts):
+            break
+    return down / np.linalg.norm(down), found
+
+
+def _triangle(corners: NDArray[np.float64]) -> float:
+    return 0.5 * float(np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])))
+
+
+def _area_across(points: NDArray[np.float64], axis: NDArray[np.float64]) -> float:
+    """Area in m^2 of the hull of points seen along an axis."""
+    import shapely
+
+    first = np.cross(axis, [1.0, 0.0, 0.0] if abs(axis[0]) < 0.9 else [0.0, 1.0, 0.0])
+    first /= np.linalg.norm(first)
+    return float(shapely.MultiPoint(np.column_stack([points @ first, points @ np.cross(axis, first)])).convex_hull.area)
+
+
+def _outline(
+    parts: list[_Part], position: NDArray[np.float64], rotation: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Hull (k, 2) of what lies within `_DEPTH` of the lowest point, in the sole frame."""
+    import shapely
+    from scipy.spatial import ConvexHull, QhullError
+
+    below = []
+    for part in parts:
+        local = (part.points - position) @ rotation
+        below.append(local[local[:, 2] <= _DEPTH, :2])
+        try:
+            hull = ConvexHull(local)
+        except QhullError:  # a flat mesh: its corners are all there is
+            continue
+        for a, b in ((0, 1), (1, 2), (2, 0)):
+            first, second = local[hull.simplices[:, a]], local[hull.simplices[:, b]]
+            cut = (first[:, 2] - _DEPTH) * (second[:, 2] - _DEPTH) < 0.0
+            t = ((_DEPTH - first[cut, 2]) / (second[cut, 2] - first[cut, 2]))[:, None]
+            below.append((first[cut] + t * (second[cut] - first[cut]))[:, :2])
+    hull = shapely.MultiPoint(np.vstack(below)).convex_hull
+    if hull.geom_type != "Polygon":
+        raise RobotError("the lowest face of the sole's geoms has no area; check their sizes, or name geoms=[...]")
+    ring = shapely.get_coordinates(shapely.orient_polygons(hull))[:-1]
+    return np.ascontiguousarray(ring)
+
+
+def _unit(vector: NDArray[np.float64], name: str) -> NDArray[np.float64]:
+    length = float(np.linalg.norm(vector)) if vector.shape == (3,) else math.nan
+    if not (math.isfinite(length) and length > 1e-9):
+        raise RobotError(f"direction '{name}' is {vector.tolist()}; expected three numbers, not all 0")
+    return vector / length
