@@ -60,7 +60,7 @@ def test_every_file_that_it_names_is_there():
 def test_every_stop_on_the_way_of_a_force_is_there():
     assert len(way(TEXT)) > 12
     assert lost(TEXT) == []
-    assert way(TEXT)[0].startswith("sim/model/")
+    assert way(TEXT)[0].startswith("plantar/mujoco/")
     assert way(TEXT)[-1].startswith("sim/model/inverse_kinematics")
 
 

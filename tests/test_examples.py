@@ -42,6 +42,10 @@ QUICK = {
         r"flat: .* force \+(\S+) N forward.*rocker: heel and toe (\d+) mm up, force \+(\S+) N",
         holds=lambda flat, lift, rocker: flat == 0 and lift > 15 and rocker > 30,
     ),
+    "skin_any_model": Example(
+        r"taxels \[\s*\S+\s+\S+\s+(\S+)\] N, contacts \[\s*\S+\s+\S+\s+(\S+)\] N.*taxels: True",
+        holds=lambda taxels, contacts: taxels == contacts > 90,
+    ),
     "percept_one_foot": Example(r"that is (\d+) % of the sole", holds=lambda share: 20 < share < 30),
     "percept_two_feet": Example(r"margin of the ZMP: (\d+) mm", holds=lambda margin: margin > 50),
     "percept_before_contact": Example(

@@ -49,7 +49,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "atomic",
         "csv_table",
         *("console", "optional_library", "doctor", "files", "settings", "mechanics", "layouts", "plotting", "pages"),
-        *("geometry", "sensing", "percepts", "recordings", "formats", "viewer", "bench"),
+        *("geometry", "sensing", "percepts", "mujoco", "recordings", "formats", "viewer", "bench"),
     ),
     "plantar.gait": (
         *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command"),
@@ -107,7 +107,7 @@ PLACE_OF_LIBRARY = {
     "cadquery": "plantar.shoes",
     "OCP": "plantar.shoes",
     "trimesh": "plantar.shoes",
-    "mujoco": ("plantar.sim", "plantar.shoes.foot.model_source"),
+    "mujoco": ("plantar.sim", "plantar.mujoco", "plantar.shoes.foot.model_source"),
     "matplotlib": "plantar.plotting",
     "mpl_toolkits": "plantar.plotting",
     "mink": None,  # a reference in tests and benchmarks only
@@ -328,7 +328,11 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
         ("plantar/wholebody/tasks.py", "from plantar.gait.plan import phases", "wholebody imports plantar.gait"),
         ("plantar/sim/run/runner.py", "import trimesh", "trimesh is imported outside plantar.shoes"),
         ("plantar/cli.py", "def shoe():\n    import cadquery as cq", "cadquery is imported outside plantar.shoes"),
-        ("plantar/gait/plan/phases.py", "from mujoco import MjModel", "mujoco is imported outside plantar.sim"),
+        (
+            "plantar/gait/plan/phases.py",
+            "from mujoco import MjModel",
+            "mujoco is imported outside plantar.sim, plantar.mujoco",
+        ),
         (
             "plantar/gait/plot.py",
             "from matplotlib.figure import Figure",

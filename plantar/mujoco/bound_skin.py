@@ -48,7 +48,7 @@ class SkinReading(Reading):
 
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Centre of pressure (2,) of the contacts in the plane z = 0 in m, also beyond the taxels; None without load."""
+        """Centre of pressure (2,) of the contacts at z = 0 in m, also beyond the taxels; None without load."""
         fz = float(self.wrench[2])
         return np.array([-self.wrench[4] / fz, self.wrench[3] / fz]) if fz > 0.0 else None
 

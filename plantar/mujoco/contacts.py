@@ -7,7 +7,6 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from plantar.kernels.contacts.foot_contacts import ContactList, FootContacts, gather_feet
 

@@ -76,7 +76,7 @@ class Skin:
         if layout is None or isinstance(layout, SoleLayout):
             self.layout = layout
         else:
-            self.layout = read_layout(instance(layout, os.PathLike) if not isinstance(layout, str) else layout)
+            self.layout = read_layout(layout if isinstance(layout, str) else instance(layout, os.PathLike, "layout"))
         if self.layout is not None and not (self.layout.rotations[:, 2, 2] > 0.1).all():
             raise LayoutError("layout field 'rotations' holds a taxel that does not face the ground")
         if not isinstance(body, str) or not body:
@@ -140,7 +140,7 @@ class Skin:
         if not isinstance(model, mujoco.MjModel):
             raise InputError(f"a skin is bound to a mujoco.MjModel; got a {type(model).__name__}")
         body = _found(model, "body", self.body)
-        if body == 0 or int(model.body_weldid[body]) == 0 and model.body_mocapid[body] < 0:
+        if body == 0 or (int(model.body_weldid[body]) == 0 and model.body_mocapid[body] < 0):
             raise RobotError(f"body '{self.body}' is fixed to the world; a skin needs a body that moves")
         geoms = rigid_geoms(model, body)
         if self.geoms is not None:
@@ -168,7 +168,9 @@ class Skin:
         rotation, position = turn.reshape(3, 3), np.array(model.site_pos[site])
         up = float(rotation[:, 2] @ shape.rotation[:, 2])
         if up < -_LEVEL:
-            raise RobotError(f"site '{self.site}' is upside down: its z points out of the body; it should point into it")
+            raise RobotError(
+                f"site '{self.site}' is upside down: its z points out of the body; it should point into it"
+            )
         if up < _LEVEL:
             angle = math.degrees(math.acos(max(-1.0, min(1.0, up))))
             raise RobotError(f"site '{self.site}' is tilted by {angle:.0f} deg from the sole of '{self.body}'")
@@ -202,7 +204,9 @@ class Skin:
 
         side = _side_in(self.body)
         if side == other_side(layout.side):
-            raise RobotError(f"layout '{layout.name}' is of the {layout.side} foot; body '{self.body}' is the {side} one")
+            raise RobotError(
+                f"layout '{layout.name}' is of the {layout.side} foot; body '{self.body}' is the {side} one"
+            )
         sole = shapely.Polygon(shape.outline)
         wide = sole.buffer(_RIM)
         span, extent = _diameter(layout.positions), _diameter(shape.outline)

@@ -93,7 +93,9 @@ def sole_shape(
     gravity = model.opt.gravity if np.linalg.norm(model.opt.gravity) > 1e-6 else np.array([0.0, 0.0, -1.0])
     down = _unit(turn.T @ gravity if outward is None else np.asarray(outward, dtype=float), "outward")
     down, is_flat = _face(parts, down, model)
-    ahead = turn.T @ np.array([1.0, 0.0, 0.0]) if forward is None else _unit(np.asarray(forward, dtype=float), "forward")
+    ahead = (
+        turn.T @ np.array([1.0, 0.0, 0.0]) if forward is None else _unit(np.asarray(forward, dtype=float), "forward")
+    )
     if abs(ahead @ down) > 0.95:
         if forward is not None:
             raise RobotError("the sole faces the way that is given as forward; give forward=(x, y, z) along the sole")
@@ -214,9 +216,7 @@ def _area_across(points: NDArray[np.float64], axis: NDArray[np.float64]) -> floa
     return float(shapely.MultiPoint(np.column_stack([points @ first, points @ np.cross(axis, first)])).convex_hull.area)
 
 
-def _outline(
-    parts: list[_Part], position: NDArray[np.float64], rotation: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _outline(parts: list[_Part], position: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     """Hull (k, 2) of what lies within `_DEPTH` of the lowest point, in the sole frame."""
     import shapely
     from scipy.spatial import ConvexHull, QhullError

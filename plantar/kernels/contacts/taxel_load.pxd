@@ -4,6 +4,7 @@ from .contacts_in_sole cimport ContactsInSole
 from .foot_contacts cimport FootContacts
 
 cdef double _SPREAD
+cdef double _FAINT
 cdef double _EXACT
 
 

@@ -1,4 +1,4 @@
-"""Kernel of what each taxel of a sole carries, such that all of them together have the wrench of the sole's contacts."""
+"""Kernel of what each taxel of a sole carries: all of them together have the wrench of the contacts of the sole."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 __all__ = ["TaxelLoad"]
 
 _SPREAD = 1e-3  # of the load: what cells beside the contact may carry where those in it cannot hold its moment
+_FAINT = 0.02  # of a cell's area: how much the next row counts, so that the load is always between taxels
 _EXACT = 1e-12  # of the load and of the cells' extent: how exactly a pressure has the moment that is asked for
 
 
@@ -16,7 +17,8 @@ class TaxelLoad:
     """Spreads the wrench of a sole's contacts over its taxels, at each instant from the contacts alone.
 
     1. The contact points of each pair of geoms span a patch. A cell's weight w is its area times the share of it that
-       the patch covers, a ramp over the cell's width in the distance of its taxel from the patch.
+       the patch covers, a ramp over the cell's width in the distance of its taxel from the patch; the next row of
+       cells counts faintly.
     2. Each pair's normal load is spread as on springs that cannot pull: f = w max(0, a + b x + c y).
     3. The sum over the pairs is corrected in the same way, with itself as weight, to have the load and the moments of
        all contacts exactly. Where it cannot, cells beside it help out, and then all cells.
@@ -172,8 +174,12 @@ class TaxelLoad:
                 least = gap - 0.5 * self.widths[i]
         shift = least if least > 0.0 else 0.0
         for i in range(count):
-            share = 0.5 - 0.5 * (self.gaps[i] - shift) / self.widths[i]
-            self.weights[i] = self.areas[i] * (0.0 if share < 0.0 else (1.0 if share > 1.0 else share))
+            gap = (self.gaps[i] - shift) / self.widths[i]
+            share = 0.5 - 0.5 * gap
+            share = 0.0 if share < 0.0 else (1.0 if share > 1.0 else share)
+            if gap < 2.0:
+                share += _FAINT * (1.0 if gap < 0.0 else 1.0 - 0.5 * gap)
+            self.weights[i] = self.areas[i] * share
 
     def _press_deep(self, size):
         """Raise `depths` of the covered cells to the overlap of the first points, the nearer the more."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from plantar.sim.model.contact_truth import ContactReader, feet_contacts
+from plantar.mujoco.contacts import ContactReader
+from plantar.sim.model.contact_truth import feet_contacts
 
 FEET = """<mujoco><option timestep='0.001' cone='{cone}'/><worldbody>
     <geom name='floor' type='plane' size='2 2 0.1'/>

@@ -1,0 +1,80 @@
+"""Taxels, centre of pressure and support polygon drawn into a MuJoCo scene, in a viewer or a video."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import number
+from plantar.mujoco.bound_skin import BoundSkin
+from plantar.percepts.percept import Percept
+
+__all__ = ["draw_skin"]
+
+_LIFT = 0.001  # m below the sole, where the ground does not hide it
+_UNLOADED, _LOADED = np.array([0.55, 0.6, 0.65, 0.5]), np.array([0.9, 0.15, 0.1, 0.9])
+_EDGE, _COP = np.array([0.1, 0.35, 0.9, 1.0]), np.array([1.0, 0.85, 0.1, 1.0])
+
+
+def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = None, lift: float = _LIFT) -> int:
+    """Add a skin to a scene: for example to `viewer.user_scn`, or to a renderer's `scene` after `update_scene`.
+
+    Args:
+        scene: The `mujoco.MjvScene`; geoms are added after those that it has, as long as there is room.
+        feel: The skin.
+        data: The MjData.
+        full: Force in N of a taxel that is drawn in full colour; the largest one of the reading where None.
+        lift: How far in m outside the sole it is drawn.
+
+    Returns:
+        How many geoms were added.
+    """
+    reading, pose = feel(data), feel.pose(data)
+    turn = pose.rotation_sole_to_world
+    top = max(float(reading.force.max(initial=0.0)), 1e-9) if full is None else number(full, "full force", finite=True)
+    start = scene.ngeom
+    out = np.array([0.0, 0.0, -lift])
+    kinds = mujoco.mjtGeom
+    for place, force, area in zip(feel.layout.positions, reading.force, feel.layout.areas, strict=True):
+        share = min(force / top, 1.0)
+        size = [0.45 * float(np.sqrt(area))] * 2 + [3e-4]
+        _add(scene, kinds.mjGEOM_CYLINDER, size, pose.to_world(place + out), turn, _mixed(share))
+    percept = Percept(feel.layout, reading)
+    ring = percept.support_polygon_in_sole
+    for first, second in zip(ring, np.roll(ring, -1, axis=0), strict=True):
+        _line(scene, pose.to_world([*first, -lift]), pose.to_world([*second, -lift]))
+    cop = reading.position_cop_in_sole
+    if cop is not None:
+        _add(scene, kinds.mjGEOM_SPHERE, [0.006] * 3, pose.to_world([*cop, 0.0]), turn, _COP)
+    return int(scene.ngeom - start)
+
+
+def _mixed(share: float) -> NDArray[np.float64]:
+    return np.asarray((1.0 - share) * _UNLOADED + share * _LOADED)
+
+
+def _next(scene: Any) -> Any:
+    """The next free geom of a scene, or None."""
+    if scene.ngeom >= scene.maxgeom:
+        return None
+    scene.ngeom += 1
+    return scene.geoms[scene.ngeom - 1]
+
+
+def _add(
+    scene: Any, kind: Any, size: ArrayLike, place: NDArray[np.float64], turn: NDArray[np.float64], colour: ArrayLike
+) -> None:
+    if (geom := _next(scene)) is not None:
+        mujoco.mjv_initGeom(geom, kind, np.asarray(size), place, turn.ravel(), np.asarray(colour, dtype=np.float32))
+        geom.category = mujoco.mjtCatBit.mjCAT_DECOR
+
+
+def _line(scene: Any, first: NDArray[np.float64], second: NDArray[np.float64]) -> None:
+    if (geom := _next(scene)) is not None:
+        kind = mujoco.mjtGeom.mjGEOM_CAPSULE
+        mujoco.mjv_initGeom(geom, kind, np.zeros(3), np.zeros(3), np.eye(3).ravel(), _EDGE.astype(np.float32))
+        mujoco.mjv_connector(geom, kind, 0.0015, first, second)
+        geom.category = mujoco.mjtCatBit.mjCAT_DECOR

@@ -1,0 +1,177 @@
+"""Skin on models of many kinds: its taxels' forces against MuJoCo's own contact forces."""
+
+from __future__ import annotations
+
+import pickle
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar import Percept, grid_layout
+from plantar.errors import InputError
+from plantar.mujoco import Skin
+
+spec = spec_from_file_location("skin_models", Path(__file__).parent / "conftest.py")
+models = module_from_spec(spec)
+spec.loader.exec_module(models)
+KINDS = models.KINDS
+ROBOTS = {
+    "booster_t1/t1.xml": "left_foot_link",
+    "robotis_op3/op3.xml": "l_ank_roll_link",
+    "unitree_h1/h1.xml": "left_ankle_link",
+    "jvrc1/xml/jvrc1.xml": "L_ANKLE_P_S",
+}
+
+
+def compare(model, contact_wrench, steps, **options):
+    """Simulate and compare; how many readings carried all."""
+    feel = Skin(body=options.pop("body", "foot"), **options).bind(model)
+    data, carried, pressed = mujoco.MjData(model), 0, 0
+    for _ in range(steps):
+        mujoco.mj_step(model, data)
+        reading, wrench = feel(data), contact_wrench(feel, data)
+        load = max(np.linalg.norm(wrench[:3]), 1e-9)
+        assert np.abs(reading.wrench - wrench).max() <= 1e-9 * load
+        if not wrench[2] > 0.0:
+            assert not reading.force.any()
+            assert reading.position_cop_in_sole is None
+            continue
+        pressed += 1
+        carried += reading.carried
+        total, moment = reading.vectors.sum(axis=0), np.cross(feel.layout.positions, reading.vectors).sum(axis=0)
+        assert np.abs(total - wrench[:3]).max() <= 1e-9 * load
+        assert (reading.force >= 0.0).all()
+        if reading.carried:
+            assert np.abs(moment - wrench[3:]).max() <= 1e-9 * load
+        else:  # only where the centre of pressure is beyond the outermost taxels
+            cop = np.array([-wrench[4], wrench[3]]) / wrench[2]
+            assert Percept(feel.layout, reading).position_cop_in_sole is not None
+            ring = feel._sole[-1]
+            edge = np.roll(ring, -1, axis=0) - ring
+            inside = (edge[:, 0] * (cop - ring)[:, 1] - edge[:, 1] * (cop - ring)[:, 0]) / np.hypot(*edge.T)
+            assert inside.min() < 1e-3
+    assert pressed > steps // 2
+    return carried / pressed
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_taxels_add_up_to_the_contact_wrench(kind, contact_wrench):
+    assert compare(mujoco.MjModel.from_xml_string(KINDS[kind]), contact_wrench, 400) > 0.5
+
+
+@pytest.mark.parametrize("file", ROBOTS)
+def test_public_robots_stand_on_their_skins(file, contact_wrench):
+    path = models.ROBOTS / file
+    if not path.exists():
+        pytest.skip("the robots' files are not here")
+    spec = mujoco.MjSpec.from_file(str(path))
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5.0, 5.0, 1.0])
+    model = spec.compile()
+    if model.nkey == 0:  # put it on the ground
+        body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, ROBOTS[file])
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        geoms = Skin(body=ROBOTS[file]).bind(model)
+        model.qpos0[2] -= geoms.pose(data).position_in_world[2] - 1e-3
+        assert body > 0
+    compare(model, contact_wrench, 100, body=ROBOTS[file])
+
+
+def test_lit_cells_are_those_of_the_contact_to_one_row(make_box):
+    slab = '<geom type="box" size=".06 .3 .05" pos=".01 0 -.05"/>'
+    model = mujoco.MjModel.from_xml_string(models.world(slab, models.BOX.format(condim=3)))
+    feel = Skin(body="foot", cell_area=2e-4).bind(model)
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, 20)
+    lit, x = feel(data).force > 0.0, feel.layout.positions[:, 0]
+    row = 0.017
+    assert lit[(x > -0.05 + row) & (x < 0.07 - row)].all()
+    assert not lit[(x < -0.05 - row) | (x > 0.07 + row)].any()
+
+
+def test_depth_is_the_overlap_of_the_geoms(make_box):
+    model = mujoco.MjModel.from_xml_string(make_box())
+    feel, data = Skin(body="foot").bind(model), mujoco.MjData(model)
+    mujoco.mj_step(model, data, 300)
+    reading = feel(data)
+    assert 0.0 < reading.depth.max() <= -data.contact.dist.min() + 1e-12
+    assert reading.depth.argmax() in np.flatnonzero(feel.layout.positions[:, 0] > 0.0)  # where the load is
+
+
+def test_proximity_is_the_distance_to_the_ground(make_box):
+    model = mujoco.MjModel.from_xml_string(make_box(z=0.05, euler="0 3 0"))
+    feel, data = Skin(body="foot", proximity=0.05).bind(model), mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    height = feel.pose(data).to_world(feel.layout.positions)[:, 2] / np.cos(np.radians(3.0))
+    assert np.allclose(feel(data).proximity, height, atol=1e-9)
+    data.qpos[2] = 1.0
+    mujoco.mj_forward(model, data)
+    assert np.isinf(feel(data).proximity).all()
+    assert not feel(data).force.any()
+
+
+def test_many_and_rollout_are_what_single_readings_are(make_box):
+    model = mujoco.MjModel.from_xml_string(make_box())
+    feel, kind = Skin(body="foot").bind(model), mujoco.mjtState.mjSTATE_FULLPHYSICS
+    datas, states = [mujoco.MjData(model) for _ in range(6)], []
+    for i, data in enumerate(datas):
+        data.qvel[0] = 0.1 * i
+        mujoco.mj_step(model, data, 5)
+        mujoco.mj_forward(model, data)
+        states.append(np.empty(mujoco.mj_stateSize(model, kind)))
+        mujoco.mj_getState(model, data, states[-1], kind)
+    one = np.array([feel(d).vectors for d in datas])
+    for threads in (1, 3):
+        forces, wrenches = feel.many(datas, threads)
+        assert np.array_equal(forces, one)
+        assert np.array_equal(wrenches, [feel(d).wrench for d in datas])
+        again, _ = feel.rollout(np.array(states).reshape(2, 3, -1), threads=threads)
+        assert again.shape == (2, 3, len(feel), 3)
+        assert np.allclose(again.reshape(one.shape), one, atol=1e-6)
+    with pytest.raises(InputError, match="states have shape"):
+        feel.rollout(np.zeros((2, 3)))
+
+
+def test_a_reading_is_one_of_its_own(make_box):
+    model = mujoco.MjModel.from_xml_string(make_box())
+    feel, data = Skin(body="foot").bind(model), mujoco.MjData(model)
+    mujoco.mj_step(model, data, 50)
+    first = feel(data)
+    kept = first.vectors.copy()
+    mujoco.mj_step(model, data, 50)
+    feel(data)
+    assert np.array_equal(first.vectors, kept)
+    again = pickle.loads(pickle.dumps(first))
+    assert np.array_equal(again.vectors, kept)
+    assert again.time == first.time
+    assert np.allclose(Percept(feel.layout, first, 0.0).wrench_in_sole[[2, 3, 4]], first.wrench[[2, 3, 4]])
+    assert feel.percept(data).vertical_force > 0.9 * feel(data).wrench[2]  # without taxels below the threshold
+
+
+def test_data_of_another_model_are_refused(make_box):
+    feel = Skin(body="foot").bind(mujoco.MjModel.from_xml_string(make_box()))
+    other = mujoco.MjModel.from_xml_string(KINDS["two soles on a slab"])
+    with pytest.raises(InputError, match="another model"):
+        feel(mujoco.MjData(other))
+    with pytest.raises(InputError, match="got a str"):
+        feel("data")
+
+
+def test_forces_do_not_jump_as_the_foot_rolls():
+    ground = '<geom type="sphere" size=".3" pos="0 0 -.3"/>'
+    model = mujoco.MjModel.from_xml_string(models.world(ground, models.BOX.format(condim=3)))
+    outline = [[-0.12, -0.05], [0.12, -0.05], [0.12, 0.05], [-0.12, 0.05]]
+    feel = Skin(grid_layout(outline, pitch=(0.015, 0.015)), body="foot").bind(model)
+    data = mujoco.MjData(model)
+
+    def shares(x):
+        data.qpos[:3] = x, 0.3 * x, 0.0195
+        mujoco.mj_forward(model, data)
+        force = feel(data).force
+        return force / force.sum()
+
+    for x in np.linspace(0.0, 0.03, 100):
+        assert np.abs(shares(x + 1e-6) - shares(x)).max() < 1e-3
