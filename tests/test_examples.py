@@ -43,7 +43,7 @@ QUICK = {
         holds=lambda flat, lift, rocker: flat == 0 and lift > 15 and rocker > 30,
     ),
     "skin_any_model": Example(
-        r"taxels \[\s*\S+\s+\S+\s+(\S+)\] N, contacts \[\s*\S+\s+\S+\s+(\S+)\] N.*taxels: True",
+        r"taxels \[\s*\S+\s+\S+\s+(\S+)\s*\] N, contacts \[\s*\S+\s+\S+\s+(\S+)\s*\] N.*taxels: True",
         holds=lambda taxels, contacts: taxels == contacts > 90,
     ),
     "percept_one_foot": Example(r"that is (\d+) % of the sole", holds=lambda share: 20 < share < 30),
