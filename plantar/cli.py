@@ -155,6 +155,9 @@ def analyze(
     insole_size: Annotated[
         str | None, Option(help="Size of a pedar insole, instead of the file's: u, v, w, x, y, z, uw, vw or xw.")
     ] = None,
+    plates: Annotated[
+        str | None, Option(metavar="L,R", help="Which foot steps on each force plate, in order; - leaves a plate out.")
+    ] = None,
     mm_per_pixel: Annotated[float | None, Option(help="Footprint images: size of a pixel in mm.")] = None,
     steps: Annotated[
         str | None, Option(help="Steps of each foot in the means: 3-14, all, or steady (without start and stop).")
@@ -173,6 +176,10 @@ def analyze(
     export: Annotated[
         list[str] | None,
         Option(metavar="FORMAT", help="Write the recording in another format, too: c3d, csv or npz; repeatable."),
+    ] = None,
+    figures: Annotated[
+        bool | None,
+        Option("--figures/--no-figures", help="Whether figures and report are drawn; not with --json, else yes."),
     ] = None,
     output: Output = Path("out/analysis"),
     as_json: Json = False,
@@ -209,7 +216,16 @@ def analyze(
         raise InputError("give either one recording or --compare A B: plantar analyze walk.asc")
     if side not in (None, "left", "right"):
         raise InputError(f"--side is '{side}'; allowed: left, right")
-    options = ReadOptions(unit=unit, rate_hz=rate, side=cast(Any, side), insole_size=insole_size)
+    from plantar.formats.side import sides_of_plates
+
+    options = ReadOptions(
+        unit=unit,
+        rate_hz=rate,
+        side=cast(Any, side),
+        insole_size=insole_size,
+        mass_kg=mass,
+        plates=sides_of_plates(plates),
+    )
     from plantar.formats import is_study_folder
     from plantar.gait.analysis.analyse_one import with_layout
     from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
@@ -258,6 +274,7 @@ def analyze(
                 choices=choices,
                 subject=subject,
                 also=also,
+                figures=not as_json if figures is None else figures,
             )
     parts = {"": result} if compare is None else {"A": result["a"], "B": result["b"]}
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())

@@ -128,10 +128,10 @@ def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
     force, moment, free = plate.force, plate.moment, plate.free
     noise = 0.0
     if empty is not None:
-        offset = np.nan_to_num(np.nanmean(force[empty], axis=0))
+        offset = _means(force[empty])
         noise = float(np.nanstd(vertical[empty]))
         force = force - offset
-        moment = None if moment is None else moment - np.nanmean(moment[empty], axis=0)
+        moment = None if moment is None else moment - _means(moment[empty])
         if abs(offset[2]) > _STATED:
             warnings.append(
                 f"{plate.name} reads {offset[2]:.3g} N when empty: the mean of its own {int(empty.sum())} empty frames "
@@ -148,6 +148,12 @@ def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
         force = -force
         moment, free = None if moment is None else -moment, None if free is None else -free
     return replace(plate, force=force, moment=moment, free=free, stepped=True)
+
+
+def _means(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Means (k,) of columns; 0 of one that holds no number."""
+    known = np.isfinite(values)
+    return np.asarray(np.where(known, values, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1))
 
 
 def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool_] | None:

@@ -13,9 +13,9 @@ import numpy as np
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, read_recording
 from plantar.formats.array_file import recording_of_arrays
-from plantar.formats.csv_table import recording_of_columns
 from plantar.formats.marks import without_marks
 from plantar.formats.plausibility import doubts
+from plantar.formats.table_columns import recording_of_columns
 from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["recording_of"]

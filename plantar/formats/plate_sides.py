@@ -126,7 +126,9 @@ def sides_of_contacts(
         for i in range(len(plates)):
             votes = [s for c, s in zip(contacts, found, strict=True) if c.plate == i and s]
             belts.append(None if not votes else "left" if 2 * votes.count("left") >= len(votes) else "right")
-        found = [belts[c.plate] for c in contacts]
+        found = [None if len(set(belts)) == 1 < len(belts) else belts[c.plate] for c in contacts]
+    elif _walks_on_one_foot(contacts, found):
+        found = [None] * len(contacts)
     if any(found):
         out = _filled_in(contacts, found)
         names = ", ".join(
@@ -148,6 +150,18 @@ def sides_of_contacts(
         return [SIDES[c.plate % 2] for c in contacts]
     warnings.append("the plates lie in one line: taken as stepped on by left and right in turns (--plates overrides)")
     return [turn[i] for i in range(len(contacts))]
+
+
+def _walks_on_one_foot(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> bool:
+    """Whether contacts of one foot overlap as steps of two feet do: begin and end of both are some time apart."""
+    for i, a in enumerate(contacts):
+        for k in range(i + 1, len(contacts)):
+            b = contacts[k]
+            shared = min(a.end, b.end) - max(a.begin, b.begin)
+            steps = 0 < shared < 0.5 * min(a.end - a.begin, b.end - b.begin)
+            if a.plate != b.plate and steps and found[i] is not None and found[i] == found[k]:
+                return True
+    return False
 
 
 def _by_markers(

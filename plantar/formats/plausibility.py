@@ -43,7 +43,7 @@ def doubts(recording: PressureRecording) -> list[str]:
         Warnings about raw counts, peak force, peak pressure, cell area, insole length and rate.
     """
     out: list[str] = []
-    if recording.raw and not any("raw counts" in warning for warning in recording.warnings):
+    if recording.raw and not any("raw counts" in w or "of body weight" in w for w in recording.warnings):
         out.append("the readings are raw counts: forces and pressures cannot be given")
     if not _RATE[0] <= recording.rate_hz <= _RATE[1]:
         out.append(f"{recording.rate_hz:.4g} frames a second is an unusual rate: check it")

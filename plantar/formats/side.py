@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 
+from plantar.errors import InputError
 from plantar.layouts.layout import Side
 
-__all__ = ["side_of"]
+__all__ = ["side_of", "sides_of_plates"]
 
 _MARKS: dict[Side, re.Pattern[str]] = {
     "left": re.compile(r"left|links|gauche|izquierd|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)", re.IGNORECASE),
@@ -32,3 +33,28 @@ def side_of(*texts: str) -> Side | None:
         if len(found) == 1:
             return found[0]
     return None
+
+
+def sides_of_plates(text: str | None) -> tuple[Side | None, ...]:
+    """The foot of each force plate, as the command line names them.
+
+    Args:
+        text: For example "L,R", "left,-,right"; None or empty where the data decides.
+
+    Returns:
+        The feet; None for a plate that is left out.
+
+    Raises:
+        InputError: If a part names no foot.
+
+    Example:
+        >>> sides_of_plates("L,-,right"), sides_of_plates(None)
+        (('left', None, 'right'), ())
+    """
+    out: list[Side | None] = []
+    for part in (text or "").split(",") if text else []:
+        side = side_of(part.strip())
+        if side is None and part.strip() not in ("-", "none"):
+            raise InputError(f"--plates names {part.strip()!r}; allowed: L, R or -, one a plate, as in L,R")
+        out.append(side)
+    return tuple(out)

@@ -14,9 +14,10 @@ _QUOTED_COMMA = re.compile(r'"[^",]*,[^"]*"')
 _CLOCK = re.compile(r"(?:\d[\d./-]+\d[ T]+)?(?:(\d{1,2}):)?(\d{1,2}):(\d{2}(?:[.,]\d+)?)(?: ?([AaPp])\.?[Mm]\.?)?")
 """A time of day, which may stand after a date of any order: by itself it goes on beyond midnight all the same."""
 _SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "ms": 1e-3, "msec": 1e-3, "millisec": 1e-3, "millisecond": 1e-3}
+_SECONDS |= {"millis": 1e-3, "micros": 1e-6}
 _SECONDS |= {"us": 1e-6, "usec": 1e-6, "microsec": 1e-6, "microsecond": 1e-6, "ns": 1e-9, "nsec": 1e-9}
 _SECONDS |= {"min": 60.0, "minute": 60.0, "h": 3600.0, "hour": 3600.0}
-_BY = "elapsed|frame|sample|sampling|relative|rel|recording|measurement|system|local|unix|utc"
+_BY = "abs|absolute|elapsed|frame|sample|sampling|relative|rel|recording|measurement|system|local|unix|utc"
 _TIMES = "ts|t|times?|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd"
 _UNIT = "|".join(rf"{name}s?" for name in _SECONDS)
 _NAMED = re.compile(
@@ -24,7 +25,7 @@ _NAMED = re.compile(
     r"(?:[ _/,.-]*(?:in )?(?:[\[(]\s*)?"
     rf"(?:(?P<unit>{_UNIT})\.?|(?P<clock>[hms:.,f ]{{4,}}))\s*[\])]?)?|(?P<alone>{_UNIT})"
 )
-_ALONE = ("sec", "second", "msec", "millisec", "millisecond")
+_ALONE = ("sec", "second", "msec", "millisec", "millisecond", "millis", "micros")
 """Units that are a column's name by themselves; "min" may be the least of something."""
 _DAY = 86400.0
 _SINCE = datetime(2020, 1, 1)

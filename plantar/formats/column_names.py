@@ -1,0 +1,282 @@
+"""What the heading of a table's column names: a quantity, its axis, the foot or plate, and a unit.
+
+A heading is cut into known words ("FzLeft" is force, z, left; "1_ground_force_vy" is 1, ground, force, y), whatever
+signs and cases part them; one unknown word makes the whole heading unknown.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+from plantar.formats.units import FORCES, LENGTHS, MOMENTS, PASCALS, find_unit, plain
+from plantar.sides import Side
+
+__all__ = ["BODY_WEIGHTS", "Heading", "Quantity", "heading_of"]
+
+Quantity = Literal["force", "pressure", "cop", "moment", "place", "cell", "number", "foreign", "unknown"]
+"""What a column holds: "number" is a heading of nothing but side and number, as cells have; "foreign" is known
+and no load, such as an angle; "place" is an axis alone, a CoP beside forces; "unknown" is a word that is not known."""
+
+BODY_WEIGHTS = {"bw": 1.0, "xbw": 1.0, "%bw": 0.01, "bw%": 0.01, "percentbw": 0.01, "%bodyweight": 0.01, "n/bw": 1.0}
+BODY_WEIGHTS |= {"bodyweight": 1.0, "bodyweights": 1.0, "%ofbodyweight": 0.01, "timesbodyweight": 1.0}
+"""Units of force relative to the body's weight; N/kg is apart, since it is of the mass."""
+
+_KINDS: dict[str, str] = {
+    # sides
+    **dict.fromkeys(("l", "left", "links", "linker", "linke", "gauche", "izquierdo", "izquierda", "izq", "lt"), "left"),
+    **dict.fromkeys(
+        ("r", "right", "rechts", "rechter", "rechte", "droit", "droite", "derecho", "derecha", "rt"), "right"
+    ),
+    # loads
+    **dict.fromkeys(
+        ("f", "force", "forces", "for", "kraft", "grf", "grfs", "load", "last", "fuerza", "forza", "reaction", "vgrf"),
+        "force",
+    ),
+    **dict.fromkeys(("pressure", "druck", "press", "pression", "presion", "kpa"), "pressure"),
+    **dict.fromkeys(("cop", "copp", "pressurecenter", "copposition"), "cop"),
+    **dict.fromkeys(("m", "mom", "moment", "moments", "torque", "t", "tz", "free", "drehmoment"), "moment"),
+    # axes
+    **{a: a for a in "xyz"},
+    **dict.fromkeys(("vertical", "vert", "v", "normal", "vertikal", "senkrecht", "verticale"), "vertical"),
+    **dict.fromkeys(("ap", "anteroposterior", "anterior", "posterior"), "ap"),
+    **dict.fromkeys(("ml", "mediolateral", "lateral", "medial"), "ml"),
+    # the rest of a plate's or a foot's name
+    **dict.fromkeys(
+        ("fp", "plate", "forceplate", "platform", "plattform", "belt", "treadmill", "tm", "ground", "amti", "kistler"),
+        "plate",
+    ),
+    **dict.fromkeys(("net", "foot", "feet", "fuss", "leg", "limb", "side", "of", "the", "in"), "plain"),
+    **dict.fromkeys(("insole", "sole", "shoe", "component", "comp", "value", "data", "signal", "ch"), "plain"),
+    **dict.fromkeys(("total", "sum", "gesamt", "summe", "totale", "tot"), "total"),
+    # cells and places of a sole
+    **dict.fromkeys(
+        (
+            "cell",
+            "cells",
+            "sensor",
+            "sens",
+            "taxel",
+            "sensel",
+            "fsr",
+            "fsrs",
+            "pad",
+            "zelle",
+            "s",
+            "c",
+            "p",
+            "a",
+            "adc",
+        ),
+        "cell",
+    ),
+    **dict.fromkeys(
+        (
+            "heel",
+            "hindfoot",
+            "rearfoot",
+            "calcaneus",
+            "mid",
+            "midfoot",
+            "arch",
+            "met",
+            "meta",
+            "metatarsal",
+            "mt",
+            "mth",
+        ),
+        "cell",
+    ),
+    **dict.fromkeys(
+        ("forefoot", "toe", "toes", "hallux", "bigtoe", "big", "great", "ball", "ferse", "zehe", "inner", "outer"),
+        "cell",
+    ),
+    **dict.fromkeys(("mtp", "head", "first", "fifth", "second", "third", "fourth", "central", "front", "back"), "cell"),
+    # what is no load
+    **dict.fromkeys(
+        ("pos", "position", "marker", "angle", "angles", "vel", "velocity", "speed", "acc", "accel", "acceleration"),
+        "foreign",
+    ),
+    **dict.fromkeys(
+        ("accelerometer", "gyr", "gyro", "gyroscope", "mag", "magnetometer", "quat", "quaternion", "emg"), "foreign"
+    ),
+    **dict.fromkeys(
+        ("imu", "angular", "rate", "temp", "temperature", "temperatur", "battery", "volt", "voltage"), "foreign"
+    ),
+    **dict.fromkeys(
+        ("current", "trigger", "sync", "pin", "frame", "frames", "sample", "index", "counter", "count"), "foreign"
+    ),
+    **dict.fromkeys(
+        ("knee", "hip", "ankle", "pelvis", "trunk", "emgs", "power", "event", "phase", "status", "flag", "label"),
+        "foreign",
+    ),
+    **dict.fromkeys(
+        ("subject", "trial", "session", "id", "participant", "state", "step", "stride", "cycle"), "foreign"
+    ),
+    **dict.fromkeys(("roll", "pitch", "yaw", "incline", "slope", "distance", "area", "humidity", "hr"), "foreign"),
+}
+_PLACES = frozenset(w for w, kind in _KINDS.items() if kind == "cell" and len(w) > 1) - {"adc"}
+_LONGEST = max(map(len, _KINDS))
+_UNIT = re.compile(
+    r"[\[(<{]\s*([^\])>}]*?)\s*[\])>}]|[_ ](kpa|n|pa|mmhg|psi|raw|kg|lbf|nm|nmm|mm|cm|bw|%bw|newtons?)$", re.I
+)
+_STATED = {**FORCES, **PASCALS, **LENGTHS, **MOMENTS, **BODY_WEIGHTS}
+
+
+@dataclass(frozen=True)
+class Heading:
+    """What a heading names.
+
+    Attributes:
+        quantity: The quantity.
+        axis: "x", "y", "z", "vertical", "ap" or "ml"; empty where none is named.
+        side: The foot; None where none is named.
+        number: The last number, of a plate or cell; None without.
+        unit: The unit as it is stated; empty without.
+        plate: Whether a force plate, belt or the ground's reaction is named.
+        words: The words that are no side, number or unit, joined.
+    """
+
+    quantity: Quantity
+    axis: str = ""
+    side: Side | None = None
+    number: int | None = None
+    unit: str = ""
+    plate: bool = False
+    words: str = ""
+
+
+def heading_of(text: str) -> Heading:
+    """What a heading names.
+
+    Args:
+        text: The heading.
+
+    Returns:
+        What it names.
+
+    Example:
+        >>> h = heading_of("Left Fz (N)"); h.quantity, h.axis, h.side, h.unit
+        ('force', 'z', 'left', 'N')
+        >>> h = heading_of("2_ground_force_vy"); h.quantity, h.axis, h.number, h.plate
+        ('force', 'y', 2, True)
+        >>> [heading_of(t).quantity for t in ("FP1.CopX", "ground_torque_z", "met5", "R_12", "LHEE.PosX", "knee angle")]
+        ['cop', 'moment', 'cell', 'number', 'foreign', 'foreign']
+    """
+    name, unit = text.strip().strip('"'), ""
+    match = _UNIT.search(name)
+    while match is not None:
+        stated = match[1] if match[1] is not None else match[2]
+        known = plain(stated) in _STATED or find_unit(stated) is not None or "/" in stated or "%" in stated
+        if known or not _words(stated):
+            unit = unit or stated
+            name = name[: match.start()] + " " + name[match.end() :]
+        else:
+            name = name[: match.start()] + " " + stated + " " + name[match.end() :]
+        match = _UNIT.search(name)
+    return _heading(name, unit)
+
+
+@lru_cache(maxsize=4096)
+def _words(name: str) -> tuple[str, ...] | None:
+    """A name's known words and numbers; None where it holds another one."""
+    out: list[str] = []
+    for chunk in re.findall(r"[^\W_]+|%", name):
+        parts = _cut(chunk)
+        if parts is None:
+            return None
+        out += parts
+    return tuple(out)
+
+
+def _cut(chunk: str) -> list[str] | None:
+    """Letters and digits as known words and numbers: first at changes of case, then the fewest words that fit."""
+    spans = re.findall(r"[A-Z]{2,}(?![a-zß-ÿ])|[A-Z]?[a-zß-ÿ]+|[A-Z]|\d+", chunk)
+    cased = [_fewest(span.lower()) if not span.isdigit() else [span] for span in spans]
+    if all(part is not None for part in cased) and "".join(spans) == chunk:
+        by_case = [word for part in cased if part is not None for word in part]
+        whole = _fewest(chunk.lower())
+        return by_case if whole is None or len(by_case) <= len(whole) else whole
+    return _fewest(chunk.lower())
+
+
+def _fewest(text: str) -> list[str] | None:
+    """The fewest known words and numbers that make up a text; None where none do."""
+    best: list[list[str] | None] = [[]] + [None] * len(text)
+    for end in range(1, len(text) + 1):
+        for begin in range(max(0, end - _LONGEST), end):
+            before, word = best[begin], text[begin:end]
+            split_number = word.isdigit() and (end < len(text) and text[end].isdigit())
+            if before is None or split_number or not (word in _KINDS or word.isdigit()):
+                continue
+            if best[end] is None or len(before) + 1 < len(best[end] or []):
+                best[end] = [*before, word]
+    return best[-1]
+
+
+def _heading(name: str, unit: str) -> Heading:
+    words = _words(name)
+    last = re.findall(r"\d+", name)
+    number = int(last[-1][-9:]) if last else None
+    if words is None:
+        letters = "".join(re.findall(r"[^\W\d_]+", name)).lower()
+        chunks = [
+            part for chunk in re.findall(r"[^\W\d_]+", name) for part in re.findall(r"[A-Z]?[a-z]+|[A-Z]+", chunk)
+        ]
+        foreign = any(_KINDS.get(part.lower()) == "foreign" for part in chunks) or any(
+            w in letters for w, kind in _KINDS.items() if kind == "foreign" and len(w) > 3
+        )
+        return Heading("foreign" if foreign else "unknown", number=number, unit=unit, words=letters)
+    kinds = [_KINDS.get(w, "number") for w in words]
+    sides = {k for k in kinds if k in ("left", "right")}
+    side: Side | None = None if len(sides) != 1 else "left" if "left" in sides else "right"
+    found = set(kinds)
+    rest = " ".join(w for w, k in zip(words, kinds, strict=True) if k not in ("left", "right", "number", "plain"))
+    axis = next((k for k in kinds if k in ("x", "y", "z", "ap", "ml")), "vertical" if "vertical" in found else "")
+    ground = "ground" in words or "grf" in words or "vgrf" in words or "reaction" in words
+    if {"force", "moment"} & found and len(last) == 2 and axis:
+        number = int(last[0][-9:])  # F2Y1 is of plate 2
+    if not ground and "plate" not in found and {"medial", "lateral", "anterior", "posterior"} & set(words):
+        axis = ""  # a part of the sole, not an axis
+        found |= {"place"}
+    quantity: Quantity
+    if "foreign" in found:
+        quantity = "foreign"
+    elif axis in ("x", "y", "z") and set(words) - {axis} <= {"a", "c", "p", "l", "r", "left", "right"} | set(
+        filter(str.isdigit, words)
+    ):
+        quantity = "place"
+    elif "place" in found or (any(w in _PLACES for w in words) and "plate" not in found and axis in ("", "ml", "ap")):
+        quantity = "cell"
+    elif "cop" in found or {"pressure", "center"} <= set(words) or ("ground" in words and "p" in words):
+        quantity = "cop"
+    elif (
+        ("moment" in found and "force" not in found)
+        or "tz" in words
+        or (
+            "moment" in found
+            and axis
+            and words[-1] in ("m", *"xyz")
+            and any(w in ("m", "mom", "moment", "torque") for w in words)
+        )
+    ):
+        quantity = "moment"
+    elif "force" in found or ("vertical" in found and not {"cell", "pressure"} & found) or (ground and axis):
+        quantity = "force"
+    elif "pressure" in found:
+        quantity = "pressure"
+    elif "total" in found:
+        quantity = "force"
+    elif "cell" in found:
+        quantity = "cell"
+    elif "plate" in found and axis:
+        quantity = "force"
+    elif axis:
+        quantity = "foreign"
+    else:
+        quantity = "number"
+    return Heading(
+        quantity, axis, side, number, unit, "plate" in found or ground or ("force" in found and bool(axis)), rest
+    )

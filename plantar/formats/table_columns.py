@@ -1,0 +1,295 @@
+"""A table of numbers with named columns as a recording: by what each column's name says it holds."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
+from plantar.formats.column_names import Heading, heading_of
+from plantar.formats.format import ReadOptions
+from plantar.formats.side import side_of
+from plantar.formats.side_column import is_side_column, on_one_time, rows_of_sides
+from plantar.formats.table_forces import feet_of_forces, is_force_table
+from plantar.formats.text import number_in
+from plantar.formats.units import find_unit
+from plantar.formats.written_cells import time_unit
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
+from plantar.sides import SIDES, Side
+
+__all__ = ["recording_of_columns"]
+
+_USUAL_RATE = 100.0
+_MOST_NAMED = 10
+"""Columns that are left out by name in the warnings; of more their number is given."""
+_SUMS = 0.02
+"""How near a column is to the sum of others, relative to its largest value, where it is their total."""
+_CURVES = 40
+"""Numbered columns without a time from which rows that name trials are curves and no frames."""
+
+
+def recording_of_columns(
+    table: NDArray[np.float64],
+    names: list[str],
+    options: ReadOptions,
+    path: Path,
+    facts: dict[str, str] | None = None,
+    warnings: list[str] | None = None,
+) -> PressureRecording:
+    """A recording from a table of numbers and the names of its columns.
+
+    Columns are taken by quantity: forces, moments and centres of pressure of plates; forces of a foot; or cells. What
+    is none of these is left out, and named.
+
+    Args:
+        table: Numbers (n, k), NaN where one is missing.
+        names: Names (k) of the columns; empty where there are none.
+        options: What is known of the table.
+        path: What the recording is called.
+        facts: What comments state: "unit", "rate", "side".
+        warnings: Where assumptions are put.
+
+    Returns:
+        The recording.
+
+    Raises:
+        FormatError: If no column is a load, rows are curves of trials, or a unit is not known.
+    """
+    facts, warnings = {} if facts is None else facts, [] if warnings is None else warnings
+    if not names:
+        warnings.append("the table has no row of names: the first column is taken as time in s if it increases")
+    at = next((i for i, n in enumerate(names) if time_unit(n) is not None), None)
+    if at is None and (not names or not names[0]):
+        column = table[:, 0]
+        at = 0 if np.isfinite(column).all() and (np.diff(column) > 0.0).all() else None
+    of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
+    if of_side is not None:
+        table, names = _side_by_side(table, names, at, of_side, warnings)
+        at = None if at is None else 0
+    clocks = [i for i, n in enumerate(names) if time_unit(n) is not None and i != at]
+    headings = [heading_of(name) for name in names]
+    _refuse_curves(headings, at)
+    time, rate, notes = _times(table, names, at, facts, options, warnings)
+    columns = [i for i in range(table.shape[1]) if i != at and i not in clocks]
+    kind, every, raw = "insole", True, False
+    if names and is_force_table([headings[i] for i in columns]):
+        named = {i: headings[i] for i in columns}
+        stated = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
+        given = replace(options, side=stated)
+        feet, every, kind, raw = feet_of_forces(table, named, rate, given, facts.get("unit"), warnings)
+        used = {i for i in columns if headings[i].quantity in ("force", "cop", "moment", "place")}
+        _report_left_out([names[i] for i in columns if i not in used], warnings, "load")
+    else:
+        feet, raw = _cells(table, names, headings, columns, facts, options, warnings)
+    if len(feet) == 1 and side_of(*names) is not None:
+        warnings.append(f"the file holds the {next(iter(feet))} foot only")
+    return PressureRecording(
+        path=path,
+        format="csv",
+        rate_hz=rate,
+        time=time,
+        feet=feet,
+        metadata={**facts, "sees_every_step": every},
+        warnings=(*warnings, *notes),
+        raw=raw,
+        kind="plate" if kind == "plate" else "insole",
+    )
+
+
+def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
+    """Refuse tables whose rows are curves over the stance of trials.
+
+    Raises:
+        FormatError: If columns name subjects or trials and the rest is numbered, without times.
+    """
+    trial = any({"subject", "trial", "session", "participant"} & set(h.words.split()) for h in headings)
+    if at is None and (trial or any("trialid" in h.words for h in headings)):
+        stems = [h.words for h in headings if h.number is not None]
+        if stems and max(map(stems.count, set(stems))) >= _CURVES:
+            raise FormatError(
+                "each row is a curve of a trial, since columns name subjects or trials and the rest is numbered; "
+                "allowed: a row a frame, with a column of times or --rate"
+            )
+
+
+def _side_by_side(
+    table: NDArray[np.float64], names: list[str], at: int | None, of_side: int, warnings: list[str]
+) -> tuple[NDArray[np.float64], list[str]]:
+    """A table of both feet in columns, from one whose rows are of either foot; the times come first."""
+    rows = rows_of_sides(table[:, of_side], warnings)
+    cells = [i for i in range(table.shape[1]) if i not in (at, of_side)]
+    time = np.arange(len(table), dtype=float) if at is None else table[:, at]
+    if at is None:
+        for own in rows.values():
+            time[own] = np.arange(len(own))
+    time, feet, moved = on_one_time(time, rows, [table[:, i] for i in cells])
+    if moved:
+        warnings.append("the feet's rows have other times: the right foot's values are interpolated at the left one's")
+    head = [] if at is None else [names[at]]
+    found = [*head, *(f"{side} {names[i]}" for side in feet for i in cells)]
+    return np.column_stack([*([] if at is None else [time]), *feet.values()]), found
+
+
+def _taken(table: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:
+    """Some columns of a table, without a copy where they lie together."""
+    if columns == list(range(columns[0], columns[0] + len(columns))):
+        return table[:, columns[0] : columns[0] + len(columns)]
+    return table[:, columns]
+
+
+def _times(
+    table: NDArray[np.float64],
+    names: list[str],
+    at: int | None,
+    facts: dict[str, str],
+    options: ReadOptions,
+    warnings: list[str],
+) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
+    stated = options.rate_hz
+    words = next((v for k, v in facts.items() if "rate" in k or "frequency" in k or k == "sampling"), None)
+    if stated is None and words is not None:
+        stated = number_in(words)
+        if stated is None:
+            raise FormatError(f"a rate of {words[:40]!r} is no number (--rate overrides)")
+    if at is None or options.rate_hz is not None:
+        if stated is None:
+            warnings.append(
+                f"the table has no times and states no rate: {_USUAL_RATE:g} Hz is assumed (--rate overrides)"
+            )
+        rate = _USUAL_RATE if stated is None else possible_rate(stated, "the table states")
+        return np.arange(len(table)) / rate, rate, ()
+    factor = (time_unit(names[at]) if names else None) or None
+    if factor is None:
+        factor = 1.0
+        step = np.nanmedian(np.diff(table[:, at])) if len(table) > 1 else 0.0
+        if step >= 1.0:  # a frame a second is no gait; whole numbers are milliseconds
+            factor = 1e-3 if step < 1e3 else 1e-6 if step < 1e6 else 1e-9
+        warnings.append(f"the times state no unit: {'s' if factor == 1.0 else f'{factor:g} s'} is assumed")
+    time = table[:, at] * factor
+    known = time[np.isfinite(time)]
+    if len(known) and abs(known[0]) > 1e5:
+        warnings.append(f"the times begin at {known[0]:.10g} s: here they count from the first frame")
+        time = time - known[0]
+    return sampling(time, stated)
+
+
+def _report_left_out(names: Sequence[str], warnings: list[str], what: str) -> None:
+    shown = [n for n in names if n.strip()]
+    if len(shown) > _MOST_NAMED:
+        warnings.append(f"{len(shown)} columns are no {what}s: left out, {shown[0]!r} to {shown[-1]!r}")
+    else:
+        warnings += [f"column {name!r} is no {what}: left out" for name in shown]
+
+
+def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[int]:
+    """Columns that are cells: known names of cells; names of one unknown word and numbers where there are none."""
+    stated = any(find_unit(headings[i].unit) is not None for i in columns if headings[i].unit)
+
+    def foreign(i: int) -> bool:  # where some state a unit of load, what is in another one is no load
+        return bool(stated and headings[i].unit and find_unit(headings[i].unit) is None)
+
+    known = [i for i in columns if headings[i].quantity in ("cell", "number", "pressure", "force") and not foreign(i)]
+    known = [i for i in known if headings[i].quantity != "number" or headings[i].number is not None or headings[i].side]
+    cells = [i for i in known if headings[i].quantity != "force" or headings[i].number is not None]
+    if known:
+        return cells or known
+    rest = [
+        i for i in columns if headings[i].quantity == "unknown" and headings[i].number is not None and not foreign(i)
+    ]
+    stems = {re.sub(r"left|right|links|rechts", "", headings[i].words) for i in rest}
+    stems = {s[1:] if s[:1] in "lr" and {"l" + s[1:], "r" + s[1:]} <= stems else s for s in stems}
+    return rest if len(stems) == 1 else []
+
+
+def _without_totals(
+    table: NDArray[np.float64], columns: list[int], named: bool, warnings: list[str]
+) -> tuple[list[int], dict[Side, list[int]]]:
+    """Columns without those that are the sum of others; of two such ones the columns of each foot."""
+    n = len(columns)
+    if named or n < 5:
+        return columns, {}
+    values = table[:: max(1, len(table) // 2000)][:, columns]
+    values = values[np.isfinite(values).all(axis=1)]
+    half = (n - 2) // 2
+
+    def is_sum(total: NDArray[np.float64], parts: NDArray[np.float64]) -> bool:
+        top = float(np.abs(total).max(initial=0.0))
+        return top > 0.0 and float(np.abs(total - parts.sum(axis=1)).max()) <= _SUMS * top
+
+    pairs = n % 2 == 0 and half >= 2 and len(values) > 0
+    if pairs and is_sum(values[:, -2], values[:, :half]) and is_sum(values[:, -1], values[:, half:-2]):
+        warnings.append(
+            f"the last two of {n} columns are the sums of {half} before them each: taken as {half} cells of the left "
+            "foot, then of the right one, in N, and their totals left out (as in PhysioNet's gaitpdb)"
+        )
+        return columns[:-2], {"left": columns[:half], "right": columns[half:-2]}
+    if len(values) and is_sum(values[:, -1], values[:, :-1]):
+        warnings.append("the last column is the sum of the others: left out as their total")
+        return columns[:-1], {}
+    return columns, {}
+
+
+def _cells(
+    table: NDArray[np.float64],
+    names: list[str],
+    headings: Sequence[Heading],
+    columns: list[int],
+    facts: dict[str, str],
+    options: ReadOptions,
+    warnings: list[str],
+) -> tuple[dict[Side, FootRecording], bool]:
+    """Feet of a table of cells, and whether its values are counts."""
+    chosen = _chosen_cells(headings, columns) if names else columns
+    if names:
+        _report_left_out([names[i] for i in columns if i not in chosen], warnings, "cell")
+    chosen, both = _without_totals(table, chosen, bool(names), warnings)
+    found = [headings[i].unit for i in chosen if headings[i].unit] if names else []
+    if len({find_unit(u) for u in found}) > 1:
+        raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
+    stated = facts.get("unit", facts.get("units")) or (max(set(found), key=found.count) if found else None)
+    if both and not stated and not options.unit:
+        stated = "N"
+    unit = unit_of_values(stated, options, warnings, "the table")
+    raw = unit.kind == "raw"
+    if not chosen:
+        raise FormatError(
+            f"no column of the table is a load; its columns are {', '.join(map(repr, names[:8]))}; allowed: names of "
+            "cells (left 3 [kPa], heel) or of forces (Left Fz [N], FP1 Fz)"
+        )
+    by_side: dict[Side | None, list[int]] = {}
+    for i in chosen:
+        side = headings[i].side if names else next((s for s, own in both.items() if i in own), None)
+        by_side.setdefault(side, []).append(i)
+    feet: dict[Side, FootRecording] = {}
+    if list(by_side) == [None]:
+        own_side = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
+        indices = by_side[None]
+        values = _taken(table, indices)
+        split: list[tuple[Side, NDArray[np.float64]]] = (
+            [(own_side, values)] if own_side else halves(values, options, warnings)
+        )
+        for side, part in split:
+            ids = _ids([headings[i] for i in indices]) if names else None
+            feet[side] = cells_of_foot(
+                side, part, unit, options, warnings, ids if ids and len(ids) == part.shape[1] else None
+            )
+        return feet, raw
+    if None in by_side:
+        _report_left_out([names[i] for i in by_side[None]], warnings, "named foot's cell")
+    for side in SIDES:
+        if side in by_side:
+            ids = _ids([headings[i] for i in by_side[side]]) if names else None
+            feet[side] = cells_of_foot(side, _taken(table, by_side[side]), unit, options, warnings, ids)
+    return feet, raw
+
+
+def _ids(headings: Sequence[Heading]) -> list[int] | None:
+    """Ids of cells, where all names have a number."""
+    ids = [h.number for h in headings if h.number is not None]
+    return ids if len(ids) == len(headings) else None

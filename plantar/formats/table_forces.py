@@ -1,0 +1,229 @@
+"""Tables of forces of plates, belts or whole feet: their columns put together by plate or foot, axis and quantity."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.formats.column_names import BODY_WEIGHTS, Heading
+from plantar.formats.force_plates import Plate, feet_of_plates
+from plantar.formats.format import ReadOptions
+from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
+from plantar.gravity import GRAVITY
+from plantar.recordings.pressure_recording import FootRecording
+from plantar.sides import SIDES, Side
+
+__all__ = ["feet_of_forces", "is_force_table"]
+
+_Key = tuple[Side | None, int | None]
+
+_UPRIGHT = {"z": ("x", "y"), "y": ("z", "x"), "x": ("y", "z")}
+"""The two horizontal axes, right-handed with each vertical one."""
+_WEIGHTS = (0.7, 4.0)
+"""Largest vertical forces without a unit that are body weights and no N."""
+_NOMINAL = 700.0
+"""Weight in N that forces in body weights are read with, so that levels in N hold; they are divided by it again."""
+
+
+def is_force_table(headings: Sequence[Heading]) -> bool:
+    """Whether a table's columns are forces of plates or whole feet, not cells.
+
+    Args:
+        headings: What its columns are called, without times.
+
+    Returns:
+        True where forces name an axis, the ground or a plate, or are one a foot.
+    """
+    forces = [h for h in headings if h.quantity == "force"]
+    cells = [
+        h for h in headings if h.quantity in ("cell", "pressure") or (h.quantity == "number" and h.number is not None)
+    ]
+    if any(h.axis or h.plate for h in forces) and not (len(cells) > 2 * len(forces)):
+        return True
+    own = [(h.side, h.number) for h in forces]
+    one_a_foot = bool(own) and all(n is None for _, n in own) and len(set(own)) == len(own) and len(own) <= 2
+    return one_a_foot and not cells
+
+
+def feet_of_forces(
+    table: NDArray[np.float64],
+    columns: Mapping[int, Heading],
+    rate: float,
+    options: ReadOptions,
+    stated: str | None,
+    warnings: list[str],
+) -> tuple[dict[Side, FootRecording], bool, str, bool]:
+    """The feet of a table of forces.
+
+    Args:
+        table: Numbers (n, k).
+        columns: What columns hold, by number; times are not in it.
+        rate: Frames a second.
+        options: What is known of the table.
+        stated: Unit that comments state.
+        warnings: Where assumptions are put.
+
+    Returns:
+        The feet; whether every step is seen; "plate" or "insole"; and whether forces are in percent of body weight.
+
+    Raises:
+        FormatError: If a unit of force is not known, or the vertical force cannot be told.
+    """
+    groups: dict[_Key, dict[str, dict[str, int]]] = {}
+    for i, h in columns.items():
+        if h.quantity in ("force", "cop", "moment", "place"):
+            own = groups.setdefault((h.side, h.number), {}).setdefault(h.quantity, {})
+            own.setdefault(h.axis, i)
+    loaded = {key: own for key, own in groups.items() if "force" in own}
+    plates = any(columns[i].plate for own in loaded.values() for i in own["force"].values())
+    up = _vertical(table, loaded, warnings)
+    verticals = [own["force"][a] for own in loaded.values() if (a := _up(own["force"], up)) is not None]
+    unit, relative = _unit(table, columns, verticals, options, stated, warnings)
+    made, names = [], []
+    for key, parts in loaded.items():
+        vertical = _up(parts["force"], up)
+        if vertical is None:
+            continue
+        made.append(_plate(table, columns, key, parts, vertical, unit, warnings))
+        names.append(key)
+    if not made:
+        raise FormatError("no column is a vertical force; allowed: Fz, a vertical GRF, or forces of all three axes")
+    scale = 100.0 / _NOMINAL if relative else 1.0
+    if not plates and len(made) <= 2 and all(p.side for p in made):
+        totals = {p.side: p.force[:, 2] * scale for p in made if p.side}
+        feet = {s: FootRecording(s, totals[s][:, None], None, total=totals[s]) for s in SIDES if s in totals}
+        warnings.append("one force a foot: no cells, so no pressures, areas and centres of pressure")
+        return feet, True, "insole", relative
+    if all(p.side for p in made) and len({p.side for p in made}) < len(made):
+        made = _numbered_sides(made, names)
+    feet, every = feet_of_plates(made, rate, options, warnings)
+    if relative:
+        feet = {s: _scaled(f, scale) for s, f in feet.items()}
+    return feet, every or (all(p.side for p in made) and len(made) == 2), "plate", relative
+
+
+def _scaled(foot: FootRecording, scale: float) -> FootRecording:
+    """A foot in another unit of force."""
+    total = None if foot.total is None else foot.total * scale
+    wrench = None if foot.wrench is None else foot.wrench * scale
+    return replace(foot, force=foot.force * scale, total=total, wrench=wrench)
+
+
+def _numbered_sides(plates: list[Plate], names: Sequence[_Key]) -> list[Plate]:
+    """Plates whose names give each foot several: they keep their foot."""
+    return [replace(p, name=f"{p.name} {names[i][1]}") for i, p in enumerate(plates)]
+
+
+def _up(axes: Mapping[str, int], up: str) -> str | None:
+    """The axis of a plate's vertical force; None where it has none."""
+    return next((a for a in ("vertical", up, "") if a in axes), None)
+
+
+def _vertical(table: NDArray[np.float64], groups: Mapping[_Key, dict[str, dict[str, int]]], warnings: list[str]) -> str:
+    """The vertical axis: the one along which most of the load acts."""
+    load = dict.fromkeys("xyz", 0.0)
+    named = False
+    for own in groups.values():
+        named = named or "vertical" in own["force"]
+        for axis in "xyz":
+            if axis in own["force"]:
+                column = np.abs(table[:, own["force"][axis]])
+                known = column[np.isfinite(column)]
+                load[axis] += float(np.percentile(known, 95.0) if len(known) else 0.0) + float(
+                    known.mean() if len(known) else 0.0
+                )
+    up = max("zyx", key=lambda a: load[a])
+    if up != "z" and not named and load[up] > 0.0:
+        warnings.append(f"the largest force acts along {up}: taken as the vertical axis")
+    return up
+
+
+def _unit(
+    table: NDArray[np.float64],
+    columns: Mapping[int, Heading],
+    verticals: Sequence[int],
+    options: ReadOptions,
+    stated: str | None,
+    warnings: list[str],
+) -> tuple[float, bool]:
+    """N in one unit of the forces, and whether they are relative to an unknown body weight.
+
+    Raises:
+        FormatError: If the unit is not known.
+    """
+    text = options.unit or next((columns[i].unit for i in verticals if columns[i].unit), "") or stated or ""
+    name = plain(text)
+    weight = None if options.mass_kg is None else options.mass_kg * GRAVITY
+    largest = float(np.nanpercentile(np.abs(table[:, list(verticals)]), 99.5)) if verticals and len(table) else 0.0
+    if not text and _WEIGHTS[0] <= largest <= _WEIGHTS[1]:
+        text, name = "BW", "bw"
+        warnings.append(f"the forces state no unit and reach {largest:.3g}: taken as body weights (--unit overrides)")
+    if name in ("n/kg", "newton/kg", "nkg-1", "n/kgbm"):
+        text, name, factor = "N/kg", "bw", 1.0 / GRAVITY
+    else:
+        factor = BODY_WEIGHTS.get(name, 1.0)
+    if name in BODY_WEIGHTS:
+        if weight is None:
+            warnings.append(f"forces are in {text}: given in percent of body weight; --mass makes N of them")
+            return factor * _NOMINAL, True
+        return factor * weight, False
+    if not text:
+        warnings.append("the forces state no unit: N is assumed (--unit overrides)")
+    elif name not in FORCES:
+        raise FormatError(f"unknown unit of force {text!r}; allowed: N, kN, kg, lbf, BW, %BW, N/kg")
+    return FORCES.get(name, 1.0), False
+
+
+def _plate(
+    table: NDArray[np.float64],
+    columns: Mapping[int, Heading],
+    key: _Key,
+    own: Mapping[str, Mapping[str, int]],
+    vertical: str,
+    unit: float,
+    warnings: list[str],
+) -> Plate:
+    """One plate, or the ground under one foot, z up."""
+    side, number = key
+    name = f"plate {number}" if number is not None else f"the {side} plate" if side else "the plate"
+    up = vertical if vertical in _UPRIGHT else "z"
+    forces, unknown = own["force"], np.full(len(table), np.nan)
+
+    def of(quantity: Mapping[str, int], axis: str, other: str) -> NDArray[np.float64]:
+        i = quantity.get(axis, quantity.get(other))
+        return unknown if i is None or axis == vertical else table[:, i]
+
+    ahead, across = _UPRIGHT[up]
+    force = unit * np.column_stack([of(forces, ahead, "ap"), of(forces, across, "ml"), table[:, forces[vertical]]])
+    places = own.get("cop") or (own.get("place") if len(forces) > 1 else None) or {}
+    cop = None
+    if {ahead, across} <= set(places) or {"ap", "ml"} <= set(places):
+        cop = np.column_stack([of(places, ahead, "ap"), of(places, across, "ml")])
+        cop = cop * _length(columns[places.get(ahead, places.get("ap", 0))].unit, cop, force[:, 2], warnings)
+    moments, moment = own.get("moment", {}), None
+    if cop is None and {"x", "y", "z"} <= set(moments) and {"x", "y", "z"} <= set(forces):
+        turned = np.column_stack([table[:, moments[a]] for a in (ahead, across, up)])
+        stated = plain(columns[moments[up]].unit)
+        turn = MOMENTS.get(stated)
+        if turn is None:
+            large = float(np.nanpercentile(np.abs(turned), 99.0)) > 0.5 * float(np.nanpercentile(np.abs(force), 99.0))
+            turn = 1e-3 if large else 1.0
+            warnings.append(f"the moments state no unit: {'N mm' if large else 'N m'} is assumed")
+        moment = turn * turned
+    return Plate(name, force, moment, cop, side=side)
+
+
+def _length(unit: str, cop: NDArray[np.float64], vertical: NDArray[np.float64], warnings: list[str]) -> float:
+    """m in one unit of a centre of pressure: a plate is no longer than some metres."""
+    known = LENGTHS.get(plain(unit))
+    if known is not None:
+        return known
+    loaded = np.abs(vertical) > 0.2 * float(np.nanmax(np.abs(vertical), initial=0.0))
+    part = cop[loaded & np.isfinite(cop).all(axis=1)]
+    factor = 1e-3 if len(part) and float(np.ptp(part, axis=0).max()) > 5.0 else 1.0
+    warnings.append(f"the centres of pressure state no unit: {'mm' if factor < 1.0 else 'm'} is assumed")
+    return factor

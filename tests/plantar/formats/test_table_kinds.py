@@ -1,0 +1,196 @@
+"""Tables of forces by any sensible heading, and text formats of laboratories: columns are taken by what they hold."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from plantar import FormatError
+from plantar.gait.analysis.analyse import Analysis, analyse
+
+TIME = np.arange(0.0, 8.0, 0.01)
+PERIOD, STANCE, WEIGHT = 1.1, 0.62, 700.0
+
+
+def foot(phase: float) -> tuple[np.ndarray, np.ndarray]:
+    """Vertical force (n,) in N of a walking foot, and how far each of its contacts has gone (0 to 1)."""
+    share = ((TIME + phase) % PERIOD) / PERIOD / STANCE
+    inside = np.clip(share, 0.0, 1.0)
+    humps = np.sin(np.pi * inside) + 0.25 * np.sin(3.0 * np.pi * inside)
+    return np.where(share < 1.0, 800.0 * humps / humps.max(), 0.0), inside
+
+
+(LEFT, GONE_LEFT), (RIGHT, GONE_RIGHT) = foot(0.2), foot(0.75)
+NONE = np.zeros_like(TIME)
+AHEAD = {"left": 0.2 * LEFT * (GONE_LEFT - 0.5), "right": 0.2 * RIGHT * (GONE_RIGHT - 0.5)}
+LEFTWARD = {"left": -0.04 * LEFT, "right": 0.04 * RIGHT}
+PLACE = {"left": 0.2 * GONE_LEFT, "right": 0.2 * GONE_RIGHT}
+
+HEADINGS = (
+    "Left Fz (N)|Right Fz (N)",
+    "Fz_left|Fz_right",
+    "FzL|FzR",
+    "L_Fz|R_Fz",
+    "vGRF_L|vGRF_R",
+    "GRF left [N]|GRF right [N]",
+    "Fz1|Fz2",
+    "FP1_Fz|FP2_Fz",
+    "ground_force_l_vy|ground_force_r_vy",
+    "Force.Fz1|Force.Fz2",
+    "Left Force|Right Force",
+    "GRFz_L|GRFz_R",
+    "LeftVerticalForce_N|RightVerticalForce_N",
+    "Belt1 Fz|Belt2 Fz",
+    "Kraft links [N]|Kraft rechts [N]",
+    "F1Y1|F2Y1",
+    "Left total force(N)|Right total force(N)",
+    "Force Z (Left)|Force Z (Right)",
+    "Left [N]|Right [N]",
+    "LFoot_Fz|RFoot_Fz",
+    "Treadmill Left Fz|Treadmill Right Fz",
+    "Plate 1 Vertical (N)|Plate 2 Vertical (N)",
+    "fz_left_newton|fz_right_newton",
+    "force_sum_left|force_sum_right",
+)
+
+
+def rows(columns: Sequence[np.ndarray], sign: str = "\t") -> str:
+    return "\n".join(sign.join(f"{v:.6f}" for v in row) for row in np.column_stack(list(columns)))
+
+
+def check(walk: Analysis, sides: Sequence[str] = ("left", "right"), weight: float = 800.0) -> None:
+    assert sorted(walk.feet) == sorted(sides)
+    assert walk.metrics["activity"]["name"] == "walking"
+    for side in sides:
+        gait = walk.feet[side]
+        truth = {"left": LEFT, "right": RIGHT}[side]
+        first = TIME[np.flatnonzero(np.diff((truth > 0.0).astype(int)) == 1)[0]]
+        assert len(gait.steps) in (6, 7)
+        assert abs(gait.steps[0].heel_strike_s - first) < 0.02
+        assert np.median([s["contact_time_s"] for s in gait.steps]) == pytest.approx(PERIOD * STANCE, abs=0.012)
+        assert max(s["peak_force_N"] for s in gait.steps) == pytest.approx(weight, rel=0.01)
+    if len(sides) == 2:
+        assert walk.metrics["gait"]["double_support_percent"] == pytest.approx(24.0, abs=2.0)
+        assert walk.metrics["gait"]["cadence_steps_per_min"] == pytest.approx(120.0 / PERIOD, rel=0.003)
+
+
+@pytest.mark.parametrize("names", HEADINGS)
+def test_headings_of_two_feet(tmp_path: Path, names: str) -> None:
+    path = tmp_path / "walk.csv"
+    path.write_text("Time (s)," + names.replace("|", ",") + "\n" + rows([TIME, LEFT, RIGHT], ","))
+    check(analyse(path))
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"), [("%BW", 100.0 / WEIGHT), ("BW", 1.0 / WEIGHT), ("N/kg", 9.80665 / WEIGHT)]
+)
+def test_forces_relative_to_body_weight(tmp_path: Path, unit: str, factor: float) -> None:
+    from plantar.gait.analysis.subject import Subject
+
+    path = tmp_path / "walk.csv"
+    path.write_text(
+        f"Time (s),Left GRF ({unit}),Right GRF ({unit})\n" + rows([TIME, LEFT * factor, RIGHT * factor], ",")
+    )
+    relative = analyse(path)
+    assert relative.recording.raw
+    assert float(relative.steps["peak_force_raw"].max()) == pytest.approx(100.0 * 800.0 / WEIGHT, rel=0.01)
+    check(analyse(path, subject=Subject(mass_kg=WEIGHT / 9.80665)))
+
+
+def mot() -> str:
+    """OpenSim: x ahead, y up, z to the right."""
+    names = [f"{p}ground_force_{c}" for p in ("", "1_") for c in ("vx", "vy", "vz", "px", "py", "pz")]
+    columns = [TIME]
+    for side, force, z in (("right", RIGHT, 0.1), ("left", LEFT, -0.1)):
+        columns += [AHEAD[side], force, -LEFTWARD[side], PLACE[side], NONE, NONE + z]
+    head = f"walk.mot\nversion=1\nnRows={len(TIME)}\nnColumns={len(columns)}\ninDegrees=yes\nendheader\n"
+    return head + "\t".join(["time", *names]) + "\n" + rows(columns)
+
+
+def forces() -> str:
+    """Cortex: z up, places in mm, no times."""
+    columns = [np.arange(1.0, len(TIME) + 1.0)]
+    for side, force, y in (("right", RIGHT, 200.0), ("left", LEFT, 500.0)):
+        columns += [AHEAD[side], LEFTWARD[side], force, 1e3 * PLACE[side], NONE + y, NONE, NONE]
+    names = "\t".join(f"{c}{i}" for i in (1, 2) for c in ("FX", "FY", "FZ", "X", "Y", "Z", "MZ"))
+    return f"[Force Data]\nNumberOfForcePlates=2\nSampleRate=100.000\n#Sample\t{names}\n" + rows(columns)
+
+
+def loadsol() -> str:
+    parts = [part * force for force in (LEFT, RIGHT) for part in (0.4, 0.3, 0.3, 1.0)]
+    names = "Time[secs]\theel-Force[N]\tmedial-Force[N]\tlateral-Force[N]\tForce[N]"
+    head = "loadsol 1.7\t12.03.2020\nleft\t\t\t\t\tright\t\t\t\t\n"
+    return head + f"{names}\t{names}\n" + rows([TIME, *parts[:4], TIME, *parts[4:]])
+
+
+def gaitpdb() -> str:
+    """PhysioNet: time, eight sensors of each foot, and the two sums; no names."""
+    shares = (0.3, 0.2, 0.1, 0.05, 0.05, 0.1, 0.1, 0.1)
+    return rows([TIME, *(k * LEFT for k in shares), *(k * RIGHT for k in shares), LEFT, RIGHT])
+
+
+def d_flow() -> str:
+    """A treadmill whose vertical is y, with markers and angles beside it."""
+    names = [f"FP{i}.{c}{a}" for i in (1, 2) for c in ("Cop", "For") for a in "XYZ"]
+    columns = [TIME]
+    for side, force, x in (("left", LEFT, -0.1), ("right", RIGHT, 0.1)):
+        columns += [NONE + x, NONE, PLACE[side], -LEFTWARD[side], force, -AHEAD[side]]
+    return "\t".join(["TimeStamp", *names, "LHEE.PosX", "KneeAngle1"]) + "\n" + rows([*columns, 3e3 + TIME, TIME])
+
+
+def bioware() -> str:
+    """One Kistler plate: names and units in two rows."""
+    head = "BioWare\nfile\t1\nabs time (s)\tFx\tFy\tFz\tAx\tAy\ns\tN\tN\tN\tm\tm\n"
+    return head + rows([TIME, AHEAD["right"], LEFTWARD["right"], -RIGHT, PLACE["right"], NONE])
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "kind", "sides"),
+    [
+        ("walk.mot", mot, "plate", ("left", "right")),
+        ("walk.forces", forces, "plate", ("left", "right")),
+        ("loadsol.txt", loadsol, "insole", ("left", "right")),
+        ("GaCo01_01.txt", gaitpdb, "insole", ("left", "right")),
+        ("d_flow.txt", d_flow, "plate", ("left", "right")),
+        ("bioware.txt", bioware, "plate", ("right",)),
+    ],
+)
+def test_text_of_laboratories(tmp_path: Path, name: str, text: object, kind: str, sides: Sequence[str]) -> None:
+    path = tmp_path / name
+    path.write_text(text())  # type: ignore[operator]
+    walk = analyse(path)
+    check(walk, sides)
+    assert walk.recording.kind == kind
+
+
+def test_sensors_by_place_and_times_in_milliseconds(tmp_path: Path) -> None:
+    path = tmp_path / "fsr.csv"
+    shares = {"heel": 0.3, "mid": 0.1, "met1": 0.2, "met5": 0.2, "toe": 0.2}
+    path.write_text("millis," + ",".join(shares) + "\n" + rows([1e3 * TIME, *(k * LEFT for k in shares.values())], ","))
+    walk = analyse(path)
+    assert walk.recording.feet["left"].force.shape[1] == 5
+    assert walk.recording.rate_hz == pytest.approx(100.0)
+    assert np.median(walk.steps["contact_time_s"]) == pytest.approx(PERIOD * STANCE, abs=0.012)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("time,hip_flexion_r,knee_angle_r\n" + rows([TIME] * 3, ","), "no column of the table is a load"),
+        ("time,LHEE_x,LHEE_y,LHEE_z\n" + rows([TIME] * 4, ","), "no column of the table is a load"),
+        (
+            "SUBJECT_ID,TRIAL_ID," + ",".join(f"F_V_PRO_{i}" for i in range(101)) + "\n" + rows([TIME[:20]] * 103, ","),
+            "each row is a curve of a trial",
+        ),
+        ("time,Fx,Fy,Fz\n" + rows([TIME, RIGHT, RIGHT, RIGHT], ","), "no foot pushes so"),
+        ("time,Fz\n" + rows([TIME, 700.0 + 200.0 * np.sin(12.0 * TIME)], ","), "both feet walk on one plate"),
+    ],
+)
+def test_what_is_no_walk_of_feet_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text(text)
+    with pytest.raises(FormatError, match=message):
+        analyse(path)
