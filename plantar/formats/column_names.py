@@ -20,8 +20,10 @@ Quantity = Literal["force", "pressure", "cop", "moment", "place", "cell", "numbe
 """What a column holds: "number" is a heading of nothing but side and number, as cells have; "foreign" is known
 and no load, such as an angle; "place" is an axis alone, a CoP beside forces; "unknown" is a word that is not known."""
 
-BODY_WEIGHTS = {"bw": 1.0, "xbw": 1.0, "%bw": 0.01, "bw%": 0.01, "percentbw": 0.01, "%bodyweight": 0.01, "n/bw": 1.0}
-BODY_WEIGHTS |= {"bodyweight": 1.0, "bodyweights": 1.0, "%ofbodyweight": 0.01, "timesbodyweight": 1.0}
+BODY_WEIGHTS: dict[str, float] = {
+    **dict.fromkeys(("bw", "xbw", "n/bw", "bodyweight", "bodyweights", "timesbodyweight"), 1.0),
+    **dict.fromkeys(("%bw", "bw%", "percentbw", "%bodyweight", "%ofbodyweight"), 0.01),
+}
 """Units of force relative to the body's weight; N/kg is apart, since it is of the mass."""
 
 _KINDS: dict[str, str] = {
