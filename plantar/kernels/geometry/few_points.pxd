@@ -1,15 +1,9 @@
 # C types of few_points.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
+from . cimport hull
 
 cdef double _INFINITE
-cdef double _FLAT
-
-@cython.locals(
-    cloud=list, ring=list, part=list, p=tuple, px=double, py=double, ax=double, ay=double, bx=double, by=double
-)
-cpdef list small_hull(points, double tolerance=*)
-
 
 @cython.final
 cdef class FewPoints:
@@ -17,7 +11,8 @@ cdef class FewPoints:
     cdef readonly Py_ssize_t corners
     cdef Py_ssize_t room
     cdef double[:, ::1] points
-    cdef double[:, ::1] cloud
+    cdef Py_ssize_t[::1] order
+    cdef Py_ssize_t[::1] chain
     cdef double[:, ::1] ring
 
     @cython.locals(points="double[:, ::1]", i=Py_ssize_t)
@@ -27,14 +22,11 @@ cdef class FewPoints:
 
     cpdef int add(self, double x, double y) except -1
 
-    @cython.locals(
-        count=Py_ssize_t, size=Py_ssize_t, begin=Py_ssize_t, back=int, i=Py_ssize_t, k=Py_ssize_t, px=double, py=double,
-        ax=double, ay=double, bx=double, by=double
-    )
-    cpdef void hull(self, Py_ssize_t first, Py_ssize_t end) noexcept
+    @cython.locals(i=Py_ssize_t)
+    cpdef int add_some(self, FewPoints other, Py_ssize_t first, Py_ssize_t end) except -1
 
-    @cython.locals(count=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, k=Py_ssize_t, x=double, y=double)
-    cdef Py_ssize_t _sort(self, Py_ssize_t first, Py_ssize_t end) noexcept
+    @cython.locals(chosen="double[:, ::1]")
+    cpdef int hull(self, Py_ssize_t first, Py_ssize_t end) except -1
 
     @cython.locals(
         count=Py_ssize_t, i=Py_ssize_t, inner=double, outer=double, ax=double, ay=double, bx=double, by=double,

@@ -1,4 +1,4 @@
-"""Kernels of the convex hull of a few points, for which making arrays costs more than the hull itself."""
+"""Kernel of the convex hull of a few points, for which making arrays costs more than the hull itself."""
 
 from __future__ import annotations
 
@@ -6,45 +6,15 @@ import math
 
 import numpy as np
 
-__all__ = ["FewPoints", "small_hull"]
+from . import hull
+
+__all__ = ["FewPoints"]
 
 _INFINITE = float("inf")
-_FLAT = 1e-9  # m^2: twice the area of a triangle that still counts as a straight line
-
-
-def small_hull(points, tolerance=1e-9):
-    """Convex hull of a few points given as tuples: the array function costs ten times as much on eight points.
-
-    Args:
-        points: Points (x, y) in m.
-        tolerance: Twice the area in m^2 of a triangle that still counts as a straight line.
-
-    Returns:
-        Hull as a list of points, counter-clockwise from the lowest x.
-    """
-    cloud = sorted(set(points))
-    if len(cloud) < 3:
-        return cloud
-    ring = []
-    for _ in range(2):
-        part = []
-        for p in cloud:
-            px, py = p
-            while len(part) >= 2:
-                ax, ay = part[len(part) - 2]
-                bx, by = part[len(part) - 1]
-                if (bx - ax) * (py - ay) - (by - ay) * (px - ax) > tolerance:
-                    break
-                part.pop()
-            part.append(p)
-        part.pop()
-        ring += part
-        cloud.reverse()
-    return ring
 
 
 class FewPoints:
-    """A few points, gathered anew again and again, and the convex hull of some of them.
+    """A few points, gathered again and again, and the convex hull of some of them.
 
     Attributes:
         count: Number of points.
@@ -64,8 +34,9 @@ class FewPoints:
             points[i, 0], points[i, 1] = self.points[i, 0], self.points[i, 1]
         self.room = room
         self.points = points
-        self.cloud = np.zeros((room, 2))
-        self.ring = np.zeros((2 * room, 2))
+        self.order = np.zeros(2 * room, dtype=np.intp)
+        self.chain = np.zeros(2 * room, dtype=np.intp)
+        self.ring = np.zeros((room, 2))
         self.corners = 0
 
     def clear(self):
@@ -85,51 +56,27 @@ class FewPoints:
         self.points[self.count, 0], self.points[self.count, 1] = x, y
         self.count += 1
 
+    def add_some(self, other, first, end):
+        """Add some of another's points.
+
+        Args:
+            other: Other `FewPoints`.
+            first: Number of the first of them there.
+            end: Number after the last one.
+        """
+        for i in range(first, end):
+            self.add(other.points[i, 0], other.points[i, 1])
+
     def hull(self, first, end):
-        """Make the convex hull of some points, as `small_hull` does.
+        """Make the convex hull of some points: exact, as `convex_hull` of an array.
 
         Args:
             first: Number of the first of them.
             end: Number after the last one.
         """
-        count = self._sort(first, end)
-        if count < 3:
-            for i in range(count):
-                self.ring[i, 0], self.ring[i, 1] = self.cloud[i, 0], self.cloud[i, 1]
-            self.corners = count
-            return
-        size = 0
-        for back in range(2):  # along the lower side, and back along the upper one
-            begin = size
-            for i in range(count):
-                k = count - 1 - i if back else i
-                px, py = self.cloud[k, 0], self.cloud[k, 1]
-                while size - begin >= 2:
-                    ax, ay = self.ring[size - 2, 0], self.ring[size - 2, 1]
-                    bx, by = self.ring[size - 1, 0], self.ring[size - 1, 1]
-                    if (bx - ax) * (py - ay) - (by - ay) * (px - ax) > _FLAT:
-                        break
-                    size -= 1
-                self.ring[size, 0], self.ring[size, 1] = px, py
-                size += 1
-            size -= 1
-        self.corners = size
-
-    def _sort(self, first, end):
-        """Put some points into `cloud`, from the lowest x on, each once; how many these are."""
-        count = 0
-        for i in range(first, end):
-            x, y = self.points[i, 0], self.points[i, 1]
-            k = count
-            while k > 0 and (self.cloud[k - 1, 0] > x or (self.cloud[k - 1, 0] == x and self.cloud[k - 1, 1] > y)):
-                k -= 1
-            if k > 0 and self.cloud[k - 1, 0] == x and self.cloud[k - 1, 1] == y:
-                continue
-            for j in range(count, k, -1):
-                self.cloud[j, 0], self.cloud[j, 1] = self.cloud[j - 1, 0], self.cloud[j - 1, 1]
-            self.cloud[k, 0], self.cloud[k, 1] = x, y
-            count += 1
-        return count
+        chosen = self.points[first:end]
+        self.corners = hull.hull_of_cloud(chosen, self.order, self.chain)
+        hull.gather(chosen, self.chain, self.corners, self.ring)
 
     def margin(self, x, y):
         """Signed distance in m of a point to the hull's edge.

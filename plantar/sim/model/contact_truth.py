@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from plantar.kernels.contacts.foot_contacts import FootContacts
 from plantar.kernels.contacts.ground_reaction import GroundReaction
-from plantar.kernels.geometry.few_points import small_hull
+from plantar.kernels.geometry.hull import convex_hull
 from plantar.mujoco.contacts import REACH, ContactReader
 
 __all__ = [
@@ -218,7 +218,7 @@ def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH
         if contacts.size:
             near = (contacts.carries | (contacts.distances <= reach)).tolist()
             points += [(x, y) for (x, y, _), n in zip(contacts.positions.tolist(), near, strict=True) if n]
-    return np.array(small_hull(points)).reshape(-1, 2)
+    return np.asarray(convex_hull(np.array(points).reshape(-1, 2)))
 
 
 def ground_truth(

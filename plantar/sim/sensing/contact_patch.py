@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.geometry.polygon import inner_offset
 from plantar.kernels.contacts.pressed_patch import patch_key
-from plantar.kernels.geometry.few_points import small_hull
+from plantar.kernels.geometry.hull import convex_hull
 
 __all__ = ["Patches", "half_planes_of", "patch_polygon", "reach_of"]
 
@@ -59,7 +59,7 @@ def patch_polygon(points: NDArray[np.float64], half_width: float) -> tuple[NDArr
     Returns:
         Convex polygon (m, 2) in m, counter-clockwise, and its half-planes (m, 3), as of `half_planes_of`.
     """
-    polygon = np.array(small_hull([(x, y) for x, y in points.tolist()]))
+    polygon = np.asarray(convex_hull(points))
     axis = np.array([1.0, 0.0])
     if len(polygon) >= 2:
         lines = half_planes_of(polygon)

@@ -8,8 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.geometry.polygon import area, convex_hull, signed_margin
-from plantar.kernels.geometry.few_points import small_hull
+from plantar.geometry.polygon import area, signed_margin
 from plantar.sim.model.contact_truth import (
     contact_wrench_in_frame,
     contact_wrench_in_world,
@@ -158,18 +157,6 @@ def test_contact_within_the_gap_carries_nothing_and_does_not_support() -> None:
     assert contacts.distances == pytest.approx(0.005)
     assert not contacts.forces.any()
     assert len(support_polygon_of_contacts([contacts])) == 0
-
-
-def test_small_hull_agrees_with_the_array_hull() -> None:
-    rng = np.random.default_rng(1)
-    for _ in range(200):
-        points = rng.uniform(-0.2, 0.2, (rng.integers(1, 12), 2)).round(3)
-        ours = small_hull([tuple(p) for p in points.tolist()])
-        theirs = convex_hull(points)
-        assert area(np.array(ours).reshape(-1, 2)) == pytest.approx(area(theirs), abs=1e-8)
-        assert set(ours) <= {tuple(p) for p in points.tolist()}
-    assert small_hull([]) == []
-    assert small_hull([(0.0, 0.0), (1.0, 1.0), (0.5, 0.5)]) == [(0.0, 0.0), (1.0, 1.0)]
 
 
 def test_truth_of_two_feet_is_the_sum_of_its_parts() -> None:
