@@ -50,7 +50,7 @@ def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
         "tilt_max_deg": out["tilt_max_deg"],
         "impact_median": round(median(impacts), 3),
         "impact_max": round(max(impacts), 3),
-        "torque_limit_share": limit.get("share_of_ticks", 0.0),
+        "torque_limit_share": limit.get("share_of_time", 0.0),
     }
 
 

@@ -55,7 +55,7 @@ def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
         "largest_impact_N": max(out["impacts_N"]),
         "tilt_deg": out["tilt_max_deg"],
         "slip_mm": 1e3 * out["slip_max_m"],
-        "torque_share": out["torque_limit"]["share_of_ticks"],
+        "torque_share": out["torque_limit"]["share_of_time"],
         "steps_off_m": max(push.get("step_changes_m", []), default=out["final"]["position_error_m"]),
     }
 

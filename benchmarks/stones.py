@@ -31,7 +31,7 @@ def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
     """The columns of one run."""
     return {
         **{name: out[name] for name in COLUMNS if name in out},
-        "at_torque_limit": out["torque_limit"]["share_of_ticks"],
+        "at_torque_limit": out["torque_limit"]["share_of_time"],
         "foothold_error_p95_m": out.get("footholds", {}).get("centroid_error_m", {}).get("p95", ""),
     }
 

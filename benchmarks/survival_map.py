@@ -129,7 +129,7 @@ def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
     push = out["push"]["pushes"][0] if out.get("push", {}).get("pushes") else None
     held = None
     if push is not None:
-        held = simulation.judge.joints.first_held(round(push["time_s"] / simulation.settings.period))
+        held = simulation.judge.joints.first_held(push["time_s"])
     return {
         "impulse_Ns": out["push"]["impulse_Ns"],
         "delivered_Ns": "" if push is None else round(math.hypot(*push["delivered_Ns"][:2]), 2),

@@ -51,7 +51,9 @@ cdef class FootContacts:
         k=Py_ssize_t, row=Py_ssize_t, x=double, y=double, z=double, a=double, b=double, f=double, fx=double, fy=double,
         fz=double, tx=double, ty=double, tz=double, height=double
     )
-    cpdef int add_to_ground(self, double reach, double[::1] sums, FewPoints points) except -1
+    cpdef int add_to_ground(
+        self, double reach, const unsigned char[::1] ground, double[::1] sums, FewPoints points
+    ) except -1
 
     @cython.locals(
         k=Py_ssize_t, row=Py_ssize_t, x=double, y=double, z=double, fx=double, fy=double, fz=double, pairs=dict,

@@ -151,16 +151,19 @@ class FootContacts:
                 out[row + 1, j] = self.vectors[row + 1, j]
                 out[row + 2, j] = self.vectors[row + 2, j]
 
-    def add_to_ground(self, reach, sums, points):
+    def add_to_ground(self, reach, ground, sums, points):
         """Add the contacts to the ground's wrench about the world's origin, one after the other.
 
         Args:
             reach: Gap in m up to which a contact counts as a point of support, whether it carries or not.
+            ground: Whether a geom is ground (geoms,), 0 or 1: contacts with others are left out; None leaves out none.
             sums: Receives, added to what is there (7,): force, torque, and the contacts' height times vertical force.
             points: `FewPoints` that receive the points of support.
         """
         fx, fy, fz, tx, ty, tz, height = sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]
         for k in range(self.size):
+            if ground is not None and self.ids[k, 1] >= 0 and not ground[self.ids[k, 1]]:
+                continue
             row = 3 * k
             x, y, z = self.vectors[row, 0], self.vectors[row, 1], self.vectors[row, 2]
             a, b, f = self.vectors[row + 1, 0], self.vectors[row + 1, 1], self.vectors[row + 1, 2]

@@ -18,20 +18,25 @@ class GroundReaction:
         height: Height in m of the plane of the ZMP; NaN takes the mean height of the contacts weighted by force.
         least: Vertical force in N below which there is no ZMP.
         reach: Largest gap in m of a contact that could carry.
+        ground: Whether a geom is ground (geoms,), 0 or 1: contacts with others do not count; None for all.
 
     Attributes:
+        loads: Vertical force in N on each foot.
         found: Whether there is a ZMP.
         x: The ZMP in m; NaN where there is none.
         y: The same.
         margin: Signed distance in m of the ZMP to the edge of the support, positive inside; NaN likewise.
     """
 
-    def __init__(self, height, least, reach):
+    def __init__(self, height, least, reach, ground=None):
         self.height = height
         self.least = least
         self.reach = reach
+        self.ground = ground
+        self.loads = np.zeros(2)
         self.sums = np.zeros(7)
         self.support = few_points.FewPoints()
+        self.sole = few_points.FewPoints()
         self.ends = [0]
         self.found = False
         self.x = self.y = self.margin = _NONE
@@ -46,8 +51,12 @@ class GroundReaction:
             self.sums[i] = 0.0
         self.support.clear()
         self.ends = [0]
-        for foot in feet:
-            foot.add_to_ground(self.reach, self.sums, self.support)
+        if len(feet) > self.loads.shape[0]:
+            self.loads = np.zeros(len(feet))
+        for number, foot in enumerate(feet):
+            before = self.sums[2]
+            foot.add_to_ground(self.reach, self.ground, self.sums, self.support)
+            self.loads[number] = self.sums[2] - before
             self.ends.append(self.support.count)
         self.support.hull(0, self.support.count)
         self._find_zmp()
@@ -75,15 +84,15 @@ class GroundReaction:
         Returns:
             The area; 0 of fewer than three points.
         """
-        first, end, count = self.ends[foot], self.ends[foot + 1], self.support.count
+        first, end = self.ends[foot], self.ends[foot + 1]
         if end - first < 3:
             return 0.0
-        if end - first == count:
+        if end - first == self.support.count:
             return self.support.area()
-        self.support.hull(first, end)
-        area = self.support.area()
-        self.support.hull(0, count)
-        return area
+        self.sole.clear()
+        self.sole.add_some(self.support, first, end)
+        self.sole.hull(0, end - first)
+        return self.sole.area()
 
     def told(self):
         """What was found, to keep.

@@ -1,4 +1,4 @@
-"""Kernel of what joints did at most: their speeds both ways, and whether one is at its torque limit."""
+"""Kernel of what joints did at most: their speeds both ways, and for how long they were at a limit."""
 
 from __future__ import annotations
 
@@ -8,51 +8,77 @@ __all__ = ["JointExtremes"]
 
 
 class JointExtremes:
-    """Follows k joints of a simulation.
+    """Follows k joints of a simulation, physics step by physics step.
 
     Args:
         speeds: Speeds (n,) of all joints in rad/s, where the simulator writes them.
-        places: Where each joint's speed stands there (k,).
-        torques: Torques (m,) of all servos in N m, likewise.
-        servos: Where each joint's torque stands there (k,).
+        places: Index of each joint's speed there (k,).
+        per_speed: One over each joint's speed limit (k,) in s/rad; 0 where there is none.
+        torques: Torques (m,) of all servos in N m, where the simulator writes them.
+        servos: Index of each joint's torque there (k,).
         per_torque: One over each joint's torque limit (k,) in 1/(N m); 0 where there is none.
 
     Attributes:
+        steps: Number of steps so far.
         high: Largest speed (k,) in rad/s so far; 0 where none was above 0.
         low: Least speed (k,) likewise.
-        shares: Share (k,) of its limit that each joint's torque was at the last `tick`.
+        longest: Most steps in a row (k,) in which a joint was faster than its limit.
+        held: Number of steps (k,) in which a joint's torque was at its limit.
+        any_held: Number of steps in which the torque of any joint was.
+        stays: Each stay of a joint at its torque limit: joint, first step and last step; the first step is 1.
     """
 
-    def __init__(self, speeds, places, torques, servos, per_torque):
+    def __init__(self, speeds, places, per_speed, torques, servos, per_torque):
+        count = len(places)
         self.speeds = speeds
         self.places = places
+        self.per_speed = per_speed
         self.torques = torques
         self.servos = servos
         self.per_torque = per_torque
-        self.high = np.zeros(len(places))
-        self.low = np.zeros(len(places))
-        self.shares = np.zeros(len(places))
+        self.steps = 0
+        self.any_held = 0
+        self.high = np.zeros(count)
+        self.low = np.zeros(count)
+        self.over = np.zeros(count, dtype=np.intp)
+        self.longest = np.zeros(count, dtype=np.intp)
+        self.held = np.zeros(count, dtype=np.intp)
+        self.since = np.zeros(count, dtype=np.intp)
+        self.stays = []
 
-    def extend(self):
-        """Take in the speeds as they are now."""
+    def step(self):
+        """Take in speeds and torques as they are now. A speed or torque that is no number is beyond its limit."""
+        self.steps += 1
+        any_held = False
         for i in range(self.places.shape[0]):
             speed = self.speeds[self.places[i]]
-            if speed > self.high[i] or speed != speed:
+            if not speed <= self.high[i]:
                 self.high[i] = speed
-            if speed < self.low[i] or speed != speed:
+            if not speed >= self.low[i]:
                 self.low[i] = speed
-
-    def tick(self):
-        """Take in speeds and torques as they are now.
-
-        Returns:
-            Whether a torque is at its limit.
-        """
-        self.extend()
-        at_limit = False
-        for i in range(self.places.shape[0]):
+            share = speed * self.per_speed[i]
+            if -1.0 <= share <= 1.0:
+                self.over[i] = 0
+            else:
+                self.over[i] += 1
+                if self.over[i] > self.longest[i]:
+                    self.longest[i] = self.over[i]
             share = self.torques[self.servos[i]] * self.per_torque[i]
-            self.shares[i] = share
-            if share >= 1.0 or share <= -1.0:
-                at_limit = True
-        return at_limit
+            if not -1.0 < share < 1.0:
+                any_held = True
+                self.held[i] += 1
+                if self.since[i] == 0:
+                    self.since[i] = self.steps
+            elif self.since[i] > 0:
+                self.stays.append((i, self.since[i], self.steps - 1))
+                self.since[i] = 0
+        if any_held:
+            self.any_held += 1
+
+    def all_stays(self):
+        """`stays`, and with them those that still last."""
+        lasting = []
+        for i in range(self.places.shape[0]):
+            if self.since[i] > 0:
+                lasting.append((i, self.since[i], self.steps))
+        return self.stays + lasting

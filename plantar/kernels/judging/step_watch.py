@@ -1,81 +1,177 @@
-"""Kernel that looks after each physics step whether something happened that is worth a closer look."""
+"""Kernel that follows a walk physics step by physics step: landings, margins, forces, stands, limits and falls."""
 
 from __future__ import annotations
 
-__all__ = ["AWAKE", "DIVERGED", "FAST", "LEGS", "StepWatch"]
+import math
+
+import numpy as np
+
+__all__ = ["DIVERGED", "FALLING", "LEGS", "StepWatch"]
 
 LEGS = 4
 """What `StepWatch.step` adds where the legs touch each other; 1 and 2 stand for a left and a right foot that lands."""
 
-FAST = 8
-"""What it adds where a joint is faster than its limit."""
+FALLING = 8
+"""What it adds where torso or CoM are where they are after a fall, or nearly so."""
 
-AWAKE = 16
-"""What it adds while it is told to stay awake."""
-
-DIVERGED = 32
+DIVERGED = 16
 """What it adds where the simulator warned that its state diverged."""
+
+_INFINITE = float("inf")
+_ROUNDING = 1e-9  # of the cosine of a tilt: nearer than this to a fall, the judge computes the angle
 
 
 class StepWatch:
-    """Follows two feet, the legs and the joints through the steps of a simulation.
+    """Follows two feet, the trunk, the legs and the joints.
 
     Args:
-        ground: Force (2,) of the ground on the feet in N, where the simulator writes it.
+        reaction: `GroundReaction` of both feet.
+        stands: `StandWatch` of both feet.
+        joints: `JointExtremes` of the legs.
+        upright: Rotation (9,) of the torso, row by row, where the simulator writes it.
+        center: CoM (3,) in m, likewise.
+        places: Origins of the left and the right sole (3,) each in m, likewise.
+        turns: Rotations of both soles (9,) each, likewise.
         legs: A number (1,) that is above 0 where the legs touch each other, likewise.
-        speeds: Speeds (n,) of joints in rad/s, likewise.
-        places: Where the speed of each joint that has a limit stands there (k,).
-        per_speed: One over each limit (k,) in s/rad.
-        least: Force in N from which on a foot touches the ground.
-        airborne: Steps without the ground after which a touch is a landing.
-        warnings: How often the simulator warned of what, where it counts.
-        divergence: Which of these warnings say that its state diverged.
+        warnings: How often the simulator warned of what, likewise.
+        divergence: Which of these warnings report that its state diverged.
+        least: Vertical ground force in N from which on a foot touches the ground.
+        windows: Numbers of steps: without the ground before a touch is a landing; in which its impact is looked for;
+            in which its contact area is.
+        fallen: Cosine of the torso's tilt, and height in m of the CoM above the lower sole, below which it has fallen.
 
     Attributes:
-        now: Number of steps so far.
-        awake: Whether the next steps are to be looked at in any case.
+        up: Least cosine of the torso's tilt so far.
+        margin: Least margin of the ZMP in m so far; inf where there was none.
     """
 
-    def __init__(self, ground, legs, speeds, places, per_speed, least, airborne, warnings, divergence):
-        self.ground = ground
+    def __init__(
+        self,
+        reaction,
+        stands,
+        joints,
+        upright,
+        center,
+        places,
+        turns,
+        legs,
+        warnings,
+        divergence,
+        least,
+        windows,
+        fallen,
+    ):
+        self.reaction = reaction
+        self.stands = stands
+        self.joints = joints
+        self.upright = upright
+        self.center = center
+        self.left, self.right = places
+        self.left_turn, self.right_turn = turns
         self.legs = legs
-        self.speeds = speeds
-        self.places = places
-        self.per_speed = per_speed
-        self.least = least
-        self.airborne = airborne
         self.warnings = warnings
         self.divergence = divergence
+        self.least = least
+        self.airborne, self.impact_window, self.area_window = windows
+        tilted, self.lowest = fallen
+        self.tilted = tilted + _ROUNDING
         self.now = 0
-        self.awake = False
-        self.left = 0
-        self.right = 0
+        self.up = 1.0
+        self.margin = _INFINITE
+        self.margin_since = _INFINITE
+        self.touched = np.zeros(2, dtype=np.intp)
+        self.landed = np.full(2, -(1 << 40), dtype=np.intp)
+        self.impact = np.zeros(2)
+        self.area = np.zeros(2)
+        self.rows = []
+        self.last = [-1, -1]
 
-    def step(self):
+    def step(self, feet):
         """After each physics step.
 
+        Args:
+            feet: `FootContacts` of both feet.
+
         Returns:
-            What is to be looked at, 0 for nothing: 1 a left foot that lands, 2 a right one, `LEGS`, `FAST`, `AWAKE`,
-            `DIVERGED`.
+            What the judge has to look at, 0 for nothing: the sum of 1 for a left foot that lands, 2 for a right one,
+            `LEGS`, `FALLING` and `DIVERGED`.
         """
         self.now += 1
-        seen = 16 if self.awake else 0
-        if self.ground[0] >= self.least:
-            if self.now - self.left > self.airborne:
-                seen += 1
-            self.left = self.now
-        if self.ground[1] >= self.least:
-            if self.now - self.right > self.airborne:
-                seen += 2
-            self.right = self.now
+        self.reaction.update(feet)
+        self.joints.step()
+        seen = 0
+        for foot in range(2):
+            if self.reaction.loads[foot] >= self.least:
+                if self.now - self.touched[foot] > self.airborne:
+                    self._land(foot)
+                    seen += 1 + foot
+                self.touched[foot] = self.now
+        self._follow()
+        return seen + self._look()
+
+    def _land(self, foot):
+        """A foot touches the ground after it was in the air."""
+        self._keep()
+        self.last[foot] = len(self.rows)
+        self.rows.append([self.now, foot, 0.0, 0.0, _INFINITE])
+        self.landed[foot] = self.now
+        self.margin_since = _INFINITE
+        self.impact[foot] = self.area[foot] = 0.0
+        self.stands.begin(foot, self.now)
+
+    def _keep(self):
+        """Write what was found since into the landings' rows."""
+        for foot in range(2):
+            number = self.last[foot]
+            if number >= 0:
+                row = self.rows[number]
+                row[2], row[3] = self.impact[foot], self.area[foot]
+        if self.rows:
+            row = self.rows[len(self.rows) - 1]
+            row[4] = self.margin_since
+
+    def landings(self):
+        """The landings so far.
+
+        Returns:
+            Of each the number of its physics step, the foot, the largest vertical ground force in N in the window after
+            it, the largest contact area in m^2 likewise, and the least margin in m before the next landing.
+        """
+        self._keep()
+        return [tuple(row) for row in self.rows]
+
+    def _follow(self):
+        """Take in margin, impacts, contact areas, stands and tilt of this step."""
+        reaction = self.reaction
+        if reaction.found:
+            self.margin = min(self.margin, reaction.margin)
+            self.margin_since = min(self.margin_since, reaction.margin)
+        for foot in range(2):
+            force, age = reaction.loads[foot], self.now - self.landed[foot]
+            if age <= self.impact_window and force > self.impact[foot]:
+                self.impact[foot] = force
+            if age <= self.area_window:
+                self.area[foot] = max(self.area[foot], reaction.area(foot))
+        self._stand(0, self.left, self.left_turn)
+        self._stand(1, self.right, self.right_turn)
+        self.up = min(self.up, self.upright[8])
+
+    def _look(self):
+        """What there is to look at but for landings."""
+        seen = 0
         if self.legs[0] > 0.0:
             seen += 4
-        for i in range(self.places.shape[0]):
-            if not -1.0 <= self.speeds[self.places[i]] * self.per_speed[i] <= 1.0:
-                seen += 8
-                break
+        lower = min(self.left[2], self.right[2])
+        if self.upright[8] < self.tilted or self.center[2] - lower < self.lowest:
+            seen += 8
         for i in range(self.divergence.shape[0]):
             if self.warnings[self.divergence[i]] > 0:
-                seen += 32
+                seen += 16
                 break
         return seen
+
+    def _stand(self, foot, place, turn):
+        """Take in where a foot is while it carries."""
+        force = self.reaction.loads[foot]
+        if force >= self.stands.enough:
+            self.stands.carry(foot, force, place[0], place[1], math.atan2(turn[3], turn[0]))

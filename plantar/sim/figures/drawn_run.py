@@ -6,7 +6,7 @@ They are drawn from what is there at a tick anyway: nothing is computed for them
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import mujoco
 import numpy as np
@@ -105,7 +105,7 @@ class DrawnRun:
         """Take the soles' latest readings."""
         self._latest = readings
 
-    def tick(self, time: float, command: Command, plan: PlanView, truth: GroundTruth) -> None:
+    def tick(self, time: float, command: Command, plan: PlanView, truth: GroundTruth, loads: Sequence[float]) -> None:
         """Draw one control tick, as far as its time has come.
 
         Args:
@@ -113,6 +113,7 @@ class DrawnRun:
             command: What the controller asked for.
             plan: The plan of the walk.
             truth: What the judge saw.
+            loads: Vertical ground force in N on the left and the right foot.
         """
         if self._next_frame == -math.inf:
             self._draw_shapes(time)
@@ -122,7 +123,7 @@ class DrawnRun:
         if time >= self._next_soles and self._latest:
             self._next_soles = time + _SOLES - 1e-6
             self._soles.write(time, np.concatenate([self._latest[side].force for side in SIDES]))
-            self._balance.write(time, self._balance_values(truth))
+            self._balance.write(time, self._balance_values(truth, loads))
         changed = plan.last is not self._change
         if changed and plan.last is not None:
             self._log.write(time, log_message(time, change_text(plan.last), name="plan"))
@@ -213,11 +214,10 @@ class DrawnRun:
             entity("support polygon", "world", ring, locked=False),
         )
 
-    def _balance_values(self, truth: GroundTruth) -> NDArray[np.float64]:
+    def _balance_values(self, truth: GroundTruth, loads: Sequence[float]) -> NDArray[np.float64]:
         world = self._world
         data = world.data
-        loads = {side: float(data.sensordata[world.touch[side]]) for side in SIDES}
-        ground = float(data.site_xpos[world.sole_sites[max(SIDES, key=lambda side: loads[side])], 2])
+        ground = float(data.site_xpos[world.sole_sites["left" if loads[0] >= loads[1] else "right"], 2])
         out = np.zeros(8 + 3 * _CORNERS)
         out[:3] = data.subtree_com[world.torso]
         if truth.zmp is not None:

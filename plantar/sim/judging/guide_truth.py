@@ -56,19 +56,25 @@ class GuideTruth:
         self._places = np.array([int(world.model.joint(name).qposadr[0]) for name in joints])
         self._way, self._sign, self._starts = abs(way), math.copysign(1.0, way), starts
         self._from: tuple[float, float, float] | None = None
+        self._sampled = False
         self.yielded = self.followed = self.astray = self.turned = 0.0
 
-    def update(self) -> None:
-        """Look at arm and feet: at each control tick."""
+    def update(self, time: float) -> None:
+        """Look at arm and feet: at each control tick, after its physics step.
+
+        Args:
+            time: Time of the tick in s.
+        """
         data = self._world.data
         held = data.xpos[self._link] + data.xmat[self._link].reshape(3, 3) @ self._point
         trunk = data.xmat[self._base].reshape(3, 3)
         # In the trunk's frame: a trunk that turns is no arm that yields.
         ahead = self._sign * float(trunk[:, 0] @ (held - data.xpos[self._base]))
         x, y, _ = np.mean([data.site_xpos[self._world.sole_sites[side]] for side in SIDES], axis=0).tolist()
-        if self._from is None or float(data.time) < self._starts:
+        if self._from is None or time < self._starts:
             self._from = (ahead, x, y)
             return
+        self._sampled = True
         self.yielded = max(self.yielded, ahead - self._from[0])
         self.followed, self.astray = self._sign * (x - self._from[1]), abs(y - self._from[2])
         self.turned = max(self.turned, float(np.abs(data.qpos[self._places] - self._posture).max()))
@@ -98,7 +104,10 @@ class GuideTruth:
 
     def summary(self) -> dict[str, Any]:
         """How far the arm gave way at most along the way in m, how far the feet had followed along it and gone to a
-        side at the end in m, and the largest turn of a joint of the arm out of its posture in degrees."""
+        side at the end in m, and the largest turn of a joint of the arm out of its posture in degrees; None each where
+        the run ended before the hand went."""
+        if not self._sampled:
+            return dict.fromkeys(("arm_yielded_m", "feet_followed_m", "feet_astray_m", "arm_turned_deg"))
         return {
             "arm_yielded_m": round(self.yielded, 4),
             "feet_followed_m": round(self.followed, 4),

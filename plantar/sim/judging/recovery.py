@@ -33,7 +33,7 @@ class Recovery:
         self.shoves = tuple(shoves)
         self._until = [s.start for s in self.shoves[1:]] + [end]
         self._now = -1
-        self._off = [0.0] * len(self.shoves)
+        self._off: list[float | None] = [None] * len(self.shoves)
         self._last_off = [s.start for s in self.shoves]  # last time at which it was not back yet
         self._seen = [-math.inf] * len(self.shoves)
 
@@ -62,32 +62,38 @@ class Recovery:
         self._seen[i] = time
         off = math.inf if zmp is None else math.dist(zmp, reference_zmp)
         if zmp is not None:
-            self._off[i] = max(self._off[i], off)
+            self._off[i] = max(self._off[i] or 0.0, off)
         leg = self._body.leg
         if off > _ZMP_BACK * leg or math.dist(com, reference_com) > _COM_BACK * leg:
             self._last_off[i] = time
 
-    def summary(self) -> dict[str, Any]:
+    def summary(self, applied: Sequence[NDArray[np.float64]]) -> dict[str, Any]:
         """Figures of all pushes: direction, impulse, largest ZMP deviation, and time from the push's end to rest.
 
+        Args:
+            applied: Impulse (3,) in N s that was applied of each push that began.
+
         Returns:
-            Numbers and lists for the run's summary; a push after which the robot did not come to rest has None.
+            Numbers and lists for the run's summary. None: the impulse of a push that never began, the deviation where
+            there was no ZMP, and the time of a push after which the robot did not come to rest.
         """
         pushes: list[dict[str, Any]] = []
         for i, shove in enumerate(self.shoves):
             back = self._seen[i] - self._last_off[i] >= _CALM * self._body.beat
             x, y, _ = shove.impulse.tolist()
+            off = self._off[i]
             pushes.append(
                 {
                     "time_s": round(shove.start, 3),
-                    "impulse_Ns": round(math.hypot(x, y), 2),
+                    "impulse_Ns": round(float(np.linalg.norm(applied[i])), 2) if i < len(applied) else None,
                     "direction_deg": round(math.degrees(math.atan2(y, x)), 1),
-                    "zmp_off_max_m": round(self._off[i], 4),
+                    "zmp_off_max_m": None if off is None else round(off, 4),
                     "recovered_s": round(max(0.0, self._last_off[i] - shove.end), 3) if back else None,
                 }
             )
+        seen = [off for off in self._off if off is not None]
         return {
             "pushes": pushes,
             "recovered": sum(p["recovered_s"] is not None for p in pushes),
-            "zmp_off_max_m": round(max(self._off, default=0.0), 4),
+            "zmp_off_max_m": round(max(seen), 4) if seen else None,
         }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -21,22 +21,19 @@ _CARRIES = 0.25
 """Share of the weight that makes a touch a stand: probes, taps and bounces carry less, or are followed by one."""
 
 
-@dataclass
+@dataclass(frozen=True)
 class Stand:
     """One stand of a foot.
 
     Attributes:
         side: Which foot.
         touchdown: When it touched the ground in s.
-        place: Its sole's origin (x, y) in m and heading in rad when it last carried a quarter of the weight; None
-            where it never did.
-        slip: Largest distance in m of the origin from where it was when it first did.
+        place: Its sole's origin (x, y) in m and heading in rad when it last carried a quarter of the weight.
     """
 
     side: Side
     touchdown: float
-    place: tuple[float, float, float] | None = None
-    slip: float = 0.0
+    place: tuple[float, float, float]
 
 
 class StepCount:
@@ -49,50 +46,26 @@ class StepCount:
     Args:
         goal: The footsteps.
         weight: Weight of the robot in N.
+        time_of: When a physics step began in s, by its number.
 
     Attributes:
-        watch: Takes in where the feet are and what they carry at each control tick.
+        watch: Takes in where the feet are and what they carry after each physics step.
     """
 
-    def __init__(self, goal: WalkGoal, weight: float) -> None:
+    def __init__(self, goal: WalkGoal, weight: float, time_of: Callable[[int], float]) -> None:
         self.goal = goal
         self.watch = StandWatch(_CARRIES * weight)
-        self.stands: list[Stand] = []
-        self._standing: dict[Side, Stand] = {side: Stand(side, -math.inf) for side in SIDES}
-
-    def touch(self, side: Side, time: float) -> None:
-        """A foot touches the ground after it was in the air.
-
-        Args:
-            side: Which foot.
-            time: When, in s.
-        """
-        self._hand_over(side)
-        self.watch.begin(SIDES.index(side))
-        self._standing[side] = Stand(side, time)
-        self.stands.append(self._standing[side])
-
-    def _hand_over(self, side: Side) -> None:
-        """Let the stand of a foot know what was found of it so far."""
-        stand, foot = self._standing[side], SIDES.index(side)
-        if self.watch.stood[foot]:
-            x, y, yaw = np.asarray(self.watch.place)[foot].tolist()
-            stand.place, stand.slip = (x, y, yaw), float(self.watch.slip[foot])
+        self._time_of = time_of
 
     @property
     def slip(self) -> float:
         """Largest slip in m of a foot while it carried a quarter of the weight."""
-        for side in SIDES:
-            self._hand_over(side)
-        stands = [*self.stands, *self._standing.values()]
-        return max((s.slip for s in stands), default=0.0)
+        return float(self.watch.slip)
 
     def last_stands(self) -> list[Stand]:
         """The stands that could be steps: of each foot the last one before the other foot touches down."""
-        for side in SIDES:
-            self._hand_over(side)
-        carrying = [s for s in self.stands if s.place is not None]
-        return [list(group)[-1] for _, group in groupby(carrying, key=lambda s: s.side)]
+        rows = [list(group)[-1] for _, group in groupby(self.watch.stands(), key=lambda row: row[1])]
+        return [Stand(SIDES[foot], self._time_of(step), (x, y, yaw)) for step, foot, x, y, yaw in rows]
 
     def taken(self) -> tuple[int, str]:
         """How many steps were taken one after the other, and what became of the first that was not."""
@@ -125,7 +98,6 @@ class StepCount:
         step = self.goal.steps[k]
         if stand.side != step.side:
             return f"the {stand.side} foot landed in its stead"
-        assert stand.place is not None
         return _far_from(self.goal.places(k, stand.touchdown), stand.place, step.side, self.goal.near)
 
 

@@ -23,6 +23,8 @@ STEPS_TO_REST = 2
 AT_REST = 0.00824
 """Speed of the CoM in legs a beat below which it stands: 0.02 m/s for H1."""
 
+_ORIGIN = np.zeros(2)
+
 
 class VelocityTruth:
     """Follows a walk at commanded velocities.
@@ -34,9 +36,20 @@ class VelocityTruth:
         world: The world.
         table: The commands over time.
         timing: Durations of the walk's phases.
+        begin: Where the walk begins: middle of the feet (2,) in m and heading in rad.
+
+    Attributes:
+        course: Where the commanded course has come to: place (2,) in m, and heading in rad.
     """
 
-    def __init__(self, world: World, table: VelocityTable, timing: Timing) -> None:
+    def __init__(
+        self,
+        world: World,
+        table: VelocityTable,
+        timing: Timing,
+        begin: tuple[NDArray[np.float64], float] = (_ORIGIN, 0.0),
+    ) -> None:
+        self.course = begin
         self._world = world
         self._table = table
         self._delay = timing.single_support + timing.double_support
@@ -66,6 +79,10 @@ class VelocityTruth:
             self._walks_from = time + self._shift - self._delay
         if command is None or time < self._walks_from:
             return
+        place, way = self.course
+        ahead, aside = math.cos(way), math.sin(way)
+        step = (command.forward * ahead - command.left * aside, command.forward * aside + command.left * ahead)
+        self.course = place + period * np.array(step), way + command.turn * period
         c, s = math.cos(heading), math.sin(heading)
         wanted = math.hypot(command.forward, command.left)
         if wanted > 0.0:

@@ -34,6 +34,9 @@ class ZmpComparison:
         noise: Standard deviation of a taxel's noise in N.
         period: Control period in s.
         begin: Time in s from which differences count: filters and estimator have settled.
+
+    Attributes:
+        latest: ZMP (2,) in m from the skin and from the ankles in the world frame at the last tick, None without load.
     """
 
     def __init__(self, layouts: Mapping[Side, SoleLayout], noise: float, period: float, begin: float = 1.0) -> None:
@@ -42,16 +45,14 @@ class ZmpComparison:
         self._skins = {s: SkinLoad(layouts[s], noise, self._share) for s in SIDES}
         self._wrenches: dict[Side, NDArray[np.float64]] = {}
         self._differences: list[NDArray[np.float64]] = []
+        self.latest: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None] = (None, None)
 
-    def update(self, time: float, command: Command) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None]:
+    def update(self, time: float, command: Command) -> None:
         """At each control tick.
 
         Args:
             time: Time in s.
             command: The command, with what the controller sensed; it has to have ankle loads.
-
-        Returns:
-            ZMP (2,) in m from the skin and from the ankles in the world frame, None without load.
         """
         skin: list[NDArray[np.float64] | None] = []
         ankle: list[NDArray[np.float64] | None] = []
@@ -73,7 +74,7 @@ class ZmpComparison:
         one, other = zmp_of_feet(skin, skin_loads), zmp_of_feet(ankle, ankle_loads)
         if one is not None and other is not None and time >= self._begin:
             self._differences.append(one - other)
-        return one, other
+        self.latest = (one, other)
 
     def summary(self) -> dict[str, Any]:
         """RMS and largest distance between the two ZMPs in m, and the mean difference (x, y)."""

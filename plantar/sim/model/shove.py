@@ -27,11 +27,19 @@ class Shove:
     impulse: NDArray[np.float64]
     smooth: bool
 
-    def force(self, time: float) -> NDArray[np.float64]:
-        """Force (3,) in N at a time in s."""
-        length = self.end - self.start
-        share = (time - self.start) / length
-        if not 0.0 <= share < 1.0:
-            return np.zeros(3)
-        shape = 0.5 * math.pi * math.sin(math.pi * share) if self.smooth else 1.0
-        return np.asarray(self.impulse * (shape / length))
+    def force(self, time: float, lasting: float) -> NDArray[np.float64]:
+        """Mean force (3,) in N over an interval, so that forces held for whole steps add up to the impulse.
+
+        Args:
+            time: Begin of the interval in s.
+            lasting: Its length in s, above 0.
+
+        Returns:
+            The force in the world frame.
+        """
+        return np.asarray(self.impulse * ((self._given(time + lasting) - self._given(time)) / lasting))
+
+    def _given(self, time: float) -> float:
+        """Share of the impulse that is given until a time in s."""
+        share = min(1.0, max(0.0, (time - self.start) / (self.end - self.start)))
+        return 0.5 - 0.5 * math.cos(math.pi * share) if self.smooth else share

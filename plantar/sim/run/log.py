@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -135,9 +135,15 @@ class RunLog:
         self._drawn.say(time, text, level)
 
     def tick(
-        self, sensors: Sensors, command: Command, plan: PlanView, joints: NDArray[np.float64], truth: GroundTruth
+        self,
+        sensors: Sensors,
+        command: Command,
+        plan: PlanView,
+        joints: NDArray[np.float64],
+        truth: GroundTruth,
+        loads: Sequence[float],
     ) -> None:
-        """Record one control tick.
+        """Record one control tick, after the physics step that began with it.
 
         Args:
             sensors: What the controller read.
@@ -145,6 +151,7 @@ class RunLog:
             plan: The plan of the walk.
             joints: Joint references (k,) in rad.
             truth: What the judge saw.
+            loads: Vertical ground force in N on the left and the right foot.
         """
         w, time = self._world, sensors.time
         data, state, reference = w.data, command.state, command.reference
@@ -161,9 +168,9 @@ class RunLog:
         row[9], row[10] = command.phase.kind, command.phase.step
         self._reference.write(time, row)
         row = self._foot_row
-        for side, channel in self._truth.items():
+        for load, (side, channel) in zip(loads, self._truth.items(), strict=True):
             site = w.sole_sites[side]
-            row[0], row[1:4], row[4:] = data.sensordata[w.touch[side]], data.site_xpos[site], data.site_xmat[site]
+            row[0], row[1:4], row[4:] = load, data.site_xpos[site], data.site_xmat[site]
             channel.write(time, row)
         row = self._body_row
         row[:3], row[6:15], row[15:] = data.subtree_com[w.torso], data.xmat[w.torso], truth.wrench
@@ -172,7 +179,7 @@ class RunLog:
         self._body.write(time, row)
         if command.footholds:
             self._footholds(time, command)
-        self._drawn.tick(time, command, plan, truth)
+        self._drawn.tick(time, command, plan, truth, loads)
         if self._touch is not None:
             self._record_touch(self._touch, sensors, command)
         if self._arm is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.errors import SceneError
 from plantar.gait.plan.phases import WalkSchedule
@@ -35,6 +36,12 @@ class Pusher:
             seeds 4-7 again, and so on; the step is drawn. Pushes while standing: each one's direction, all around, and
             its strength, from 0.6 times the scene's impulse up to all of it.
 
+    Attributes:
+        direction: Direction in words.
+        step: Step that the push falls into; None for none.
+        shoves: The pushes as asked.
+        applied: Impulse (3,) in N s that was applied of each so far; ends with the last one that began.
+
     Raises:
         SceneError: If the scene pushes at a step that the walk does not have, or when nobody stands any more.
     """
@@ -44,7 +51,9 @@ class Pusher:
         self.direction = direction_name(push, seed)
         self.step: int | None = None
         self.shoves: tuple[Shove, ...] = ()
+        self.applied: list[NDArray[np.float64]] = []
         self._next = 0
+        self._pushing = False
         self._height = push.height
         if push.strength <= 0.0:
             return
@@ -63,15 +72,22 @@ class Pusher:
 
     def apply(self, world: World) -> None:
         """Set the external force on the torso for the next physics step."""
-        if self._next >= len(self.shoves):
+        if self._next >= len(self.shoves) and not self._pushing:
             return
-        shove, time = self.shoves[self._next], world.data.time + SAME_TIME
-        if time < shove.start:
-            return
-        fx, fy, fz = shove.force(time).tolist()
-        world.data.xfrc_applied[world.torso] = (fx, fy, fz, -self._height * fy, self._height * fx, 0.0)
-        if time >= shove.end:
+        time, period = world.data.time + SAME_TIME, world.period
+        force = np.zeros(3)
+        self._pushing = False
+        while self._next < len(self.shoves) and time + period > self.shoves[self._next].start:
+            part = self.shoves[self._next].force(time, period)
+            if len(self.applied) == self._next:
+                self.applied.append(np.zeros(3))
+            self.applied[self._next] += period * part
+            force, self._pushing = force + part, True
+            if time + period < self.shoves[self._next].end:
+                break
             self._next += 1
+        fx, fy, fz = force.tolist()
+        world.data.xfrc_applied[world.torso] = (fx, fy, fz, -self._height * fy, self._height * fx, 0.0)
 
 
 def direction_name(push: Push, seed: int) -> str:

@@ -67,9 +67,10 @@ def demo_text(made: Mapping[str, Any], output: Path) -> str:
 def _outcome(summary: Summary) -> list[str]:
     """How it ended, and every criterion that failed."""
     end = "completed" if summary["completed"] else ("FELL" if summary["fell"] else "NOT COMPLETED")
+    planned = "" if summary["steps_planned"] is None else f" of {summary['steps_planned']}"
     return [
-        f"{summary['scene']} with {summary['robot']}, seed {summary['seed']}: {end}, {summary['steps_taken']} of "
-        f"{summary['steps_planned']} steps in {summary['sim_time_s']:.1f} s",
+        f"{summary['scene']} with {summary['robot']}, seed {summary['seed']}: {end}, {summary['steps_taken']}{planned} "
+        f"steps in {summary['sim_time_s']:.1f} s",
         *(
             f"  not completed, {reason['criterion'].replace('_', ' ')}: {reason['text']}"
             for reason in summary["reasons"]
@@ -126,7 +127,7 @@ def _joints(summary: Summary) -> list[str]:
     joints = ", ".join(f"{name} {100 * share:.1f} %" for name, share in most)
     lines = [
         f"  a standing foot slipped by at most {1e3 * summary['slip_max_m']:.1f} mm; joints at their torque limit in "
-        f"{100 * held['share_of_ticks']:.1f} % of the ticks{f' ({joints})' if joints else ''}"
+        f"{100 * held['share_of_time']:.1f} % of the time{f' ({joints})' if joints else ''}"
     ]
     speed = summary["joint_speed"]
     if speed is None:
@@ -147,9 +148,10 @@ def _balance(summary: Summary) -> list[str]:
     balance = summary.get("balance", {})
     lines = []
     if balance.get("pushes"):
+        off = balance["zmp_off_max_m"]
         lines.append(
             f"  recovered from {balance['recovered']} of {len(balance['pushes'])} pushes, which moved the true ZMP by "
-            f"up to {1e3 * balance['zmp_off_max_m']:.0f} mm"
+            f"up to {'-' if off is None else f'{1e3 * off:.0f} mm'}"
         )
     zmps = balance.get("skin_against_force_torque", {})
     if zmps.get("rms_m") is not None:

@@ -102,18 +102,19 @@ class Touched:
             self._led = GuideTruth(world, grip.link, grip.point, tuple(worn.joints), worn.posture, way, starts)
         return self.touch
 
-    def update(self, world: World, zmp: NDArray[np.float64] | None) -> None:
-        """At each control tick.
+    def update(self, world: World, time: float, zmp: NDArray[np.float64] | None) -> None:
+        """At each control tick, after its physics step.
 
         Args:
             world: The world.
+            time: Time of the tick in s.
             zmp: True ZMP (2,) in m; None without load.
         """
         if self.touch is not None and self.hands is not None:
             com = world.data.subtree_com[world.torso]
-            self._truth.update(float(world.data.time), com, zmp, self.touch.wrench)
+            self._truth.update(time, com, zmp, self.touch.wrench)
         if self._led is not None:
-            self._led.update()
+            self._led.update(time)
 
     def reasons(self, stands: Sequence[Stand]) -> list[dict[str, Any]]:
         """Criteria that failed of what the scene asks beside a completed walk.
@@ -157,9 +158,11 @@ class Touched:
                 row |= {name: round(value, 3) for name, value in measured.items()}
             changes = step_changes(stands, self._feet, self._steps)
             ways = strides(stands, self._feet, self._steps)
+            given = max((float(np.hypot(*p.impulse)) for p in self._pushes()), default=None)
             found["push"] = {
-                "impulse_Ns": round(push.strength, 4),
-                "dv_m_s": round(push.strength / self._body.mass, 4),
+                "impulse_Ns": None if given is None else round(given, 4),
+                "asked_Ns": round(push.strength, 4),
+                "dv_m_s": None if given is None else round(given / self._body.mass, 4),
                 "direction": direction_name(push, self._seed),
                 "step_changes_m": [round(change, 4) for change in changes],
                 "strides_m": [[round(v, 4) for v in way.true] for way in ways],

@@ -38,7 +38,7 @@ def test_an_honest_walk_has_no_reasons() -> None:
     assert not summary["moved_steps"]
     assert summary["final"]["height_m"] == pytest.approx(0.80, abs=0.005)
     assert summary["slip_max_m"] < 0.002
-    assert summary["torque_limit"] == {"share_of_ticks": 0.0, "joints": {}}
+    assert summary["torque_limit"]["share_of_time"] < 0.001
     assert 0.7 < summary["joint_speed"]["share_of_limit"] < 1.0
 
 
@@ -84,7 +84,7 @@ def test_a_fifth_more_mass_than_the_controller_knows_does_not_count() -> None:
     mujoco.mj_setConst(model, mujoco.MjData(model))
     summary = simulation.run()
     assert "collision" in criteria(summary)
-    assert summary["torque_limit"]["share_of_ticks"] > 0.1
+    assert summary["torque_limit"]["share_of_time"] > 0.1
     assert max(summary["torque_limit"]["joints"], key=summary["torque_limit"]["joints"].get).endswith("hip_roll")
 
 

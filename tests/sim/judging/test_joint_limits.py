@@ -10,7 +10,7 @@ from plantar.sim.model.world import PHYSICS_PERIOD, World, build_world
 from plantar.sim.robots import Robot
 from plantar.sim.terrain import Ground
 
-STEPS, EVERY = 400, 5
+STEPS = 400
 
 
 def swinging(rng: np.random.Generator, limits: np.ndarray) -> np.ndarray:
@@ -43,32 +43,26 @@ def test_speeds_beyond_the_limits_are_counted_joint_by_joint(world: World, order
     judge = JointLimits(world)
     limits = np.array([*world.robot.velocity_limits] * 2)
     speeds = swinging(rng, limits)
-    for i, row in enumerate(speeds):
+    for row in speeds:
         world.data.qvel[world.joint_qvel] = row
-        judge.step()
-        if i % EVERY == 0:
-            judge.tick()
+        judge.extremes.step()
     shares = np.abs(speeds) / limits
     runs = [longest_run(column > 1.0) for column in shares.T]
     assert judge.longest == pytest.approx(PHYSICS_PERIOD * np.array(runs), abs=1e-12)
-    seen = np.where(shares > 1.0, shares, 0.0).max(axis=0)
-    at_ticks = shares[::EVERY].max(axis=0)
-    assert judge.fastest[seen > 0.0] == pytest.approx(seen[seen > 0.0], rel=1e-12)
-    assert (judge.fastest >= at_ticks * (1.0 - 1e-12)).all()
-    assert (judge.fastest <= shares.max(axis=0) * (1.0 + 1e-12)).all()
+    assert judge.fastest == pytest.approx(shares.max(axis=0), rel=1e-12)
 
 
-def test_ticks_at_a_torque_limit_are_counted(world: World) -> None:
+def test_steps_at_a_torque_limit_are_counted(world: World) -> None:
     rng = np.random.default_rng(0)
     judge, servos = JointLimits(world), world.servos
     limits = world.model.actuator_forcerange[servos, 1]
     torques = limits * rng.uniform(-1.02, 1.02, (300, len(servos))).clip(-1.0, 1.0)
     for row in torques:
         world.data.actuator_force[servos] = row
-        judge.tick()
+        judge.extremes.step()
     held = np.abs(torques) >= 0.999 * limits
     found = judge.summary()["torque_limit"]
-    assert found["share_of_ticks"] == pytest.approx(held.any(axis=1).mean(), abs=1e-4)
+    assert found["share_of_time"] == pytest.approx(held.any(axis=1).mean(), abs=1e-4)
     wanted = {name: n / 300 for name, n in zip(judge.names, held.sum(axis=0), strict=True) if n}
     assert found["joints"] == pytest.approx(wanted, abs=1e-4)
 
@@ -76,8 +70,7 @@ def test_ticks_at_a_torque_limit_are_counted(world: World) -> None:
 def test_a_robot_without_limits_is_never_too_fast(world: World, h1: Robot) -> None:
     judge = JointLimits(replace(world, robot=replace(h1, velocity_limits=())))
     world.data.qvel[:] = 1e3
-    judge.step()
-    judge.tick()
+    judge.extremes.step()
     assert judge.longest.max() == 0.0
     assert judge.summary()["joint_speed"] is None
 
@@ -89,7 +82,7 @@ def test_a_joint_that_moves_alone_is_seen_at_its_own_limit(world: World) -> None
             judge = JointLimits(world)
             world.data.qvel[:] = 0.0
             world.data.qvel[world.joint_qvel[i]] = share * limit
-            judge.step()
+            judge.extremes.step()
             assert (judge.longest > 0.0).tolist() == [j == i and abs(share) > 1.0 for j in range(len(limits))]
 
 
@@ -98,15 +91,15 @@ def test_the_joint_that_stays_at_its_torque_limit_first_is_named(world: World) -
     limits = world.model.actuator_forcerange[world.servos, 1]
     force = world.data.actuator_force
     knee, hip = judge.names.index("left_knee"), judge.names.index("right_hip_roll")
-    for tick in range(1, 31):
+    for step in range(1, 151):
         force[world.servos] = 0.0
-        if tick in (2, 3, 4, 12, 14, 16) or tick >= 25:
+        if 10 < step <= 24 or 60 < step <= 70 or step > 120:
             force[world.servos[knee]] = -limits[knee]
-        if 20 <= tick < 23:
+        if 95 < step <= 115:
             force[world.servos[hip]] = limits[hip]
-        judge.tick()
-    assert judge.first_held(since=1) == "left_knee"
-    assert judge.first_held(since=5) == "right_hip_roll"  # the knee's short ones are no stay
-    assert judge.first_held(since=24) == "left_knee"
-    assert judge.first_held(since=28, ticks=4) is None
-    assert JointLimits(world).first_held(since=0) is None
+        judge.extremes.step()
+    assert judge.first_held(since=0.0) == "right_hip_roll"  # the knee's short ones are no stay
+    assert judge.first_held(since=0.0, lasting=0.014) == "left_knee"
+    assert judge.first_held(since=0.101) == "left_knee"  # 14 ms are left of the hip's
+    assert judge.first_held(since=0.0, lasting=0.031) is None
+    assert JointLimits(world).first_held(since=0.0) is None

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -30,7 +32,7 @@ def test_only_the_step_that_left_the_plan_is_changed() -> None:
 
 def test_changes_end_where_the_feet_come_out_of_turn() -> None:
     wrong = stands((0, 0), (0, 0), (0, 0))
-    wrong[2].side = wrong[1].side
+    wrong[2] = replace(wrong[2], side=wrong[1].side)
     assert len(step_changes(wrong, FEET, STEPS)) == 2
     assert step_changes([], FEET, STEPS) == []
 

@@ -17,7 +17,7 @@ def run(zmp_at, com_at, end: float = 9.0) -> dict:
     recovery = Recovery(SHOVES, end)
     for time in np.arange(0.0, end, 0.005):
         recovery.update(time, zmp_at(time), com_at(time), ORIGIN, ORIGIN)
-    return recovery.summary()
+    return recovery.summary([s.impulse for s in SHOVES])
 
 
 def test_a_push_is_over_when_zmp_and_com_stay_near_the_plan() -> None:
@@ -44,4 +44,7 @@ def test_a_robot_that_stays_off_sways_on_or_falls_has_not_recovered() -> None:
     # A run that ends in the fall never saw the robot at rest.
     recovery = Recovery(SHOVES, 9.0)
     recovery.update(1.1, ORIGIN, ORIGIN, ORIGIN, ORIGIN)
-    assert recovery.summary()["recovered"] == 0
+    cut = recovery.summary([0.5 * SHOVES[0].impulse])
+    assert cut["recovered"] == 0
+    assert [p["impulse_Ns"] for p in cut["pushes"]] == [10.0, None]
+    assert [p["zmp_off_max_m"] for p in cut["pushes"]] == [0.0, None]

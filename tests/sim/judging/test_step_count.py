@@ -24,12 +24,12 @@ class Walk:
 
     def __init__(self, steps: tuple[Footstep, ...] = STEPS, feet: dict[Side, Footstep] = FEET) -> None:
         self.goal = WalkGoal(feet, steps)
-        self.count = StepCount(self.goal, WEIGHT)
+        self.count = StepCount(self.goal, WEIGHT, float)
         self.time = 0.0
 
     def land(self, step: Footstep, force: float = WEIGHT, dx: float = 0.0, dyaw: float = 0.0) -> None:
         self.time += 1.0
-        self.count.touch(step.side, self.time)
+        self.count.watch.begin(SIDES.index(step.side), round(self.time))
         self.count.watch.carry(SIDES.index(step.side), force, step.x + dx, step.y, step.yaw + dyaw)
 
     def say(self, *moved: MovedStep) -> None:

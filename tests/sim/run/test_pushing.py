@@ -64,8 +64,8 @@ def test_a_standing_robot_is_pushed_smoothly_all_around() -> None:
         assert [s.start for s in shoves] == pytest.approx(1.5 + 3.5 * np.arange(6))
         for shove in shoves:
             times = np.arange(shove.start - 0.1, shove.end + 0.1, 1e-3)
-            forces = np.array([shove.force(t) for t in times])
-            assert forces.sum(axis=0) * 1e-3 == pytest.approx(shove.impulse, rel=1e-3, abs=1e-9)
+            forces = np.array([shove.force(t, 1e-3) for t in times])
+            assert forces.sum(axis=0) * 1e-3 == pytest.approx(shove.impulse, rel=1e-9, abs=1e-9)
             assert np.abs(np.diff(forces, axis=0)).max() < 0.5
             assert 0.6 * 30.0 * 0.5 <= np.linalg.norm(shove.impulse) <= 30.0
             assert abs(shove.impulse[1]) <= 15.0
@@ -75,7 +75,7 @@ def test_a_standing_robot_is_pushed_smoothly_all_around() -> None:
 
 def test_a_push_at_the_neck_tips_as_well(world: World) -> None:
     pusher = Pusher(Push(impulse=20.0, duration=1.0, count=1, height=0.6, direction="forward"), STANDING, 0)
-    world.data.time = 2.0
+    world.data.time = 1.9995  # a step about the middle of the push
     pusher.apply(world)
     fx = float(world.data.xfrc_applied[world.torso, 0])
     assert fx == pytest.approx(20.0 * np.pi / 2.0, rel=1e-6)
@@ -83,6 +83,19 @@ def test_a_push_at_the_neck_tips_as_well(world: World) -> None:
     world.data.time = 2.6
     pusher.apply(world)
     assert not world.data.xfrc_applied[world.torso].any()
+
+
+@pytest.mark.parametrize("duration", [1.5e-3, 0.1, 0.1004])
+def test_what_is_applied_is_what_was_asked_for_whatever_the_duration(world: World, duration: float) -> None:
+    pusher = Pusher(Push(impulse=20.0, duration=duration, step=2, phase=0.31), SCHEDULE, 0)
+    applied = np.zeros(3)
+    while world.data.time < pusher.shoves[0].end + 0.01:
+        pusher.apply(world)
+        applied += world.period * world.data.xfrc_applied[world.torso, :3]
+        world.data.time += world.period
+    assert applied == pytest.approx([20.0, 0.0, 0.0], abs=1e-6)
+    assert pusher.applied[0] == pytest.approx(applied, abs=1e-9)
+    assert not world.data.xfrc_applied.any()
 
 
 @pytest.mark.parametrize(

@@ -30,7 +30,7 @@ def test_what_went_wrong_is_told(summary: dict[str, Any]) -> None:
         "reasons": [{"criterion": "torque_limit", "value": 1, "limit": 0, "text": "too weak"}],
         "zmp_margin_min_m": None,
         "impacts_N": [],
-        "torque_limit": {"share_of_ticks": 0.1, "joints": {f"j{k}": 0.01 * k for k in range(5)}},
+        "torque_limit": {"share_of_time": 0.1, "joints": {f"j{k}": 0.01 * k for k in range(5)}},
         "joint_speed": None,
         "out_of_reach_since_s": 1.5,
         "figures": ["plots/feet.png"],
@@ -40,7 +40,7 @@ def test_what_went_wrong_is_told(summary: dict[str, Any]) -> None:
         "FELL",
         "not completed, torque limit: too weak",
         "ZMP margin -",
-        "10.0 % of the ticks (j4 4.0 %, j3 3.0 %, j2 2.0 %)",
+        "10.0 % of the time (j4 4.0 %, j3 3.0 %, j2 2.0 %)",
         "joint speeds are not limited",
         "from 1.50 s on the legs did not reach",
     ):

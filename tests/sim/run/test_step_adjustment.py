@@ -51,7 +51,7 @@ def test_a_trunk_that_leans_leaves_the_hip_what_a_push_needs(seed: int) -> None:
     for lean in ("0.48 rad/leg", "0"):
         sets = ["push.dv=0.25", *STEPS, f"step_adjustment.lean={lean}"]
         _, out = run("push", seed, *sets, robot="hrp2kai")
-        share.append(out["torque_limit"]["share_of_ticks"])
+        share.append(out["torque_limit"]["share_of_time"])
         assert lean == "0" or out["completed"], out["reasons"]
     assert share[0] < 0.7 * share[1]
 

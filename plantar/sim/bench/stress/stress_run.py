@@ -72,8 +72,8 @@ class _StressedRun(Simulation):
         self.controller.step = stepped  # type: ignore[method-assign, assignment]
         self.servos.command = checked  # type: ignore[method-assign]
 
-    def _plan(self) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
-        feet, steps = super()._plan()
+    def plan_walk(self) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
+        feet, steps = super().plan_walk()
         return {side: self._placed(foot) for side, foot in feet.items()}, tuple(map(self._placed, steps))
 
     def _placed(self, foot: Footstep) -> Footstep:

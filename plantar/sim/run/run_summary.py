@@ -1,0 +1,214 @@
+"""The summary of a run, from its parts when it is over."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.controller import WalkingController
+from plantar.gait.plan.footsteps import Footstep
+from plantar.layouts.layout import Side
+from plantar.settings.body_scale import BodyScale
+from plantar.sides import SIDES
+from plantar.sim.judging.foothold_truth import FootholdTruth
+from plantar.sim.judging.judge import Judge
+from plantar.sim.judging.recovery import Recovery
+from plantar.sim.judging.velocity_truth import VelocityTruth
+from plantar.sim.judging.verdict import Ending, reasons
+from plantar.sim.judging.zmp_comparison import ZmpComparison
+from plantar.sim.model.world import World
+from plantar.sim.plant.draw import TruePlant
+from plantar.sim.robots.robot import Robot
+from plantar.sim.run.pushing import Pusher
+from plantar.sim.run.scene import Scene
+from plantar.sim.run.servos import LegServos
+from plantar.sim.run.shares import body_told, shares_told
+from plantar.sim.run.touched import Touched
+from plantar.sim.terrain import Ground
+
+__all__ = ["FinishedRun", "Result", "summary_of"]
+
+
+@dataclass(frozen=True)
+class Result:
+    """What the loop of a run leaves behind.
+
+    Attributes:
+        ticks_us: Wall time of each control tick in us.
+        wall_time: Wall time of the run in s.
+        skipped: What was not computed, and how often.
+        overrun: Time in s at which the run was cut off, and its end in s as planned at first; None for no cut.
+    """
+
+    ticks_us: list[float]
+    wall_time: float
+    skipped: dict[str, int]
+    overrun: tuple[float, float] | None
+
+
+class FinishedRun(Protocol):
+    """The parts of a run that its summary reads."""
+
+    scene: Scene
+    robot: Robot
+    seed: int
+    body: BodyScale
+    world: World
+    ground: Ground
+    plant: TruePlant | None
+    controller: WalkingController
+    servos: LegServos
+    feet: dict[Side, Footstep]
+    steps: tuple[Footstep, ...]
+    centers: dict[Side, NDArray[np.float64]]
+    judge: Judge
+    foothold_truth: FootholdTruth
+    pusher: Pusher
+    recovery: Recovery | None
+    speeds: VelocityTruth | None
+    touched: Touched | None
+    zmps: ZmpComparison | None
+
+
+def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
+    """The summary of a run (see DESIGN: `plantar sim --json`); what was not measured is None.
+
+    Args:
+    run: The run.
+    result: What its loop left behind.
+    """
+    world, data, judge = run.world, run.world.data, run.judge
+    taken, missed = judge.steps.taken()
+    position, yaw = _final_error(run)
+    upright = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
+    balance = {} if run.recovery is None else run.recovery.summary(run.pusher.applied)
+    stopped = run.controller.safe_state
+    ending = Ending(
+        body=run.body,
+        fall=judge.fall,
+        stopped=stopped,
+        steps=(taken, len(run.steps)),
+        missed=missed,
+        position=position if run.speeds is None else None,
+        heading=yaw if run.speeds is None else None,
+        tilt=upright,
+        pushes=(balance.get("recovered", 0), len(balance.get("pushes", ()))),
+        overrun=result.overrun,
+    )
+    why = reasons(ending, judge.legs, judge.joints)
+    landed = judge.landings
+    landings = [x.time for x in landed]
+    if run.speeds is not None:
+        why += run.speeds.reasons(landings)
+    if run.touched is not None:
+        why += run.touched.reasons(judge.steps.last_stands())
+    ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
+    late = run.servos.out_of_reach_since
+    sole = {s: 4.0 * float(np.prod(run.robot.sole_rectangle(s)[1])) for s in SIDES}
+    summary: dict[str, Any] = {
+        "scene": run.scene.name,
+        "robot": run.robot.name,
+        "seed": run.seed,
+        "completed": not why,
+        "reasons": why,
+        "emergency_stop": stopped is not None,
+        "fell": judge.fell,
+        "steps_planned": len(run.steps) if run.speeds is None else None,
+        "steps_taken": taken if run.speeds is None else len(judge.steps.last_stands()),
+        "sim_time_s": round(float(data.time), 4),
+        "wall_time_s": round(result.wall_time, 4),
+        "real_time_factor": round(float(data.time) / max(result.wall_time, 1e-9), 2),
+        "tilt_max_deg": round(judge.tilt_max, 3),
+        "zmp_margin_min_m": None if judge.margin_min is None else round(judge.margin_min, 5),
+        "impacts_N": [round(x.impact, 1) for x in landed],
+        "landings_s": [round(x.time, 3) for x in landed],
+        "landing_sides": [x.side for x in landed],
+        "contact_area_ratio": [round(x.area / sole[x.side], 3) for x in landed],
+        "zmp_margins_m": [None if x.margin is None else round(x.margin, 4) for x in landed],
+        "sole_angles_deg": [None if x.angle is None else round(x.angle, 2) for x in landed],
+        "out_of_reach_since_s": None if late is None else round(late, 3),
+        "replans": run.controller.replans,
+        "moved_steps": judge.goal.summary(),
+        "control_us": {
+            "p50": round(float(np.percentile(ticks, 50)), 1),
+            "p99": round(float(np.percentile(ticks, 99)), 1),
+        },
+        "skipped": result.skipped,
+        "body": body_told(run.body),
+        "shares": shares_told(run.scene),
+        "final": {
+            "position_error_m": round(position, 4),
+            "heading_error_deg": round(yaw, 3),
+            "tilt_deg": round(upright, 3),
+            "height_m": round(judge.height, 4),
+        },
+        "slip_max_m": round(judge.steps.slip, 4),
+        **judge.joints.summary(),
+        "estimate": {
+            "com_error_max_m": [round(float(v), 4) for v in judge.estimate_error_max],
+            "zmp_error_rms_m": None if judge.zmp_error is None else round(judge.zmp_error, 5),
+        },
+    }
+    summary |= _of_parts(run, landings, balance)
+    return summary
+
+
+def _of_parts(run: FinishedRun, landings: list[float], balance: dict[str, Any]) -> dict[str, Any]:
+    """What only some scenes have to say."""
+    found: dict[str, Any] = {}
+    if run.plant is not None:
+        found["plant"] = run.plant.summary()
+    if run.speeds is not None:
+        found["velocity"] = run.speeds.summary(landings)
+    identified = run.controller.identified()
+    if identified:
+        found["identified"] = identified
+    footholds = run.foothold_truth.summary()
+    if footholds:
+        found["footholds"] = dict(footholds)
+    if run.ground.facts:
+        found["terrain"] = dict(run.ground.facts)
+    if run.zmps is not None:
+        balance["skin_against_force_torque"] = run.zmps.summary()
+    if balance:
+        found["balance"] = balance
+    if run.controller.balance.states:
+        found["wrench_distribution"] = dict(run.controller.balance.states)
+    if run.controller.guard is not None:
+        found |= run.controller.guard.summary()
+    if run.touched is not None:
+        start = 0.5 * sum(run.feet[side].x + run.centers[side][0] for side in SIDES)
+        walked = float(run.world.data.subtree_com[run.world.torso, 0]) - start
+        found |= run.touched.summary(run.judge.steps.last_stands(), walked)
+    if run.pusher.step is not None:
+        applied = float(np.linalg.norm(run.pusher.applied[0])) if run.pusher.applied else None
+        found["push"] = {
+            "impulse_Ns": None if applied is None else round(applied, 4),
+            "asked_Ns": round(run.scene.push.strength, 4),
+            "dv_m_s": None if applied is None else round(applied / run.body.mass, 4),
+            "direction": run.pusher.direction,
+            "step": run.pusher.step,
+            "time_s": round(run.pusher.shoves[0].start, 3),
+        }
+    return found
+
+
+def _final_error(run: FinishedRun) -> tuple[float, float]:
+    """Distance in m and heading error in degrees of the true torso from the end of the walk's goal.
+
+    A commanded walk's goal is the end of the commanded course. Else it is the end as planned at the start or as planned
+    last, whichever is nearer: steps that are moved because dead reckoning is off come to lie where they were planned at
+    the start.
+    """
+    world, data = run.world, run.world.data
+    com = data.subtree_com[world.torso, :2]
+    ends = [run.judge.goal.end(run.centers, at_start=at_start) for at_start in (False, True)]
+    if run.speeds is not None:
+        ends = [run.speeds.course]
+    end, wanted = min(ends, key=lambda goal: math.dist(goal[0], com))
+    heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
+    return float(np.hypot(*(com - end))), abs(math.degrees(math.remainder(heading - wanted, 2.0 * math.pi)))
