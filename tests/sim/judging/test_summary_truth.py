@@ -20,6 +20,7 @@ from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
 WALK = ["steps=3", "walk.start=0.5", "settle=0.3", "walk.end=0.5"]
+COPLANAR = ("flat", "beam", "beam-yaw", "partial-inner", "push", "turn")
 COMMANDED = ["until=4", "walk.start=0.5", "settle=0.3"]
 
 
@@ -106,6 +107,8 @@ def check(run: Watched, summary: dict[str, Any]) -> None:
     margins = [margin_of(row, 0.0012 * weight) for row in rows]
     depth = np.array([math.nan if m is None else m[0] for m in margins])
     assert summary["zmp_margin_min_m"] == pytest.approx(np.nanmin(depth), abs=2e-5)
+    if run.scene.name in COPLANAR:  # forces that only push cannot have their centre outside of where they act
+        assert np.nanmin(depth) >= -1e-4
     # Landings: force after 0.6 beats without.
     touches, airborne = loads >= 0.0237 * weight, round(0.607 * beat / period)
     landings = []
