@@ -85,7 +85,8 @@ def test_the_recording_tells_the_walk(short_run: tuple[dict[str, Any], Path]) ->
     assert skin.fields["force"].shape[1] == len(run.layouts["left"])
     body = run.topics["/truth/body"]
     assert np.diff(body.time) == pytest.approx(np.full(len(body) - 1, 0.005))
-    assert np.nanmin(body.fields["zmp_margin"]) == pytest.approx(summary["zmp_margin_min_m"], abs=1e-5)
+    least = float(np.nanmin(body.fields["zmp_margin"]))  # of the ticks; the summary's is that of all physics steps
+    assert summary["zmp_margin_min_m"] - 1e-5 <= least <= summary["zmp_margin_min_m"] + 0.01
     estimate = run.topics["/estimate"].fields["com"]
     assert np.abs(estimate - body.fields["com"]).max(axis=0) == pytest.approx(
         summary["estimate"]["com_error_max_m"], abs=1e-4
