@@ -1,5 +1,4 @@
-"""Compile the kernels ahead of time where Cython and a C compiler are there; what else there is to say of the
-distribution stands in pyproject.toml.
+"""Compile the kernels ahead of time where Cython and a C compiler are there; the rest is in pyproject.toml.
 
 Each kernel is plain Python that runs as it is. Without Cython, or where the compiler fails, the package is built
 without the extensions and works the same, slower.
@@ -15,10 +14,12 @@ from setuptools.command.build_ext import build_ext
 
 KERNEL_FOLDER = Path("plantar/kernels")
 KERNELS = sorted(p for p in KERNEL_FOLDER.glob("*/*.pxd") if p.with_suffix(".py").exists())
+# Cython's own code for views of arrays, compiled once; in each extension it is nine tenths of what the compiler reads.
+SHARED = KERNEL_FOLDER / "base" / "memoryviews"
 BUILD = "build/cython"
 # Neither -ffast-math nor contraction to fused multiply-adds: error-free sums and NaN must mean what the source says.
 # What a builder asks for in CFLAGS comes last and counts.
-FLAGS = [] if os.name == "nt" else ["-O3", "-g0", "-ffp-contract=off", *os.environ.get("CFLAGS", "").split()]
+FLAGS = [] if os.name == "nt" else ["-O2", "-g0", "-ffp-contract=off", *os.environ.get("CFLAGS", "").split()]
 # Kernels keep their indices in range, never count from the end, and guard each division themselves.
 DIRECTIVES = {"boundscheck": False, "wraparound": False, "cdivision": True, "initializedcheck": False}
 
@@ -42,12 +43,18 @@ def extensions() -> list[Extension]:
         )
         for p in KERNELS
     ]
+    modules.append(Extension(".".join(SHARED.parts), [f"{SHARED}.c"], extra_compile_args=FLAGS))
     for kernel in KERNELS:
         made = Path(BUILD, kernel.with_suffix(".c"))
         if made.exists() and made.stat().st_mtime < max(p.stat().st_mtime for p in types_of(kernel)):
             made.unlink()
     found: list[Extension] = cythonize(
-        modules, build_dir=BUILD, language_level=3, quiet=True, compiler_directives=DIRECTIVES
+        modules,
+        build_dir=BUILD,
+        language_level=3,
+        quiet=True,
+        compiler_directives=DIRECTIVES,
+        shared_utility_qualified_name=".".join(SHARED.parts),
     )
     return found
 
@@ -73,17 +80,14 @@ def types_of(kernel: Path) -> set[Path]:
 
 def remove_extensions_without_source(folder: Path) -> None:
     """Remove the extension modules of kernels that are there no more: Python would load them, a wheel hold them."""
-    sources = {p.relative_to(KERNEL_FOLDER).with_suffix("") for p in KERNELS}
+    sources = {p.relative_to(KERNEL_FOLDER).with_suffix("") for p in [*KERNELS, SHARED]}
     for path in [p for suffix in EXTENSION_SUFFIXES for p in folder.rglob(f"*{suffix}")]:
         if path.relative_to(folder).with_name(path.name.split(".")[0]) not in sources:
             path.unlink(missing_ok=True)
 
 
 class BuildWherePossible(build_ext):
-    """Compiles each extension, or says that it could not: a missing compiler raises what `optional` does not catch.
-
-    One on each core, since they know nothing of each other.
-    """
+    """Compiles the extensions in parallel and prints which could not be: `optional` misses a missing compiler."""
 
     def finalize_options(self) -> None:
         """As many at once as there are cores, where no number was asked for."""
@@ -96,6 +100,11 @@ class BuildWherePossible(build_ext):
         for folder in (KERNEL_FOLDER, Path(self.build_lib, KERNEL_FOLDER)):
             remove_extensions_without_source(folder)
         super().run()
+
+    def build_extensions(self) -> None:
+        """Compile them, and go on with those that could be: an editable install copies each from where it was built."""
+        super().build_extensions()
+        self.extensions = [e for e in self.extensions if os.path.exists(self.get_ext_fullpath(e.name))]
 
     def build_extension(self, ext: Extension) -> None:
         """Compile one extension; a failure is no error."""

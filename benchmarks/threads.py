@@ -18,8 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from plantar import hex_layout
-from plantar.percepts import batch
+from plantar import batch, hex_layout
 
 FRAMES, ROUNDS = 200_000, 31
 SOLE = hex_layout([[-0.1, -0.05], [0.13, -0.05], [0.13, 0.05], [-0.1, 0.05]])

@@ -37,6 +37,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from plantar import batch
     from plantar.errors import (
         DependencyError,
         FootError,
@@ -79,7 +80,6 @@ if TYPE_CHECKING:
         zmp_of_feet,
         zmp_of_wrench,
     )
-    from plantar.percepts import batch
     from plantar.percepts.feet import FeetPercept
     from plantar.percepts.foot_tick import FootTick, walking_tick
     from plantar.percepts.percept import Percept
@@ -219,7 +219,7 @@ _MODULE_OF_NAME = {
     "TaxelHealth": "sensing.health",
     "active_cells": "sensing.body_skin",
     "active_taxels": "sensing.activation",
-    "batch": "percepts",
+    "batch": "batch",
     "bounding_box": "geometry.enclosing",
     "center_of_pressure": "sensing.force",
     "centroidal_moment_pivot": "mechanics.zmp",

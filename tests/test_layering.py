@@ -49,7 +49,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "atomic",
         "csv_table",
         *("console", "optional_library", "doctor", "files", "settings", "mechanics", "layouts", "plotting", "pages"),
-        *("geometry", "sensing", "percepts", "mujoco", "recordings", "formats", "viewer", "bench"),
+        *("geometry", "sensing", "percepts", "batch", "mujoco", "recordings", "formats", "viewer", "bench"),
     ),
     "plantar.gait": (
         *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command"),

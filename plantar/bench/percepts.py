@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar import batch
 from plantar.bench import references as exact
 from plantar.bench.comparison import Reference, Result, Route, compare
 from plantar.bench.kernels import OFFSET
@@ -17,7 +18,6 @@ from plantar.bench.soles import contacts, sole_of
 from plantar.geometry import polygon
 from plantar.kernels import is_compiled, python_form
 from plantar.layouts.layout import SoleLayout
-from plantar.percepts import batch
 from plantar.percepts.feet import FeetPercept
 from plantar.percepts.foot_tick import walking_tick
 from plantar.percepts.percept import Percept

@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar import batch
 from plantar.bench import references as exact
 from plantar.bench.results import differing, not_finite
 from plantar.bench.stress.soles import Block, unit_wrenches
@@ -15,7 +16,7 @@ from plantar.bench.stress.tally import Tally
 from plantar.mechanics import zmp
 from plantar.mechanics.lip import divergent_component
 from plantar.mechanics.wrench import wrench_at
-from plantar.percepts import batch, sole_pose
+from plantar.percepts import sole_pose
 from plantar.percepts.feet import FeetPercept
 from plantar.percepts.foot_tick import walking_tick
 from plantar.percepts.percept import Percept

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar import batch
 from plantar.geometry import contact_rectangle, enclosing, inscribed, outline, polygon
 from plantar.geometry.cell_cutting import CellCutter, half_planes
 from plantar.geometry.convex_shapes import points_of
@@ -19,7 +20,7 @@ from plantar.layouts import cell_edges, cell_layout, curved_sole, taxel_values, 
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics import external_wrench, lip, wrench, zmp
-from plantar.percepts import batch, foot_tick, sole_pose, support
+from plantar.percepts import foot_tick, sole_pose, support
 from plantar.percepts.percept import Percept
 from plantar.sensing import (
     activation,

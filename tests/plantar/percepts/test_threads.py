@@ -8,9 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from plantar import InputError, fit_ground_plane, hex_layout
+from plantar import InputError, batch, fit_ground_plane, hex_layout
 from plantar.kernels import python_form
-from plantar.percepts import batch
 from plantar.sensing.ground_plane import ground_fit
 
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]

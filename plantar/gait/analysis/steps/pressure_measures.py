@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.batch import support_polygons
 from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.geometry.polygon import signed_margin
 from plantar.layouts.layout import SoleLayout
-from plantar.percepts.batch import support_polygons
 
 __all__ = ["pressure_measures", "region_measures", "robot_measures"]
 

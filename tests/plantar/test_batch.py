@@ -7,10 +7,9 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import InputError, Percept, Reading, ReadingError, fit_ground_plane, hex_layout, kernels
+from plantar import InputError, Percept, Reading, ReadingError, batch, fit_ground_plane, hex_layout, kernels
+from plantar.batch import blocks, loads, support_polygons, wrenches
 from plantar.layouts.curved_sole import rotations_to_normals
-from plantar.percepts import batch
-from plantar.percepts.batch import blocks, loads, support_polygons, wrenches
 
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
 SOLE = hex_layout(OUTLINE)
