@@ -1,5 +1,5 @@
-"""Run time against error of one inverse-kinematics tick: the Newton step of `plantar.sim.model.inverse_kinematics`
-beside mink.
+"""Run time against error of one inverse-kinematics tick: the Newton step of
+`plantar.robots.kinematics.inverse_kinematics`, compared with mink.
 
 Both follow the commands of the same four-step walk at 200 Hz, one step a tick, warm-started from the last tick.
 
@@ -15,8 +15,8 @@ import mujoco
 import numpy as np
 
 from plantar.atomic import write_text
-from plantar.sim.model.world import build_leg_model, robot_spec
-from plantar.sim.robots import load_robot
+from plantar.robots import load_robot
+from plantar.robots.kinematics.robot_model import build_leg_model, robot_spec
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 

@@ -183,7 +183,7 @@ def following(cell: Cell, known: dict[str, tuple[bool, str]]) -> Case | None:
 
 def stronger(joint: str) -> Path:
     """File of an H1 whose motors of one kind, or all, are four times as strong."""
-    from plantar.sim.robots.robot_file import load_robot
+    from plantar.robots.robot_file import load_robot
 
     kinds = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll")
     kind = "all" if joint == ALL else joint.split("_", 1)[1]

@@ -16,8 +16,8 @@ from resumable import write_table
 
 from plantar.geometry.polygon import area, centroid
 from plantar.layouts.layout import SoleLayout
+from plantar.robots.robot_file import load_robot
 from plantar.sensing.partial_contact import PartialContact
-from plantar.sim.robots.robot_file import load_robot
 from plantar.sim.sensing.elastic_pressure import ElasticPressure
 from plantar.sim.sensing.sole_pressure import SolePressure
 

@@ -61,7 +61,7 @@ def test_every_stop_on_the_way_of_a_force_is_there():
     assert len(way(TEXT)) > 12
     assert lost(TEXT) == []
     assert way(TEXT)[0].startswith("plantar/mujoco/")
-    assert way(TEXT)[-1].startswith("sim/model/inverse_kinematics")
+    assert way(TEXT)[-1].startswith("plantar/robots/kinematics/inverse_kinematics")
 
 
 @pytest.mark.parametrize("package", ["gait", "wholebody", "sim", "shoes"])

@@ -15,10 +15,11 @@ ROOT = Path(__file__).resolve().parent.parent
 ALLOWED = {
     "plantar": {"plantar"},
     "gait": {"gait", "plantar"},
+    "robots": {"robots", "gait", "plantar"},
     "wholebody": {"wholebody", "plantar"},
     "shoes": {"shoes", "plantar"},
-    "sim": {"sim", "gait", "wholebody", "plantar"},
-    "cli": {"cli", "sim", "gait", "wholebody", "shoes", "plantar"},
+    "sim": {"sim", "robots", "gait", "wholebody", "plantar"},
+    "cli": {"cli", "sim", "robots", "gait", "wholebody", "shoes", "plantar"},
 }
 """What each part of the distribution may import of the distribution: `plantar` is what lies in no other part."""
 
@@ -61,6 +62,9 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("study", "compare", "custom", "exports", "analyse"),
     ),
     "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
+    "plantar.robots": (
+        *("robot_tables", "biped", "robot", "robot_file", "leg_shapes", "model_file", "kinematics", "controller"),
+    ),
     "plantar.kernels": (
         *("base", "geometry", "mechanics", "skin", "gait", "joints", "contacts", "sensors", "judging", "formats"),
     ),
@@ -68,7 +72,6 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *(
             "libraries",
             "terrain",
-            "robots",
             "plant",
             "model",
             "judging",
@@ -107,7 +110,7 @@ PLACE_OF_LIBRARY = {
     "cadquery": "plantar.shoes",
     "OCP": "plantar.shoes",
     "trimesh": "plantar.shoes",
-    "mujoco": ("plantar.sim", "plantar.mujoco", "plantar.shoes.foot.model_source"),
+    "mujoco": ("plantar.sim", "plantar.robots", "plantar.mujoco", "plantar.shoes.foot.model_source"),
     "matplotlib": "plantar.plotting",
     "mpl_toolkits": "plantar.plotting",
     "mink": None,  # a reference in tests and benchmarks only
@@ -315,8 +318,8 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
         ("plantar/shoes/solid/tray.py", "from plantar.gait.plan import phases", "shoes imports plantar.gait"),
         (
             "plantar/shoes/solid/tray.py",
-            "import plantar.sim.robots.robot as r",
-            "shoes imports plantar.sim",
+            "import plantar.robots.robot as r",
+            "shoes imports plantar.robots",
         ),
         (
             "plantar/sim/run/runner.py",
@@ -338,7 +341,7 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
             "from matplotlib.figure import Figure",
             "matplotlib is imported outside",
         ),
-        ("plantar/sim/model/inverse_kinematics.py", "import mink", "mink is imported outside tests"),
+        ("plantar/robots/kinematics/inverse_kinematics.py", "import mink", "mink is imported outside tests"),
         ("stray.py", "", "no layer"),
     ],
 )
@@ -355,7 +358,7 @@ def test_a_planted_violation_is_found(tmp_path, file, source, reason):
             "plantar/sim/run/runner.py",
             "import mujoco\nfrom plantar.gait.plan import phases\nfrom plantar.layouts.layout import SoleLayout",
         ),
-        ("plantar/sim/robots/robot.py", "from ..world import World\nfrom . import biped"),
+        ("plantar/robots/robot.py", "from ..world import World\nfrom . import biped"),
         ("plantar/shoes/solid/tray.py", "def build():\n    import cadquery\n    import trimesh"),
         ("plantar/plotting.py", "def f():\n    from matplotlib.figure import Figure"),
         ("plantar/__init__.py", "from .force import wrench_at"),

@@ -21,10 +21,10 @@ import typer
 from plantar import cli
 from plantar.errors import PlantarError
 from plantar.formats import read_recording
+from plantar.robots import load_robot
 from plantar.shoes import ShoeParameters
 from plantar.shoes.cells.cell_file import read_cell
 from plantar.sim.companion.machine import load_machine
-from plantar.sim.robots import load_robot
 from plantar.sim.run.listing import listed
 from plantar.sim.run.scene_kind import full_setting_name, open_scene
 from plantar.sim.run.setting_list import settings_of_robot
@@ -172,7 +172,7 @@ def desk(tmp_path_factory: pytest.TempPathFactory) -> Path:
     import trimesh
     from ezdxf.filemanagement import new
 
-    from plantar.sim.model.world import robot_spec
+    from plantar.robots.kinematics.robot_model import robot_spec
 
     folder = tmp_path_factory.mktemp("desk")
     box = trimesh.creation.box(extents=(0.22, 0.09, 0.06))

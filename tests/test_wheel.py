@@ -153,7 +153,7 @@ def test_the_wheel_holds_code_and_data(wheel):
     assert {n.partition("/")[0] for n in names} == {"plantar"}
     assert {n.partition(".")[0] for n in extensions_in(wheel)} == kernels_that_compile()
     assert "plantar/py.typed" in names
-    assert any(n.startswith("plantar/sim/robots/") and n.endswith(".toml") for n in names)
+    assert any(n.startswith("plantar/robots/") and n.endswith(".toml") for n in names)
     assert any(n.startswith("plantar/sim/scenes/") and n.endswith(".toml") for n in names)
 
 

@@ -1,9 +1,9 @@
 """Write the MJCF of the machine `h1-body`: `python tools/h1_body.py sim/companion/machines/h1-body/h1_body.xml`.
 
-Legs, pelvis and total mass are those of the walking robot h1 (`sim/robots/h1/robot.toml`), whose chest gives way to two
-waist joints, a torso, two arms of seven joints and a head of two. Lengths and masses of the upper body are assumed, for
-1.65 m in all; the torso takes the mass that the others leave, and its centre of mass is where the whole robot's comes
-out at the published 0.80 m above the soles in the machine's posture.
+Legs, pelvis and total mass are those of the walking robot h1 (`plantar/robots/h1/robot.toml`); two waist joints, a torso,
+two arms of seven joints and a head of two replace its chest. Lengths and masses of the upper body are assumed, for 1.65 m
+in all; the torso takes the rest of the mass, and its centre of mass is where the whole robot's comes out at the published
+0.80 m above the soles in the machine's posture.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from plantar.sim.robots import load_robot
-from plantar.sim.robots.biped import BipedParameters, biped_mjcf
+from plantar.robots import load_robot
+from plantar.robots.biped import BipedParameters, biped_mjcf
 
 WAIST_Z, TORSO_Z = -0.02, 0.02  # m: waist in the base, torso in the waist
 CHEST_Z, SHOULDER = 0.10, (0.0, 0.245, 0.50)  # m: lower edge of the chest and left arm in the torso

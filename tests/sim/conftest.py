@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from plantar.robots import Robot, load_robot
 from plantar.sim.model.world import World, build_world
-from plantar.sim.robots import Robot, load_robot
 from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import Scene, load_scene
 from plantar.sim.terrain import Ground

@@ -1,7 +1,8 @@
 """The kernel of inverse kinematics: a Newton step by the normal equations, and whether it may stay as it is.
 
 Plain Python that also compiles ahead of time (`newton_step.pxd` gives the C types).
-`plantar.sim.model.inverse_kinematics` is the public face: it says why, and what happens to a step that may not stay.
+`plantar.robots.kinematics.inverse_kinematics` is the public face, with
+the reasons.
 """
 
 from __future__ import annotations

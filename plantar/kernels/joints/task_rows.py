@@ -6,8 +6,8 @@ are the CoM of each tree, and the results are those of its `mj_jac` to the last 
 Which velocities move a body, its chain, is found once.
 
 Plain Python that also compiles ahead of time (`task_rows.pxd` gives the C types); the tasks in
-`plantar.sim.model.tasks` are the public face. Each object has arrays of its own to write to, zero to begin with, and
-views of those that it reads.
+`plantar.robots.kinematics.tasks` are the public face. Each object writes to its own
+arrays, which begin at zero, and has views of those that it reads.
 """
 
 from __future__ import annotations

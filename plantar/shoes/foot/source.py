@@ -128,7 +128,7 @@ def foot_of_robot(name: str) -> tuple[Foot, int | None]:
         >>> foot_of_robot("h1")[1]
         42
     """
-    files = {path.parent.name: path for path in packaged_files("plantar.sim", "robots/*/robot.toml")}
+    files = {path.parent.name: path for path in packaged_files("plantar.robots", "*/robot.toml")}
     if name not in files:
         raise InputError(f"unknown robot '{name}'; allowed: {', '.join(sorted(files))}")
     try:

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from plantar.arrays import numbers
 from plantar.errors import RobotError, SceneError
+from plantar.robots.robot import Robot
 from plantar.sensing.link_skin import BodySkin
 from plantar.sides import Side
 from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.machine import JointTable, load_machine
-from plantar.sim.robots.robot import Robot
 
 __all__ = ["WornArm"]
 

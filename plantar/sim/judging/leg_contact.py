@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from plantar.robots.leg_shapes import COLLIDES
 from plantar.sides import SIDES
 from plantar.sim.model.world import World
-from plantar.sim.robots.leg_shapes import COLLIDES
 
 __all__ = ["LegContact", "legs_that_touch"]
 

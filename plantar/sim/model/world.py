@@ -1,40 +1,34 @@
-"""MuJoCo models from robots and terrain: the world that is simulated, and the robot alone for its controller."""
+"""The world that is simulated: a robot, its ground and others as one MuJoCo model."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError, SceneError
-from plantar.optional_library import unheard
+from plantar.robots.kinematics.body import body_of
+from plantar.robots.kinematics.robot_model import Visitor, compiled_model, robot_spec
+from plantar.robots.leg_shapes import COLLIDES, keep_apart
+from plantar.robots.robot import Robot
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sides import SIDES, Side
-from plantar.sim.model.body import body_of
 from plantar.sim.model.contact_truth import REACH
-from plantar.sim.model.leg_model import LegModel
 from plantar.sim.plant.body import make_true
 from plantar.sim.plant.draw import TruePlant
-from plantar.sim.robots.biped import biped_mjcf
-from plantar.sim.robots.leg_shapes import COLLIDES, add_leg_shapes, keep_apart
-from plantar.sim.robots.model_file import spec_from_file
-from plantar.sim.robots.robot import Robot
 from plantar.sim.terrain import GROUND_GROUP, Ground, Solid
 
 __all__ = [
     "DIVERGED",
     "PHYSICS_PERIOD",
-    "Visitor",
     "World",
-    "build_leg_model",
     "build_world",
     "check_stable",
-    "robot_spec",
 ]
 
 PHYSICS_PERIOD = 0.001
@@ -56,35 +50,6 @@ DIVERGED = (
 """MuJoCo's warnings that its state diverged."""
 
 
-def robot_spec(robot: Robot) -> Any:
-    """The robot alone as an editable `mujoco.MjSpec`.
-
-    Args:
-        robot: The robot.
-
-    Raises:
-        RobotError: If the model cannot be read.
-    """
-    mujoco.set_mju_user_warning(unheard)
-    if robot.biped is not None:
-        center, half = robot.sole_rectangle("left")
-        text = biped_mjcf(
-            robot.biped,
-            name=robot.name,
-            posture=[math.degrees(v) for v in robot.posture["left"]],
-            sole_center=center,
-            sole_half_size=half,
-            shoe_thickness=robot.shoe_thickness,
-            shoe_mass=robot.shoe_mass,
-            stiffness=robot.stiffness,
-            damping=robot.damping,
-        )
-        spec = mujoco.MjSpec.from_string(text)
-        add_leg_shapes(spec, robot)
-        return spec
-    return spec_from_file(robot)
-
-
 def check_stable(warnings: NDArray[np.int32]) -> None:
     """Refuse to go on where MuJoCo found the state diverged, which it answers by starting anew from the model's pose.
 
@@ -99,37 +64,6 @@ def check_stable(warnings: NDArray[np.int32]) -> None:
             "the simulated physics became unstable: forces too large for its time step (control.physics_period); "
             "lower that, the robot's [servo] stiffness and damping, or what pushes it"
         )
-
-
-def _compiled(spec: Any, robot: Robot) -> Any:
-    try:
-        return spec.compile()
-    except ValueError as error:
-        text = " ".join(str(error).split())
-        raise RobotError(f"robot '{robot.name}': its model cannot be simulated: {text}") from None
-
-
-def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
-    """Kinematic model of the robot alone, which its controller uses.
-
-    Args:
-        robot: The robot.
-        worn: What it wears beside its file's model, such as an arm that moves.
-
-    Returns:
-        The model.
-
-    Raises:
-        RobotError: If the model cannot be read or simulated.
-    """
-    spec = robot_spec(robot)
-    for part in worn:
-        part.add_to(spec)
-    model = _compiled(spec, robot)
-    joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
-    soles = {s: robot.legs[s].sole_site for s in SIDES}
-    unit = body_of(robot, model).leg / REFERENCE_BODY.leg
-    return LegModel(model, joints, soles, robot.torso_body, unit)
 
 
 def _add_looks(spec: Any, torso: str) -> None:
@@ -264,13 +198,6 @@ class World:
             self.data.mocap_pos[i] = solid.at(float(self.data.time))
 
 
-class Visitor(Protocol):
-    """Someone or something beside robot and ground that is in a world."""
-
-    def add_to(self, spec: Any) -> None:
-        """Add it to the world's editable `mujoco.MjSpec`."""
-
-
 def build_world(
     robot: Robot,
     ground: Ground,
@@ -306,7 +233,7 @@ def build_world(
     soles = _set_contacts(spec, ground.friction)
     for other in others:
         other.add_to(spec)
-    model = _compiled(spec, robot)
+    model = compiled_model(spec, robot)
     body = body_of(robot, model)
     _soften(model, soles, body, period, robot.contact_damping)
     keep_apart(model, robot)

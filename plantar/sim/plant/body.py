@@ -1,7 +1,7 @@
 """The true robot in the simulator: its mass and where that is, stiffness of its servos, friction of its joints.
 
 What is changed is the compiled model of the world. The controller has a model of its own
-(`plantar.sim.model.leg_model`), which stays the nominal one.
+(`plantar.robots.kinematics.leg_model`), which stays the nominal one.
 """
 
 from __future__ import annotations

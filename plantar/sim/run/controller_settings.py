@@ -35,11 +35,11 @@ from plantar.gait.propose.ssp_opt import StepRegionRules, StepWeights
 from plantar.gait.propose.step_adjustment import StepAdjustmentRules
 from plantar.gait.propose.step_timing import StepTimingRules
 from plantar.layouts.layout import Side
+from plantar.robots.robot import Robot
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.net_wrench import NetWrenchRules
 from plantar.settings.body_scale import BodyScale
 from plantar.settings.schema import Settings
-from plantar.sim.robots.robot import Robot
 from plantar.sim.run.scene import Control, Scene, Walk
 
 __all__ = ["CONTROL_PERIOD", "controller_settings", "walk_timing"]
@@ -81,7 +81,7 @@ def controller_settings(
         robot: The robot.
         body: How large it is: what is stated as a share of its body counts for this one.
         ankles: Force-torque sensor of each ankle, where it has them.
-        limits: Where its weight may act on one foot (see `plantar.sim.model.ankle_limits`); anywhere where None.
+        limits: Where its weight may act on one foot (`plantar.robots.kinematics.ankle_limits`); None for anywhere.
         skin: Skin of its upper body, in the base frame; None without.
 
     Returns:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from plantar.errors import SceneError
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, WalkSchedule
+from plantar.robots.robot import Robot
 from plantar.sensing.link_skin import BodySkin, SkinPatch
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
@@ -19,7 +20,6 @@ from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.body_skin.upper_body import upper_body_skin
 from plantar.sim.model.world import World
 from plantar.sim.partner.hand_pushes import HandPush, HandPushes, faces_of
-from plantar.sim.robots.robot import Robot
 from plantar.sim.run.pushing import direction_of
 from plantar.sim.run.scene import Push, Scene
 

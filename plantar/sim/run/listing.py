@@ -29,8 +29,8 @@ def listed(what: str) -> dict[str, str]:
 
         return {f.name: f"{f.title} ({', '.join(f.suffixes)})" for f in formats().values()}
     if what == "robots":
-        kinds = ("robots/*/robot.toml", "companion/machines/*/machine.toml")
-        files = [file for kind in kinds for file in packaged_files("plantar.sim", kind)]
+        files = packaged_files("plantar.robots", "*/robot.toml")
+        files += packaged_files("plantar.sim", "companion/machines/*/machine.toml")
         return {path.parent.name: text for path, text in described_files(files).items()}
     if what == "scenes":
         return {

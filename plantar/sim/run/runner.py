@@ -20,6 +20,12 @@ from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.percepts.percept import Percept
+from plantar.robots.kinematics.ankle_limits import ankle_limits
+from plantar.robots.kinematics.ankle_sensors import ankle_sensors
+from plantar.robots.kinematics.body import body_of
+from plantar.robots.kinematics.robot_model import Visitor, build_leg_model
+from plantar.robots.robot import Robot
+from plantar.robots.robot_file import load_robot
 from plantar.sensing.link_skin import BodySkin
 from plantar.sides import SIDES
 from plantar.sim.arms.compliant_arm import CompliantArm
@@ -33,12 +39,8 @@ from plantar.sim.judging.recovery import Recovery
 from plantar.sim.judging.velocity_truth import VelocityTruth
 from plantar.sim.judging.walk_goal import WalkGoal
 from plantar.sim.judging.zmp_comparison import ZmpComparison
-from plantar.sim.model.ankle_limits import ankle_limits
-from plantar.sim.model.body import body_of
-from plantar.sim.model.world import Visitor, World, build_leg_model, build_world, check_stable
+from plantar.sim.model.world import World, build_world, check_stable
 from plantar.sim.plant.draw import drawn_plant
-from plantar.sim.robots.robot import Robot
-from plantar.sim.robots.robot_file import load_robot
 from plantar.sim.run.controller_settings import controller_settings
 from plantar.sim.run.hand_pushing import upper_body_skin_of
 from plantar.sim.run.log import RunLog
@@ -49,7 +51,7 @@ from plantar.sim.run.scene import SECTIONS, Push, Scene
 from plantar.sim.run.servos import LegServos
 from plantar.sim.run.standing import stand
 from plantar.sim.run.touched import Touched
-from plantar.sim.sensing.sensors import SensorSuite, ankle_sensors
+from plantar.sim.sensing.sensors import SensorSuite
 
 __all__ = ["Simulation", "run_scene"]
 

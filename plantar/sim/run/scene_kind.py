@@ -83,7 +83,7 @@ def robot_file_of(scene: Scene | CompanionScene) -> Path:
         RobotError: If it is unknown, or not valid.
     """
     if isinstance(scene, Scene):
-        from plantar.sim.robots import load_robot
+        from plantar.robots import load_robot
 
         return load_robot(scene.robot).path
     from plantar.sim.companion.machine import load_machine

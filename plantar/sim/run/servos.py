@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from plantar.gait.controller import Command
 from plantar.kernels.joints.setpoints import Setpoints
+from plantar.robots.kinematics.leg_model import LegModel
 from plantar.sides import Side
-from plantar.sim.model.leg_model import LegModel
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.drives import TrueDrives

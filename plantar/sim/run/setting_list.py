@@ -73,9 +73,9 @@ def settings_of_robot(name: str | None, robot: str | None) -> dict[str, Setting]
     """
     if robot is None:
         return settings_listed(name)
-    from plantar.sim.model.body import body_of
-    from plantar.sim.model.world import build_leg_model
-    from plantar.sim.robots import load_robot
+    from plantar.robots import load_robot
+    from plantar.robots.kinematics.body import body_of
+    from plantar.robots.kinematics.robot_model import build_leg_model
 
     found = load_robot(robot)
     return settings_listed(name, body_of(found, build_leg_model(found).model))

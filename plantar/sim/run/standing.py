@@ -13,9 +13,9 @@ from plantar.gait.plan.footsteps import Footstep
 from plantar.layouts.layout import Side
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import level_rotation
+from plantar.robots.kinematics.leg_model import LegModel
 from plantar.sides import SIDES
 from plantar.sim.judging.leg_contact import legs_that_touch
-from plantar.sim.model.leg_model import LegModel
 from plantar.sim.model.world import World, check_stable
 from plantar.sim.run.servos import LegServos
 

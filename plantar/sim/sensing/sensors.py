@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.controller import Sensors
-from plantar.gait.estimate.ankle_sensor import AnkleSensor
 from plantar.kernels.sensors.sensed_body import SensedBody
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
@@ -21,13 +19,12 @@ from plantar.sim.plant.colours import GroundColours
 from plantar.sim.plant.delay import Delay
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.taxels import TaxelErrors
-from plantar.sim.robots.robot import Robot
 from plantar.sim.sensing.proximity import ProximitySensor, SoleProximity
 from plantar.sim.sensing.settings import Sensing
 from plantar.sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
 from plantar.sim.sensing.white_noise import white_noise
 
-__all__ = ["SensorSuite", "ankle_sensors"]
+__all__ = ["SensorSuite"]
 
 _RUBBER = 0.013  # of a sole's length that its rubber is thick: 3 mm for H1
 
@@ -206,30 +203,3 @@ def _imu_to_base(world: World) -> NDArray[np.float64] | None:
     base = data.xmat[model.body_rootid[world.torso]].reshape(3, 3)
     rotation = base.T @ data.site(world.robot.imu_site).xmat.reshape(3, 3)
     return None if np.allclose(rotation, np.eye(3), atol=1e-9) else rotation
-
-
-def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
-    """Where each ankle's force-torque sensor sits and what hangs below it.
-
-    Args:
-        model: The MjModel of the robot.
-        robot: The robot.
-
-    Returns:
-        The sensors, for the controller.
-    """
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_comPos(model, data)
-    sensors: dict[Side, AnkleSensor] = {}
-    for side in SIDES:
-        sole, site = model.site(robot.legs[side].sole_site).id, model.site(f"{side}_ankle_force_torque").id
-        body = model.site_bodyid[site]
-        origin, rotation = data.site_xpos[sole], data.site_xmat[sole].reshape(3, 3)
-        sensors[side] = AnkleSensor(
-            position=rotation.T @ (data.site_xpos[site] - origin),
-            rotation=rotation.T @ data.site_xmat[site].reshape(3, 3),
-            mass=float(model.body_subtreemass[body]),
-            com=rotation.T @ (data.subtree_com[body] - origin),
-        )
-    return sensors

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from plantar.errors import RobotError
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gravity import GRAVITY
+from plantar.robots.kinematics.body import body_of, pitching_joints, stood
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.kinematics.robot_model import build_leg_model
+from plantar.robots.robot import Robot
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
-from plantar.sim.model.body import body_of, pitching_joints, stood
-from plantar.sim.model.leg_model import LegModel
-from plantar.sim.model.world import build_leg_model
-from plantar.sim.robots.robot import Robot
 from plantar.sim.run.controller_settings import CONTROL_PERIOD, walk_timing
 from plantar.sim.run.scene import Walk
 from plantar.sim.survey.joint_inertia import JointInertia, joint_inertia

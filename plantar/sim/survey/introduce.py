@@ -19,9 +19,9 @@ from plantar.atomic import write_text
 from plantar.errors import RobotError
 from plantar.geometry.polygon import area
 from plantar.layouts.layout_file import read_layout
+from plantar.robots.robot import LegNames, Robot
+from plantar.robots.robot_file import load_robot
 from plantar.sides import SIDES
-from plantar.sim.robots.robot import LegNames, Robot
-from plantar.sim.robots.robot_file import load_robot
 from plantar.sim.run.controller_settings import CONTROL_PERIOD
 from plantar.sim.survey.fitted_gait import FittedGait, fit_gait
 from plantar.sim.survey.model_copy import add_rotors, write_model_copy

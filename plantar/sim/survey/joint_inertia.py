@@ -9,9 +9,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.robots.kinematics.body import hanging_on
+from plantar.robots.robot import Robot
 from plantar.sides import SIDES
-from plantar.sim.model.body import hanging_on
-from plantar.sim.robots.robot import Robot
 
 __all__ = ["JointInertia", "floating_inertia", "joint_inertia"]
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import RobotError
 from plantar.files.model_files import check_model, mesh_of_urdf, parsed_model
-from plantar.sim.robots.model_file import forget_own_simulation
+from plantar.robots.model_file import forget_own_simulation
 from plantar.sim.survey.surface_file import mesh_for_mujoco
 
 __all__ = ["ModelSource", "read_model"]

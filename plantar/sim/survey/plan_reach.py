@@ -17,10 +17,10 @@ from plantar.gait.plan.phases import PhaseKind, Timing
 from plantar.gait.plan.walk_plan import WalkPlan, vrp_of_step
 from plantar.mechanics.lip import GRAVITY, pendulum_frequency
 from plantar.mechanics.rotation import rotation_from_angles
+from plantar.robots.kinematics.body import pitching_joints, stood
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
-from plantar.sim.model.body import pitching_joints, stood
-from plantar.sim.model.leg_model import LegModel
-from plantar.sim.robots.robot import Robot
 from plantar.sim.survey.joint_inertia import floating_inertia
 
 __all__ = ["PlanReach", "Walked", "plan_reach", "settled", "standing_feet"]
@@ -29,7 +29,7 @@ _INSTANTS = 24  # that are looked at in a single support; a swing foot moves by 
 _FIRST = 40  # Newton steps for the standing posture
 _EACH = 3  # Newton steps for each later instant
 _HOPELESS = 0.05  # m or rad by which the legs miss what is asked of them: the rest of the plan is not looked at
-_STEP = 0.15  # rad: largest change in a Newton step, see plantar.sim.model.inverse_kinematics
+_STEP = 0.15  # rad: largest change in a Newton step, see plantar.robots.kinematics.inverse_kinematics
 
 Array = NDArray[np.float64]
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from plantar.gravity import GRAVITY
 from plantar.mechanics.rotation import vector_from_rotation
+from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
-from plantar.sim.robots.robot import Robot
 from plantar.sim.run.controller_settings import CONTROL_PERIOD
 from plantar.sim.survey.fitted_gait import KNEE_LEAST, QUICK_HELD, STEP_SHARE, FittedGait
 from plantar.sim.survey.rocking_gait import LEAN_MOST
@@ -47,7 +47,7 @@ def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], we
         weighed: Whether they were built, and their mass is known.
 
     Returns:
-        TOML that `plantar.sim.robots.load_robot` reads.
+        TOML that `plantar.robots.load_robot` reads.
     """
     robot = fitted.robot
     lines = [

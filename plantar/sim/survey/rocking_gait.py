@@ -16,10 +16,10 @@ import math
 from dataclasses import replace
 
 from plantar.gravity import GRAVITY
+from plantar.robots.kinematics.body import rolling_joints, stood
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.robot import Robot
 from plantar.sides import Side
-from plantar.sim.model.body import rolling_joints, stood
-from plantar.sim.model.leg_model import LegModel
-from plantar.sim.robots.robot import Robot
 
 __all__ = ["LEAN_MOST", "ankle_reach", "has_ankle_roll", "rocking"]
 

@@ -12,10 +12,10 @@ import math
 import numpy as np
 
 from plantar.gravity import GRAVITY
+from plantar.robots.kinematics.body import hanging_on, stood
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.robot import Robot
 from plantar.settings.body_scale import BodyScale
-from plantar.sim.model.body import hanging_on, stood
-from plantar.sim.model.leg_model import LegModel
-from plantar.sim.robots.robot import Robot
 
 __all__ = ["least_single_support", "swinging_mass"]
 

@@ -12,8 +12,8 @@ from plantar import __version__
 from plantar.errors import PlantarError, RobotError, SceneError
 from plantar.files.input_file import is_file, open_input
 from plantar.files.structured_text import read_toml
+from plantar.robots import load_robot
 from plantar.sides import SIDES
-from plantar.sim.robots import load_robot
 from plantar.sim.run.scene import scene_file
 
 __all__ = ["changes", "inputs_of"]

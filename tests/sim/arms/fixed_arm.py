@@ -9,12 +9,13 @@ from typing import Any, cast
 import mujoco
 import numpy as np
 
+from plantar.robots import load_robot
+from plantar.robots.kinematics.robot_model import Visitor
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sim.arms.compliant_arm import CompliantArm
 from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.arms.worn_arm import WornArm
-from plantar.sim.model.world import Visitor, World
-from plantar.sim.robots import load_robot
+from plantar.sim.model.world import World
 
 PERIOD = 0.005
 ASIDE = (0.0, 15.0, 80.0, 80.0, 0.0, 0.0, 0.0)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError, SceneError
+from plantar.robots import Robot, load_robot
+from plantar.robots.kinematics.robot_model import build_leg_model
+from plantar.robots.robot import Arms
 from plantar.sides import SIDES, Side
 from plantar.sim.arms.worn_arm import WornArm
-from plantar.sim.model.world import build_leg_model
-from plantar.sim.robots import Robot, load_robot
-from plantar.sim.robots.robot import Arms
 
 
 @pytest.mark.parametrize("side", SIDES)

@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.robots import load_robot
 from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.machine import load_machine
-from plantar.sim.robots import load_robot
 
 
 def test_mass_joints_and_height_of_the_centre_of_mass_are_the_published_ones() -> None:

@@ -9,9 +9,9 @@ import pytest
 
 from plantar.gait.plan.phases import PhaseKind
 from plantar.recordings.recording import Recording, Table
+from plantar.robots import load_robot
 from plantar.sides import SIDES
 from plantar.sim.figures.push_figure import draw_partner, draw_pushes, draw_strides, draw_swing
-from plantar.sim.robots import load_robot
 
 PERIOD, STEP = 0.02, 1.0
 

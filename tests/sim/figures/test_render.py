@@ -14,7 +14,7 @@ import numpy as np
 from plantar.sensing.reading import Reading
 from plantar.sim.figures.film import Film
 from plantar.sim.figures.render import Camera, save_picture
-from plantar.sim.robots import load_robot
+from plantar.robots import load_robot
 from plantar.sim.terrain import Ground
 from plantar.sim.model.world import build_world
 import mujoco

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from plantar.robots import Robot
 from plantar.sensing.reading import Reading
 from plantar.sim.figures.drawn_run import scale_colours
 from plantar.sim.figures.sole_inset import SoleInset
-from plantar.sim.robots import Robot
 
 WEIGHT = 800.0
 

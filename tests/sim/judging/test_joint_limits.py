@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from plantar.robots import Robot
 from plantar.sim.judging.joint_limits import JointLimits
 from plantar.sim.model.world import PHYSICS_PERIOD, World, build_world
-from plantar.sim.robots import Robot
 from plantar.sim.terrain import Ground
 
 STEPS = 400

@@ -4,8 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.sim.model.world import PHYSICS_PERIOD, World, build_leg_model, robot_spec
-from plantar.sim.robots import Robot
+from plantar.robots import Robot
+from plantar.robots.kinematics.robot_model import build_leg_model, robot_spec
+from plantar.sim.model.world import PHYSICS_PERIOD, World
 
 
 def test_masses_limits_and_heights_are_the_published_ones(h1: Robot) -> None:

@@ -8,11 +8,11 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
+from plantar.robots import load_robot
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sides import SIDES
 from plantar.sim.plant.draw import RANGES, TruePlant, drawn_plant
 from plantar.sim.plant.settings import EVERYTHING, RANDOM, Plant
-from plantar.sim.robots import load_robot
 
 LAYOUTS = load_robot("h1").layouts
 SEEDS = range(300)

@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.robots import Robot, load_robot
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES
 from plantar.sim.model.world import World, build_world
@@ -13,7 +14,6 @@ from plantar.sim.plant.delay import Delay
 from plantar.sim.plant.draw import TruePlant, drawn_plant
 from plantar.sim.plant.drives import RIPPLES, TrueDrives
 from plantar.sim.plant.settings import Plant
-from plantar.sim.robots import Robot, load_robot
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 from plantar.sim.sensing.sensors import SensorSuite

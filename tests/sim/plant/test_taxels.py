@@ -8,12 +8,12 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.robots import load_robot
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES, Side
 from plantar.sim.plant.draw import TruePlant, drawn_plant
 from plantar.sim.plant.settings import Plant
 from plantar.sim.plant.taxels import CONNECTORS, SILENCE, WARMING, TaxelErrors
-from plantar.sim.robots import load_robot
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 from plantar.sim.sensing.sensors import SensorSuite

@@ -14,9 +14,9 @@ import numpy as np
 
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import write_layout
+from plantar.robots import Robot, load_robot
+from plantar.robots.kinematics.robot_model import robot_spec
 from plantar.sides import SIDES
-from plantar.sim.model.world import robot_spec
-from plantar.sim.robots import Robot, load_robot
 
 _TOML = """name = "h1 times {s:g}"
 [model]

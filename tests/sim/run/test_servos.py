@@ -138,7 +138,7 @@ def test_a_robot_without_speed_limits_is_not_held_back(standing: Simulation) -> 
 
 
 def test_speed_limits_of_a_model_file_come_from_its_servo_table(tmp_path: Path) -> None:
-    from plantar.sim.robots import load_robot
+    from plantar.robots import load_robot
 
     h1 = load_robot("h1")
     text = h1.path.read_text().replace("damping = 150.0", "damping = 150.0\nvelocity_limits = [1, 2, 3, 4, 5, 6]")

@@ -2,11 +2,12 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts
 from plantar.sim.model.world import World
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
-from plantar.sim.sensing.sensors import SensorSuite, ankle_sensors
+from plantar.sim.sensing.sensors import SensorSuite
 from plantar.sim.sensing.settings import Sensing
 
 QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, accelerometer_noise=0.0)

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import pytest
 
+from plantar.robots import load_robot
+from plantar.robots.kinematics.body import body_of
+from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.settings.body_scale import BodyScale
-from plantar.sim.model.body import body_of
-from plantar.sim.model.world import build_leg_model
-from plantar.sim.robots import load_robot
 from plantar.sim.run.controller_settings import controller_settings
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.fitted_gait import (

@@ -15,8 +15,8 @@ import pytest
 
 from plantar.errors import RobotError
 from plantar.recordings.recording import read_mcap
+from plantar.robots import load_robot
 from plantar.shoes.found_foot import shoe_for_surface, taxel_area
-from plantar.sim.robots import load_robot
 from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.check import check_robot

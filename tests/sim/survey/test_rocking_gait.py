@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from plantar.gravity import GRAVITY
+from plantar.robots import builtin_robots, load_robot
+from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.sides import SIDES
-from plantar.sim.model.world import build_leg_model
-from plantar.sim.robots import builtin_robots, load_robot
 from plantar.sim.survey.rocking_gait import LEAN_MOST, ankle_reach, has_ankle_roll, rocking
 
 

@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.sim.model.body import body_of, stood
-from plantar.sim.model.leg_model import LegModel
-from plantar.sim.model.world import build_leg_model
-from plantar.sim.robots import load_robot
+from plantar.robots import load_robot
+from plantar.robots.kinematics.body import body_of, stood
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.sim.survey.swing_yaw import least_single_support, swinging_mass
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import InputError, RobotError, SceneError
-from plantar.sim.robots import load_robot
+from plantar.robots import load_robot
 from plantar.sim.sweep import Sweep, run_sweep
 from plantar.sim.sweep.inputs import changes, inputs_of
 from plantar.sim.sweep.task import Task, run_task

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
+from plantar.robots.kinematics.robot_model import Visitor
+from plantar.robots.robot import Robot
+from plantar.robots.robot_file import load_robot
 from plantar.sides import SIDES, Side
 from plantar.sim.bench.scenes.scene_setting import SceneSetting
 from plantar.sim.contact_models.sole_mjcf import SPHERE_RADIUS, support_points
 from plantar.sim.model.contact_truth import ContactReader, ground_truth
-from plantar.sim.model.world import Visitor, World
-from plantar.sim.robots.robot import Robot
-from plantar.sim.robots.robot_file import load_robot
+from plantar.sim.model.world import World
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 

@@ -1,0 +1,40 @@
+"""Force-torque sensors of the ankles, as a robot's model has them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+
+from plantar.gait.estimate.ankle_sensor import AnkleSensor
+from plantar.robots.robot import Robot
+from plantar.sides import SIDES, Side
+
+__all__ = ["ankle_sensors"]
+
+
+def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
+    """Where each ankle's force-torque sensor sits and what hangs below it.
+
+    Args:
+        model: The MjModel of the robot.
+        robot: The robot.
+
+    Returns:
+        The sensors, for the controller.
+    """
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    sensors: dict[Side, AnkleSensor] = {}
+    for side in SIDES:
+        sole, site = model.site(robot.legs[side].sole_site).id, model.site(f"{side}_ankle_force_torque").id
+        body = model.site_bodyid[site]
+        origin, rotation = data.site_xpos[sole], data.site_xmat[sole].reshape(3, 3)
+        sensors[side] = AnkleSensor(
+            position=rotation.T @ (data.site_xpos[site] - origin),
+            rotation=rotation.T @ data.site_xmat[site].reshape(3, 3),
+            mass=float(model.body_subtreemass[body]),
+            com=rotation.T @ (data.subtree_com[body] - origin),
+        )
+    return sensors

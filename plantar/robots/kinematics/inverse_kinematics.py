@@ -1,0 +1,274 @@
+"""Inverse kinematics of a list of tasks: Newton steps that stay calm near singularities, at limits and out of reach.
+
+A step solves J dq = e by the normal equations, J^T J dq = J^T e, with 1e-8 on the diagonal against rounding. It stays
+as it is where the equations are well conditioned, no joint leaves its limits and no entry of it is larger than allowed;
+so do almost all steps of a walk. Otherwise these rules hold:
+
+- **Levels.** The tasks of a level are solved in the null space of those of the levels before (Siciliano and Slotine
+  1991): a foot that shall carry nothing misses its target rather than move the foot that carries the robot.
+- **Damping.** With the singular values s of a level and near = max(0, 1 - (s / EPSILON)^2), each direction takes the
+  step s r / (s^2 + d) for the residual r along it, with
+
+      d = near EPSILON^2 + S R.
+
+  The first term damps the directions near a singularity alone (Maciejewski and Klein 1988, Chiaverini 1997): where s is
+  below EPSILON it makes s^2 + d = EPSILON^2, so the inverse rises to 1 / EPSILON and never beyond, without a jump. R is
+  the length of the residual that no step removes: along directions near a singularity, in the share `near`, and across
+  all directions where joints stand at their limits. It stays when a target is out of reach, and Newton's step, which
+  leaves the curvature of the task out, then jumps to and fro; Sugihara (2011) damps with the residual for that reason.
+  Take a limb bent by x near straight, whose reach falls by c x^2 / 2: s = c x, so out of reach by R the step is
+  -c R x / (c^2 x^2 + d), and x goes to 0 where d >= c R / 2. S is the largest singular value of the level, which holds
+  the levers of its joints: of a limb of n equal links with parallel axes c is 0.7 sqrt(n) S or less, 2 S up to n = 8.
+- The residual of a level counts with a length of 1 (m and rad) at most: from farther away a target only says where to.
+- The largest step L has to be small enough not to carry a limb over the zone x < EPSILON / c in which damping sets in,
+  from one side to the other: c L / 2 <= EPSILON. A leg with thigh and shank of 0.4 m has c = 0.13 m, so L up to 0.15.
+- **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture: a knee that is
+  exactly straight, where no task moves it, bends again.
+- **Scale.** The step of a level is scaled as a whole, by one factor for all joints, until no entry of the sum is larger
+  than allowed. No joint is clamped by itself.
+- **Unit of length.** Lengths and angles share residuals, singular values and limits, so it matters what length counts
+  as much as 1 rad. It is 1 m for a leg of 0.6 m, and goes with the leg: robots of one shape take the same steps.
+- **Limits.** A joint that would leave its limits stops at the limit, the one that would leave them farthest first, and
+  the step is solved again for the others.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.kernels.joints.configuration import Configuration
+from plantar.kernels.joints.newton_step import NewtonStep
+from plantar.kernels.joints.task_step import TaskStep
+from plantar.robots.kinematics.tasks.posture_task import PostureTask
+from plantar.robots.kinematics.tasks.task import Task
+
+__all__ = ["InverseKinematics"]
+
+_ROUNDING = 1e-8  # on the diagonal of the normal equations
+_EPSILON = 0.01  # singular value in m/rad below which damping sets in; walks stay above 0.019
+_SUSPECT = 0.04
+"""Pivot of the Cholesky factor from which on singular values are looked at. The least pivot is above the least singular
+value: 3.0 to 3.4 times in walks, so this is the pivot of 0.012, and walks stay above 0.052."""
+_POSTURE_SHARE = 0.01  # of the way to the reference posture in a step: 0.5 s at 200 steps a second
+_INSIDE = 1e-12  # rad or m inside its limit at which a joint stops: rounding does not carry it out
+_NULL = 1e-9  # singular value over the largest below which a direction is in the null space
+
+
+class InverseKinematics:
+    """Steps of a configuration towards tasks.
+
+    Args:
+        model: The model.
+        data: Its data, which holds the configuration and to which the tasks are bound; who changes it calls `move`.
+        tasks: The tasks.
+        posture: Reference posture, for directions that the tasks leave free.
+        columns: Velocities (n,) of the model that a step may use, in the order in which it solves for them.
+        unit: Length in m that counts as much as 1 rad.
+
+    Attributes:
+        plain: How many steps were those of the normal equations.
+        careful: How many needed null-space projectors, damping or limits.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        tasks: Sequence[Task],
+        posture: PostureTask,
+        columns: NDArray[np.int_],
+        unit: float = 1.0,
+    ) -> None:
+        self._model, self._data = model, data
+        self._columns = np.asarray(columns, dtype=np.intp)
+        self._configuration = data.qpos  # the data's own array
+        self.tasks, self.posture = tuple(tasks), posture
+        rows = sum(task.rows for task in tasks)
+        self._jacobian = np.zeros((rows, model.nv))
+        self._error = np.zeros(rows)
+        ends = np.cumsum([task.rows for task in tasks]).tolist()
+        self._rows = [slice(end - task.rows, end) for task, end in zip(tasks, ends, strict=True)]
+        self._parts = [(t, self._error[r], self._jacobian[r]) for t, r in zip(tasks, self._rows, strict=True)]
+        kernels = [(task, error, task.rows_for(error, jacobian)) for task, error, jacobian in self._parts]
+        self._asked = [part for part, (_, _, kernel) in zip(self._parts, kernels, strict=True) if kernel is None]
+        self._with_rows = [(task, error) for task, error, kernel in kernels if kernel is not None]
+        self._velocity = np.zeros(model.nv)
+        in_units = [np.repeat([1.0 / unit, 1.0], [task.lengths, task.rows - task.lengths]) for task in tasks]
+        units = np.ones(model.nv)
+        for joint in np.flatnonzero(model.jnt_type == int(mujoco.mjtJoint.mjJNT_FREE)):
+            units[model.jnt_dofadr[joint] : model.jnt_dofadr[joint] + 3] = unit
+        joint_of = model.dof_jntid[columns]
+        kinds = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
+        self._movable = np.flatnonzero(np.isin(model.jnt_type[joint_of], kinds))
+        joints = joint_of[self._movable]
+        self._places = model.jnt_qposadr[joints].astype(np.intp)
+        free = model.jnt_limited[joints] == 0  # a joint without limits has the range 0 to 0 in the model
+        self._lower = np.where(free, -np.inf, model.jnt_range[joints, 0])
+        self._upper = np.where(free, np.inf, model.jnt_range[joints, 1])
+        self._newton_jacobian, self._newton_step = np.zeros((rows, len(columns))), np.zeros(len(columns))
+        self._newton = NewtonStep(
+            *(self._columns, np.concatenate(in_units), units, self._movable, self._places),
+            np.where(free, 0.0, model.jnt_range[joints].mean(axis=1)),
+            np.where(free, np.inf, 0.5 * np.ptp(model.jnt_range[joints], axis=1)),
+            *(_ROUNDING, _SUSPECT, (self._jacobian, self._error, self._configuration)),
+            *(self._newton_jacobian, self._newton_step, self._velocity),
+        )
+        self._step_kernel = TaskStep(
+            [kernel for *_, kernel in kernels if kernel is not None],
+            self._newton,
+            _moving(model, self._configuration, self._velocity),
+        )
+        self.plain = self.careful = 0
+        self._placed = False
+        self._drawn = np.zeros((posture.rows, model.nv))
+        posture.jacobian(self._drawn)
+
+    def solve(self, iterations: int = 1, largest_step: float = 0.5) -> float:
+        """Newton steps from the configuration in the data.
+
+        Args:
+            iterations: Number of steps.
+            largest_step: Largest entry of a step in units of length and rad.
+
+        Returns:
+            The largest task error before the last step (units of length or rad); not a number if a target is not.
+        """
+        kernel = self._step_kernel
+        for _ in range(iterations):
+            if not self._placed:
+                self.place()
+            for task, error, jacobian in self._asked:
+                task.error(error)
+                task.jacobian(jacobian)
+            if kernel.step(largest_step):
+                self.plain += 1
+            else:
+                self._step_with_care(largest_step)
+            self._placed = False
+        worst: float = self._newton.worst()
+        return worst
+
+    def place(self) -> None:
+        """Bring the data's poses to its configuration, unless they are there: who asks for them after a solution spares
+        the next one its kinematics."""
+        if not self._placed:
+            mujoco.mj_kinematics(self._model, self._data)
+            mujoco.mj_comPos(self._model, self._data)
+            self._placed = True
+
+    def move(self) -> None:
+        """Say that the configuration has been changed from outside."""
+        self._placed = False
+
+    def _step_with_care(self, largest: float) -> None:
+        """A step that the kernel did not take: it could not write all errors, or the plain step may not stay."""
+        kernel, plain = self._step_kernel, False
+        if not kernel.near:
+            for task, error in self._with_rows:
+                task.error(error)
+            plain = self._newton.solve(largest)
+        if plain:
+            self.plain += 1
+        else:
+            self._newton_step[:] = self._careful(self._newton_jacobian, largest)
+            self.careful += 1
+        kernel.move()
+
+    def _careful(self, jacobian: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
+        """Step (n,) by levels, damped, scaled and within the limits; none if a target is not a number."""
+        count = jacobian.shape[1]
+        if not np.isfinite(self._error).all():
+            return np.zeros(count)
+        low, high = np.full(count, -np.inf), np.full(count, np.inf)
+        here = self._configuration[self._places]
+        low[self._movable], high[self._movable] = self._lower + _INSIDE - here, self._upper - _INSIDE - here
+        pull = np.zeros(self.posture.rows)
+        self.posture.error(pull)
+        drawn = _POSTURE_SHARE * (pull @ self._drawn)[self._columns]
+        stopped = np.zeros(count, dtype=bool)
+        step = stop = np.zeros(count)
+        for _ in range(len(here) + 1):
+            step = self._by_levels(jacobian, drawn, stop, ~stopped, largest)
+            beyond = np.where(stopped, 0.0, np.maximum(low - step, step - high))
+            worst = int(beyond.argmax())
+            if beyond[worst] <= 0.0:
+                break
+            stopped[worst] = True
+            # A joint that starts beyond its limit comes back no faster than others move.
+            stop = stop.copy()
+            stop[worst] = min(largest, max(-largest, min(high[worst], max(low[worst], step[worst]))))
+        return step
+
+    def _by_levels(
+        self,
+        jacobian: NDArray[np.float64],
+        drawn: NDArray[np.float64],
+        stop: NDArray[np.float64],
+        free: NDArray[np.bool_],
+        largest: float,
+    ) -> NDArray[np.float64]:
+        """Step (n,) level by level, for given steps of the joints that are not free."""
+        step = stop.copy()
+        basis = np.eye(len(step))[:, free]  # of what the levels so far leave free
+        for rows in self._rows_by_level():
+            wanted = self._error[rows] - jacobian[rows] @ step
+            wanted /= max(1.0, math.sqrt(float(wanted @ wanted)))
+            left, values, right = np.linalg.svd(jacobian[rows] @ basis)
+            rank = int((values > _NULL * values.max(initial=0.0)).sum())
+            pulled = right[: len(values)] @ (drawn @ basis)
+            amounts = _amounts(values, left.T @ wanted, pulled)
+            more = basis @ (amounts[:rank] @ right[:rank])
+            _add(step, more, largest)
+            basis = basis @ right[rank:].T
+        _add(step, basis @ (drawn @ basis), largest)
+        return step
+
+    def _rows_by_level(self) -> list[NDArray[np.int_]]:
+        """Rows of the tasks of each level."""
+        levels: dict[int, list[slice]] = {}
+        for task, rows in zip(self.tasks, self._rows, strict=True):
+            levels.setdefault(task.level, []).append(rows)
+        return [np.r_[tuple(levels[level])] for level in sorted(levels)]
+
+
+def _moving(model: mujoco.MjModel, configuration: NDArray[np.float64], velocity: NDArray[np.float64]) -> Configuration:
+    """A configuration (nq,) of a model that moves at a velocity (nv,)."""
+    kinds, places, rates = model.jnt_type, model.jnt_qposadr.astype(np.intp), model.jnt_dofadr.astype(np.intp)
+    free, ball = (kinds == int(kind) for kind in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL))
+    single, offsets = ~(free | ball), np.arange(3)
+    return Configuration(
+        np.concatenate([places[single], np.add.outer(places[free], offsets).ravel()]),
+        np.concatenate([rates[single], np.add.outer(rates[free], offsets).ravel()]),
+        np.concatenate([places[free] + 3, places[ball]]),
+        np.concatenate([rates[free] + 3, rates[ball]]),
+        *(configuration, velocity),
+    )
+
+
+def _amounts(
+    values: NDArray[np.float64], along: NDArray[np.float64], pulled: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Step (k,) along each right singular vector, damped.
+
+    Args:
+        values: Singular values (k,).
+        along: Residual (m,) along the left singular vectors.
+        pulled: Way (k,) to the posture along the right singular vectors.
+    """
+    count = len(values)
+    near = np.maximum(0.0, 1.0 - (values / _EPSILON) ** 2)
+    stays = math.sqrt(float(near @ along[:count] ** 2) + float((along[count:] ** 2).sum()))
+    damping = _ROUNDING + near * _EPSILON**2 + values.max(initial=0.0) * stays
+    return np.asarray(values * along[:count] / (values**2 + damping) + near * pulled)
+
+
+def _add(step: NDArray[np.float64], more: NDArray[np.float64], largest: float) -> None:
+    """Add as large a share of `more`, up to all of it, as keeps every entry of the step within the largest."""
+    room = np.where(more > 0.0, largest - step, largest + step)
+    share = np.divide(room, np.abs(more), out=np.full(len(step), np.inf), where=more != 0.0).min(initial=1.0)
+    step += max(0.0, float(share)) * more

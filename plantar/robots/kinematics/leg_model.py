@@ -1,0 +1,258 @@
+"""A robot's legs: forward kinematics, joint angles for CoM, torso and soles, and the torques that hold them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.arrays import read_only
+from plantar.gait.estimate.estimator import Posture
+from plantar.kernels.joints.joint_entries import JointEntries
+from plantar.kernels.joints.leg_targets import LegTargets
+from plantar.kernels.joints.static_load import StaticLoad
+from plantar.kernels.joints.task_rows import PointRows
+from plantar.robots.kinematics.inverse_kinematics import InverseKinematics
+from plantar.robots.kinematics.tasks.chain import chain
+from plantar.robots.kinematics.tasks.com_task import ComTask
+from plantar.robots.kinematics.tasks.orientation_task import OrientationTask
+from plantar.robots.kinematics.tasks.pose_task import PoseTask
+from plantar.robots.kinematics.tasks.posture_task import PostureTask
+from plantar.robots.kinematics.tasks.rolling_pose_task import RollingPoseTask
+from plantar.sides import SIDES, Side
+
+__all__ = ["LegModel"]
+
+_FULL_LEG = 6  # joints of a leg that can give its sole any pose
+
+
+class LegModel:
+    """Kinematics of a free-floating robot that moves its legs; other joints that it may have are where they are said to
+    be.
+
+    Args:
+        model: The robot alone, first joint free, one hinge a leg joint.
+        joints: Names of the leg joints in the order of all joint vectors.
+        soles: Name of each sole's site.
+        torso: Name of the body that is kept upright.
+        unit: Length in m that counts as much as 1 rad where targets cannot all be met (`InverseKinematics`).
+
+    Attributes:
+        joints: Joint angles (k,) in rad that `follow` found; the next solution is written over it.
+        torques: Joint torques (k,) in N m that `carry` found, likewise.
+    """
+
+    def __init__(
+        self, model: mujoco.MjModel, joints: Sequence[str], soles: Mapping[Side, str], torso: str, unit: float = 1.0
+    ) -> None:
+        self.model = model
+        self._data = mujoco.MjData(model)  # of the solution
+        self._probe = mujoco.MjData(model)  # of the measured posture, in the base frame
+        self._probe.qpos[:7] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+        ids = [model.joint(name).id for name in joints]
+        # Of numpy's own integers: by those of MuJoCo, which it has to convert first, writing takes seven times as long.
+        self._qpos = np.array([model.jnt_qposadr[i] for i in ids], dtype=np.intp)
+        self._dof = np.array([model.jnt_dofadr[i] for i in ids], dtype=np.intp)
+        held = np.isin(np.arange(model.njnt), ids, invert=True) & (model.jnt_type != int(mujoco.mjtJoint.mjJNT_FREE))
+        self._others = model.jnt_qposadr[held]
+        self._sites: dict[Side, int] = {s: model.site(soles[s]).id for s in SIDES}
+        upright = model.body(torso).id
+        self._root = int(model.body_rootid[upright])
+        self.mass = float(model.body_subtreemass[self._root])
+        self._com = ComTask(model, self._data, self._root)
+        self._torso = OrientationTask(model, self._data, upright)
+        # Views of what MuJoCo computes: asking the data for them costs more than reading them.
+        probe = self._probe
+        self._probe_joints = probe.qpos
+        self._posture = Posture(
+            read_only(probe.subtree_com[self._root]),
+            {s: read_only(probe.site_xpos[i]) for s, i in self._sites.items()},
+            {s: read_only(probe.site_xmat[i].reshape(3, 3)) for s, i in self._sites.items()},
+        )
+        sole = PoseTask if len(ids) >= 2 * _FULL_LEG else RollingPoseTask
+        self._soles: dict[Side, PoseTask] = {s: sole(model, self._data, self._sites[s]) for s in SIDES}
+        self._targets = LegTargets(
+            *(self._com.target, self._torso.target),
+            *((sole.position, sole.rotation) for sole in self._soles.values()),
+        )
+        self._yielding: Collection[Side] = ()
+        self._reference = PostureTask(model, self._data, ids)
+        self.joints, self.torques = np.zeros(len(ids)), np.zeros(len(ids))
+        self._angle_entries = JointEntries(self._data.qpos, self._qpos.astype(np.intp), self.joints)
+        weightless = bool(model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY))
+        self._load = StaticLoad(
+            *(model.body_parentid.astype(np.intp), model.dof_bodyid.astype(np.intp)),
+            *(self._data.cinert, self._data.cdof, np.zeros(3) if weightless else model.opt.gravity),
+            *(self._dof.astype(np.intp), self.torques),
+        )
+        self._levers = [(s, *_lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
+        self.inverse = InverseKinematics(
+            model,
+            self._data,
+            [self._com, self._torso, *self._soles.values()],
+            self._reference,
+            np.concatenate([np.arange(6), self._dof]),
+            unit,
+        )
+
+    def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """Forward kinematics in the base frame (see `plantar.gait.estimate.estimator.LegKinematics`)."""
+        posture = self.live_posture(joint_positions)
+        places, turns = posture.positions, posture.rotations
+        return Posture(
+            posture.com.copy(),
+            {"left": places["left"].copy(), "right": places["right"].copy()},
+            {"left": turns["left"].copy(), "right": turns["right"].copy()},
+        )
+
+    def live_posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """The same without copies (see `plantar.gait.estimate.estimator.LiveKinematics`)."""
+        data = self._probe
+        self._probe_joints[self._qpos] = joint_positions
+        mujoco.mj_kinematics(self.model, data)
+        mujoco.mj_comPos(self.model, data)
+        return self._posture
+
+    def set_configuration(
+        self, position: NDArray[np.float64], quaternion: NDArray[np.float64], joints: NDArray[np.float64]
+    ) -> None:
+        """Set the configuration that the next `solve` starts from, and whose joints are the reference posture.
+
+        Args:
+            position: Base position (3,) in the world frame in m.
+            quaternion: Base orientation (4,), w first.
+            joints: Joint angles (k,) in rad.
+        """
+        self._data.qpos[:3] = position
+        self._data.qpos[3:7] = quaternion
+        self._data.qpos[self._qpos] = joints
+        self.inverse.move()
+        self._reference.target = np.array(joints, dtype=float)
+
+    def hold_others(self, joints: NDArray[np.float64]) -> None:
+        """Say where the joints are that are of no leg, for all that is computed from now on.
+
+        Args:
+            joints: Their positions (o,) in the model's order in rad or m.
+        """
+        self._data.qpos[self._others] = joints
+        self.inverse.move()
+        self._probe.qpos[self._others] = joints
+
+    @property
+    def configuration(self) -> NDArray[np.float64]:
+        """Configuration (nq,) of the last solution."""
+        return np.array(self._data.qpos)
+
+    def solve(
+        self,
+        com: NDArray[np.float64],
+        rotation_torso: NDArray[np.float64],
+        positions: Mapping[Side, NDArray[np.float64]],
+        rotations: Mapping[Side, NDArray[np.float64]],
+        iterations: int = 1,
+        yielding: Collection[Side] = (),
+        largest_step: float = 0.5,
+    ) -> tuple[NDArray[np.float64], float]:
+        """Joint angles for CoM, torso orientation and both soles: Newton steps from the last solution.
+
+        The 18 task rows (CoM 3, torso orientation 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped, so a
+        step is one square solve; so do the 16 of one whose legs have five joints and leave the soles' roll to the
+        ground. Near a straight knee, at a joint's limit and out of reach the rules of
+        `plantar.robots.kinematics.inverse_kinematics` hold.
+
+        Args:
+            com: CoM (3,) in the world frame in m.
+            rotation_torso: Rotation (3, 3) from the torso to the world frame.
+            positions: Sole frame origin (3,) of each foot in m.
+            rotations: Rotation (3, 3) from each sole to the world frame.
+            iterations: Newton steps.
+            yielding: Feet that miss their targets where not all can be met, rather than that CoM, torso and the other
+                foot do: those that carry nothing.
+            largest_step: Largest change of a joint in rad, or of the base in units of length or rad, in a Newton step.
+
+        Returns:
+            Joint angles (k,) in rad within their limits, and the largest task error before the last step
+            (units of length or rad), not a number if a target is not.
+        """
+        missed = self.follow(com, rotation_torso, positions, rotations, iterations, yielding, largest_step)
+        return self.joints.copy(), missed
+
+    def follow(
+        self,
+        com: NDArray[np.float64],
+        rotation_torso: NDArray[np.float64],
+        positions: Mapping[Side, NDArray[np.float64]],
+        rotations: Mapping[Side, NDArray[np.float64]],
+        iterations: int = 1,
+        yielding: Collection[Side] = (),
+        largest_step: float = 0.5,
+    ) -> float:
+        """What `solve` does, for a caller who reads `joints` at once.
+
+        Args:
+            com: As of `solve`; likewise all others.
+            rotation_torso: Likewise.
+            positions: Likewise.
+            rotations: Likewise.
+            iterations: Likewise.
+            yielding: Likewise.
+            largest_step: Likewise.
+
+        Returns:
+            The largest task error before the last step, as of `solve`.
+        """
+        targets = com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"]
+        try:
+            self._targets.take(*targets)
+        except ValueError:  # one is of other strides or numbers than the kernel takes
+            self._targets.take(*(np.ascontiguousarray(target, dtype=np.float64) for target in targets))
+        if yielding != self._yielding:
+            self._yielding = tuple(yielding)
+            for side, sole in self._soles.items():
+                sole.level = 1 if side in yielding else 0
+        missed = self.inverse.solve(iterations, largest_step)
+        self._angle_entries.take()
+        return missed
+
+    def static_torques(
+        self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]
+    ) -> NDArray[np.float64]:
+        """Joint torques (k,) in N m that hold the last solution against gravity and given ground forces.
+
+        Args:
+            forces: Force (3,) in N that the ground exerts on each sole, world frame.
+            points: Point (3,) in m at which it acts, world frame.
+
+        Returns:
+            tau = g(q) - sum J^T f.
+        """
+        self.carry(forces, points)
+        return self.torques.copy()
+
+    def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
+        """What `static_torques` does, for a caller who reads `torques` at once.
+
+        Args:
+            forces: As of `static_torques`.
+            points: Likewise.
+        """
+        self.inverse.place()
+        load = self._load
+        load.weigh()
+        for side, lever, jacobian in self._levers:
+            force = forces[side]
+            if force.item(2) <= 0.0:
+                continue
+            x, y, z = points[side]
+            lever.write(x, y, z)
+            load.less(force.dot(jacobian))
+        load.take()
+
+
+def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> tuple[PointRows, NDArray[np.float64]]:
+    """What writes how a point of a body moves, and the array (3, nv) that it writes to."""
+    jacobian = np.zeros((3, model.nv))
+    return PointRows(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]], jacobian), jacobian

@@ -1,0 +1,101 @@
+"""The robot alone as a MuJoCo model: without ground, as its controller knows it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import mujoco
+
+from plantar.errors import RobotError
+from plantar.optional_library import unheard
+from plantar.robots.biped import biped_mjcf
+from plantar.robots.kinematics.body import body_of
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.leg_shapes import add_leg_shapes
+from plantar.robots.model_file import spec_from_file
+from plantar.robots.robot import Robot
+from plantar.settings.body_scale import REFERENCE_BODY
+from plantar.sides import SIDES
+
+__all__ = ["Visitor", "build_leg_model", "compiled_model", "robot_spec"]
+
+
+class Visitor(Protocol):
+    """What is added to a model: an arm, a partner, furniture."""
+
+    def add_to(self, spec: Any) -> None:
+        """Add it to an editable `mujoco.MjSpec`."""
+
+
+def robot_spec(robot: Robot) -> Any:
+    """The robot alone as an editable `mujoco.MjSpec`.
+
+    Args:
+        robot: The robot.
+
+    Raises:
+        RobotError: If the model cannot be read.
+    """
+    mujoco.set_mju_user_warning(unheard)
+    if robot.biped is not None:
+        center, half = robot.sole_rectangle("left")
+        text = biped_mjcf(
+            robot.biped,
+            name=robot.name,
+            posture=[math.degrees(v) for v in robot.posture["left"]],
+            sole_center=center,
+            sole_half_size=half,
+            shoe_thickness=robot.shoe_thickness,
+            shoe_mass=robot.shoe_mass,
+            stiffness=robot.stiffness,
+            damping=robot.damping,
+        )
+        spec = mujoco.MjSpec.from_string(text)
+        add_leg_shapes(spec, robot)
+        return spec
+    return spec_from_file(robot)
+
+
+def compiled_model(spec: Any, robot: Robot) -> Any:
+    """Compile a model.
+
+    Args:
+        spec: The editable `mujoco.MjSpec`.
+        robot: The robot in it, for the message.
+
+    Returns:
+        The `mujoco.MjModel`.
+
+    Raises:
+        RobotError: If MuJoCo refuses it.
+    """
+    try:
+        return spec.compile()
+    except ValueError as error:
+        text = " ".join(str(error).split())
+        raise RobotError(f"robot '{robot.name}': its model cannot be simulated: {text}") from None
+
+
+def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
+    """Kinematic model of the robot alone, which its controller uses.
+
+    Args:
+        robot: The robot.
+        worn: What it wears beside its file's model, such as an arm that moves.
+
+    Returns:
+        The model.
+
+    Raises:
+        RobotError: If the model cannot be read or simulated.
+    """
+    spec = robot_spec(robot)
+    for part in worn:
+        part.add_to(spec)
+    model = compiled_model(spec, robot)
+    joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
+    soles = {s: robot.legs[s].sole_site for s in SIDES}
+    unit = body_of(robot, model).leg / REFERENCE_BODY.leg
+    return LegModel(model, joints, soles, robot.torso_body, unit)

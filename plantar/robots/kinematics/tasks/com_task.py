@@ -1,0 +1,65 @@
+"""Centre of mass at a point."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.kernels.joints.task_rows import ComRows, Rows
+from plantar.robots.kinematics.tasks.chain import chain
+from plantar.robots.kinematics.tasks.task import Target, Task
+
+__all__ = ["ComTask"]
+
+
+class ComTask(Task):
+    """The CoM of a body and all that hangs on it shall be at a point of the world.
+
+    Attributes:
+        target: The point (3,) in m, copied where it is set.
+
+    Args:
+        model: The model.
+        data: Its data.
+        body: The root body's id.
+    """
+
+    rows = 3
+    lengths = 3
+    target = Target()
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
+        self._model, self._data, self._body = model, data, body
+        self._com = data.subtree_com[body]
+        self.target = self._com
+
+    def error(self, out: NDArray[np.float64]) -> None:
+        """Target less CoM (3,) in m."""
+        np.subtract(self.target, self._com, out=out)
+
+    def jacobian(self, out: NDArray[np.float64]) -> None:
+        """Velocity of the CoM (3, nv)."""
+        mujoco.mj_jacSubtreeCom(self._model, self._data, out, self._body)
+
+    def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
+        """A kernel that writes both at once (see `Task.rows_for`).
+
+        Args:
+            error: Receives the error (rows,).
+            jacobian: Receives the Jacobian (rows, nv).
+
+        Returns:
+            The kernel.
+        """
+        model, data, first = self._model, self._data, self._body
+        last = first + 1  # the bodies of a tree follow each other
+        while last < model.nbody and model.body_parentid[last] >= first:
+            last += 1
+        chains = [chain(model, body) for body in range(first, last)]
+        return ComRows(
+            *(np.concatenate(chains), np.cumsum([len(c) for c in chains]), model.body_mass[first:last].copy()),
+            1.0 / max(mujoco.mjMINVAL, model.body_subtreemass[first]),
+            *(data.cdof, data.subtree_com, model.body_rootid[first:last].astype(np.intp), data.xipos[first:last]),
+            *(self.target, self._com, error, jacobian),
+        )

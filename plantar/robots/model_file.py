@@ -1,0 +1,240 @@
+"""A robot from a model file (MJCF or URDF): its legs kept, its upper body welded, its soles and sensors added.
+
+What walks is the same for every robot: a free base, six or more leg joints a side with position servos, a shoe on each
+foot whose contact box is the sole layout's rectangle, and an IMU. Everything else of the file (other joints, actuators,
+sensors, keyframes, contacts, gravity and switches of its own simulation) does not take part.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from plantar.errors import RobotError
+from plantar.files.model_files import check_model
+from plantar.mechanics.lip import GRAVITY
+from plantar.robots.leg_shapes import add_leg_shapes
+from plantar.robots.robot import LegNames, Robot
+from plantar.sides import SIDES
+
+__all__ = ["forget_own_simulation", "spec_from_file"]
+
+_SHOE_HEIGHT = 0.02  # m: where the shoe's mass is taken to be above the contact face, at most
+
+
+def spec_from_file(robot: Robot) -> Any:
+    """Read a robot's model file and make it a walking robot.
+
+    Args:
+        robot: A robot with a model file.
+
+    Returns:
+        An editable `mujoco.MjSpec` with sites "<side>_sole" and the IMU's, geoms "<side>_sole_box", one position
+        actuator a leg joint, and the sensors "imu_gyro", "imu_accelerometer", "<side>_ankle_force" and
+        "<side>_ankle_torque".
+
+    Raises:
+        RobotError: If the file cannot be read, or lacks a joint or body that the robot's TOML names.
+    """
+    spec = _parsed(robot)
+    forget_own_simulation(spec)
+    _free_base(spec, robot)
+    _weld_upper_body(spec, robot)
+    colliding = _without_collisions(spec)
+    _make_room(spec, robot)
+    for i, geom in enumerate(colliding):
+        geom.name = geom.name or f"shape {i} of the model"
+    for side in SIDES:
+        _put_on_shoe(spec, robot, side)
+        _add_servos(spec, robot, side)
+    add_leg_shapes(spec, robot, [geom.name for geom in colliding])
+    _add_imu(spec, robot)
+    return spec
+
+
+def _parsed(robot: Robot) -> Any:
+    """The model file as an editable `mujoco.MjSpec`."""
+    assert robot.model_file is not None
+    check_model(robot.model_file, RobotError)  # MuJoCo would follow whatever it names
+    try:
+        spec = mujoco.MjSpec.from_file(str(robot.model_file))
+    except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
+        text = " ".join(str(error).split())
+        raise RobotError(f"robot '{robot.name}': model file {robot.model_file} cannot be read: {text}") from None
+    spec.compiler.fusestatic = False  # URDF's default would melt shoes into feet
+    return spec
+
+
+def forget_own_simulation(spec: Any) -> None:
+    """Take out what the file's author simulated with: without gravity or contacts nothing would walk."""
+    for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
+        for element in list(getattr(spec, part)):
+            spec.delete(element)
+    spec.option.gravity = [0.0, 0.0, -GRAVITY]
+    spec.option.density = spec.option.viscosity = 0.0
+    spec.option.disableflags = spec.option.enableflags = 0
+    for body in spec.bodies:
+        body.gravcomp = 0.0
+
+
+def _without_collisions(spec: Any) -> list[Any]:
+    """Let no geom of the file collide; those that did are given back."""
+    colliding = [geom for geom in spec.geoms if geom.contype or geom.conaffinity]
+    for geom in spec.geoms:
+        geom.contype = geom.conaffinity = 0
+    return colliding
+
+
+def _add_imu(spec: Any, robot: Robot) -> None:
+    """The IMU's site, where the file has none, and its gyro and accelerometer."""
+    torso = _body(spec, robot, robot.torso_body, "[torso] body")
+    if spec.site(robot.imu_site) is None:
+        torso.add_site(name=robot.imu_site, pos=[0.0, 0.0, 0.0])
+    for name, kind in (
+        ("imu_gyro", mujoco.mjtSensor.mjSENS_GYRO),
+        ("imu_accelerometer", mujoco.mjtSensor.mjSENS_ACCELEROMETER),
+    ):
+        spec.add_sensor(name=name, type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=robot.imu_site)
+
+
+def _body(spec: Any, robot: Robot, name: str, field: str) -> Any:
+    found = spec.body(name)
+    if found is None:
+        known = ", ".join(b.name for b in spec.bodies if b.name and b.name != "world")
+        raise RobotError(f"robot '{robot.name}': {field} is '{name}'; the model has {known}")
+    return found
+
+
+def _free_base(spec: Any, robot: Robot) -> None:
+    """The root of the torso floats: a free joint is added where the model has none (URDF)."""
+    root = _body(spec, robot, robot.torso_body, "[torso] body")
+    if root.parent is None:
+        raise RobotError(f"robot '{robot.name}': [torso] body is '{root.name}', which is no part of the robot")
+    while root.parent.name != "world":
+        root = root.parent
+    if not any(j.type == mujoco.mjtJoint.mjJNT_FREE for j in root.joints):
+        for joint in list(root.joints):
+            spec.delete(joint)
+        root.add_freejoint(name="plantar_root")
+    _clear_world(spec, root)
+
+
+def _clear_world(spec: Any, root: Any) -> None:
+    """Take out whatever else stands in the world (floors of ready-made scenes): it is not part of the robot."""
+    for body in list(spec.worldbody.bodies):
+        if body.name != root.name:
+            spec.delete(body)
+    for geom in list(spec.worldbody.geoms):
+        spec.delete(geom)
+
+
+def _weld_upper_body(spec: Any, robot: Robot) -> None:
+    """Only the legs' joints and the free base stay."""
+    legs = {name for leg in robot.legs.values() for name in leg.joints}
+    _check_joints(spec, robot, legs)
+    for side, leg in robot.legs.items():
+        _check_leg(spec, robot, side, leg)
+    for joint in list(spec.joints):
+        if joint.name not in legs and joint.type != mujoco.mjtJoint.mjJNT_FREE:
+            spec.delete(joint)
+
+
+def _check_joints(spec: Any, robot: Robot, wanted: set[str]) -> None:
+    """Refuse legs with a joint that the model does not have."""
+    names = {j.name for j in spec.joints}
+    missing = sorted(wanted - names)
+    if missing:
+        known = ", ".join(sorted(filter(None, names)))
+        raise RobotError(f"robot '{robot.name}': the model has no joint {', '.join(missing)}; it has {known}")
+
+
+def _check_leg(spec: Any, robot: Robot, side: str, leg: LegNames) -> None:
+    """Refuse joints that do not move the foot, joints that are no hinges, and a torso or IMU that hangs on the leg."""
+    where = f"robot '{robot.name}': [legs.{side}]"
+    foot = _body(spec, robot, leg.foot_body, f"[legs.{side}] foot_body")
+    chain = [j.name for body in reversed(_upwards(foot)) for j in body.joints if j.type != mujoco.mjtJoint.mjJNT_FREE]
+    for name in leg.joints:
+        if name not in chain:
+            raise RobotError(f"{where} joint '{name}' does not move {foot.name}; those that do: {', '.join(chain)}")
+        if spec.joint(name).type != mujoco.mjtJoint.mjJNT_HINGE:
+            raise RobotError(f"{where} joint '{name}' is no hinge; allowed: hinges")
+    site = spec.site(robot.imu_site)
+    for field, body in (("body", spec.body(robot.torso_body)), ("imu_site", None if site is None else site.parent)):
+        moved = next((name for name in _joints_above(body) if name in leg.joints), None)
+        if moved is not None:
+            raise RobotError(f"robot '{robot.name}': [torso] {field} hangs on a leg: joint '{moved}' moves it")
+
+
+def _joints_above(body: Any) -> list[str]:
+    """Names of the joints that move a body, from it upwards; none for None."""
+    return [joint.name for part in _upwards(body) for joint in part.joints]
+
+
+def _upwards(body: Any) -> list[Any]:
+    """A body and all that it hangs on, without the world; nothing for None."""
+    chain = []
+    while body is not None and body.parent is not None:
+        chain.append(body)
+        body = body.parent
+    return chain
+
+
+def _make_room(spec: Any, robot: Robot) -> None:
+    """Give another name to what the model calls as the shoes' parts are called."""
+    for side in SIDES:
+        for element in (
+            spec.site(robot.legs[side].sole_site),
+            spec.site(f"{side}_truth_touch"),
+            spec.geom(f"{side}_sole_box"),
+            spec.geom(f"{side}_foot_shape"),
+        ):
+            if element is not None:
+                element.name = f"{element.name} of the model"
+
+
+def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
+    """A shoe as a body of its own: mass, the sole frame's site, and the contact box below the foot."""
+    foot = _body(spec, robot, robot.legs[side].foot_body, f"[legs.{side}] foot_body")
+    center, half = robot.sole_rectangle(side)
+    ankle = f"{side}_ankle_force_torque"
+    if spec.site(ankle) is None:
+        foot.add_site(name=ankle, pos=[0.0, 0.0, 0.0])
+    for name, kind in (("force", mujoco.mjtSensor.mjSENS_FORCE), ("torque", mujoco.mjtSensor.mjSENS_TORQUE)):
+        spec.add_sensor(name=f"{side}_ankle_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=ankle)
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, robot.sole_rotations[side].ravel())
+    shoe = foot.add_body(pos=robot.sole_origins[side], quat=quaternion)
+    thickness = max(robot.shoe_thickness, 1e-3)
+    mass = max(robot.shoe_mass, 1e-3)
+    lx, ly, lz = 2.0 * half[0], 2.0 * half[1], thickness
+    shoe.mass = mass
+    shoe.ipos = [center[0], center[1], min(0.5 * thickness, _SHOE_HEIGHT)]
+    shoe.inertia = mass / 12.0 * np.array([ly * ly + lz * lz, lx * lx + lz * lz, lx * lx + ly * ly])
+    shoe.explicitinertial = True
+    shoe.add_site(name=robot.legs[side].sole_site, pos=[0.0, 0.0, 0.0])
+    shoe.add_geom(
+        name=f"{side}_sole_box",
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        size=[half[0], half[1], 0.5 * thickness],
+        pos=[center[0], center[1], 0.5 * thickness],
+        contype=1,
+        conaffinity=2,
+        mass=0.0,
+        rgba=[0.1, 0.1, 0.12, 1.0],
+    )
+
+
+def _add_servos(spec: Any, robot: Robot, side: Any) -> None:
+    for i, name in enumerate(robot.legs[side].joints):
+        limit = robot.effort_limits[i] if robot.effort_limits else 0.0
+        servo = spec.add_actuator(
+            name=f"{name}_servo", target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, biastype=mujoco.mjtBias.mjBIAS_AFFINE
+        )
+        servo.gainprm[0] = robot.stiffness[i]
+        servo.biasprm[1], servo.biasprm[2] = -robot.stiffness[i], -robot.damping[i]
+        servo.ctrllimited = mujoco.mjtLimited.mjLIMITED_FALSE
+        if limit > 0.0:
+            servo.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
+            servo.forcerange = [-limit, limit]

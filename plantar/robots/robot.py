@@ -1,0 +1,164 @@
+"""A robot as data: what its TOML file says, checked. `plantar.robots.robot_file` reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layouts.layout import SoleLayout
+from plantar.robots.biped import BipedParameters
+from plantar.sides import Side
+
+__all__ = ["Arms", "FootShape", "LegNames", "Robot"]
+
+
+@dataclass(frozen=True)
+class LegNames:
+    """Names of one leg in the robot's model.
+
+    Attributes:
+        joints: Joint names from hip to ankle.
+        foot_body: Body that wears the shoe.
+        sole_site: Site that is the sole frame.
+    """
+
+    joints: tuple[str, ...]
+    foot_body: str
+    sole_site: str
+
+
+@dataclass(frozen=True)
+class FootShape:
+    """The bare left foot as a rounded box, for the shoe builder. SI.
+
+    Attributes:
+        length: Length in m.
+        width: Width in m.
+        center: Centre (x, y) against the ankle in m.
+        corner_radius: Radius of the corners in m.
+        taxels: Number of taxels that the sole carries.
+    """
+
+    length: float
+    width: float
+    center: tuple[float, float]
+    corner_radius: float
+    taxels: int
+
+
+@dataclass(frozen=True)
+class Arms:
+    """Arms that a robot may wear where a scene wants one that moves; else they are part of its chest.
+
+    Attributes:
+        machine: Name or TOML file of the machine that has them (`plantar.sim.companion.machine`), with the same base.
+        chest: Body of the robot whose mass, centre and inertia count them in.
+        roots: First link of each arm in the machine.
+    """
+
+    machine: str
+    chest: str
+    roots: Mapping[Side, str]
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A robot as its TOML describes it.
+
+    Attributes:
+        name: Name.
+        description: One line for people.
+        kind: "biped" (generated from `biped`), "mjcf" or "urdf" (read from `model_file`).
+        biped: Dimensions of a generated robot, else None.
+        model_file: Path of the model file, else None.
+        foot: Shape of the bare foot, where the file gives it.
+        shoe_thickness: Outer contact face below the bare sole in m.
+        shoe_mass: Mass of one shoe in kg.
+        rim_stiffness: Stiffness of the shoe beside its taxels over theirs (`plantar.sim.sensing.blind_rim`); 0 where
+            its pad is relieved.
+        contact_damping: Damping ratio of the shoe on the ground; 1 is critical for a sole that carries itself alone.
+        sole_origins: Sole frame's origin (3,) of each foot in the frame of its body in m.
+        sole_rotations: Rotation (3, 3) of each foot from the sole frame to the frame of its body.
+        effort_limits: Torque limit of each leg joint in N m for a robot from a model file; empty for none.
+        velocity_limits: Speed limit of each leg joint in rad/s; empty for none.
+        layouts: Sole layout of each side.
+        legs: Names of each leg.
+        torso_body: Body that is kept upright.
+        imu_site: Site of the IMU.
+        posture: Joint angles of each leg in rad when standing.
+        com_height: CoM height above the outer soles when walking in m.
+        stance_width: Distance of the sole frames' origins when the feet stand side by side in m.
+        leg_length: Length of a leg from hip over knee to ankle in m, which lengths of a gait are shares of; 0 leaves it
+            to the model (`plantar.robots.kinematics.body`).
+        largest_crouch: How much lower than `com_height` a scene may make the robot walk in m.
+        largest_crouch_partial: The same for a walk that stands on parts of its soles (`control.footholds`,
+            `control.conform`), where a centre of pressure at the heel loads the knee more.
+        trunk_lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
+        single_support: t_ss in s of a walk whose scene does not say; 0 takes the same number of beats of
+            the leg as for every robot (`plantar.sim.run.controller_settings`).
+        double_support: t_ds likewise.
+        approach_support: Least t_ss in s of a walk whose swing comes down slowly (`walk.approach_height`) and so has to
+            reach its place in three fifths of it: for motors that are weak; 0 for those that are not.
+        ankle_reach: How far in m from the sole frame's origin, which is below the ankle, along the sole, the ankle's
+            motor bears the robot; nothing farther off is loaded.
+        rocks: Whether it takes its steps in its own time and without a slow approach, whatever a scene asks for: legs
+            without ankle roll rock from foot to foot and cannot wait on one of them.
+        pace: Beats of the leg that a pace lasts, the unit of time of scenes that ask for quick steps
+            (`plantar.settings.body_scale`).
+        stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.
+        damping: Servo velocity gain of each leg joint in N m s/rad.
+        balance: Balance law and its gains.
+        controller: Settings of the controller's other parts by table and name (`plantar.gait.controller_tables`).
+        path: The TOML file.
+        arms: Arms that it may wear; None for a robot whose file names none.
+    """
+
+    name: str
+    description: str
+    kind: str
+    biped: BipedParameters | None
+    model_file: Path | None
+    foot: FootShape | None
+    shoe_thickness: float
+    shoe_mass: float
+    rim_stiffness: float
+    contact_damping: float
+    sole_origins: Mapping[Side, NDArray[np.float64]]
+    sole_rotations: Mapping[Side, NDArray[np.float64]]
+    effort_limits: tuple[float, ...]
+    velocity_limits: tuple[float, ...]
+    layouts: Mapping[Side, SoleLayout]
+    legs: Mapping[Side, LegNames]
+    torso_body: str
+    imu_site: str
+    posture: Mapping[Side, tuple[float, ...]]
+    com_height: float
+    stance_width: float
+    leg_length: float
+    largest_crouch: float
+    largest_crouch_partial: float
+    trunk_lean: float
+    single_support: float
+    double_support: float
+    approach_support: float
+    ankle_reach: float
+    rocks: bool
+    pace: float
+    stiffness: tuple[float, ...]
+    damping: tuple[float, ...]
+    balance: Mapping[str, Any]
+    controller: Mapping[str, Mapping[str, Any]]
+    path: Path
+    arms: Arms | None = None
+
+    def sole_rectangle(self, side: Side) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Bounding rectangle of a sole's outline: centre (x, y) and half size (x, y) in the sole frame in m."""
+        outline = self.layouts[side].outline
+        low, high = outline.min(axis=0), outline.max(axis=0)
+        center, half = 0.5 * (low + high), 0.5 * (high - low)
+        return (float(center[0]), float(center[1])), (float(half[0]), float(half[1]))

@@ -1,0 +1,339 @@
+"""Robots from TOML files: each table is read and checked by one function, and errors name table and field."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError, LayoutError, RobotError
+from plantar.files.input_file import check_input, is_file
+from plantar.files.model_files import named_file
+from plantar.files.structured_text import read_json, read_toml
+from plantar.gait.balance.balance_laws import balance_gains
+from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.layout_file import read_layout
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.robots.biped import BipedParameters
+from plantar.robots.robot import Arms, FootShape, LegNames, Robot
+from plantar.robots.robot_tables import RobotTables
+from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.sides import SIDES, Side
+
+__all__ = ["builtin_robots", "load_robot"]
+
+_FOLDER = Path(__file__).parent
+_LEAST_JOINTS = 5  # of a leg: a sole has six degrees of freedom, of which the ground may choose its roll
+_LARGEST_ANGLE = 360.0  # degrees, of a posture
+
+_KEYS: Mapping[str, tuple[str, ...]] = {
+    "model": ("kind", "file"),
+    "foot": ("foot_length", "foot_width", "sole_center", "corner_radius", "taxels"),
+    "shoe": (
+        "layout",
+        "origin",
+        "rotation",
+        "origin_right",
+        "rotation_right",
+        "thickness",
+        "mass",
+        "rim_stiffness",
+        "contact_damping",
+    ),
+    "legs": SIDES,
+    "torso": ("body", "imu_site"),
+    "posture": SIDES,
+    "gait": (
+        "com_height",
+        "stance_width",
+        "leg_length",
+        "largest_crouch",
+        "largest_crouch_partial",
+        "trunk_lean",
+        "single_support",
+        "double_support",
+        "approach_support",
+        "pace",
+        "ankle_reach",
+        "rocks",
+    ),
+    "servo": ("stiffness", "damping", "effort_limits", "velocity_limits"),
+    "arms": ("machine", "chest", *SIDES),
+}
+"""What each table of a robot file may hold; `biped` and `balance` check their own."""
+
+
+def builtin_robots() -> tuple[str, ...]:
+    """Names of the built-in robots."""
+    return tuple(sorted(p.parent.name for p in _FOLDER.glob("*/robot.toml")))
+
+
+def load_robot(name: str | os.PathLike[str]) -> Robot:
+    """Load a robot by its built-in name or from a TOML file.
+
+    Args:
+        name: A built-in name (`builtin_robots()`) or the path of a robot TOML.
+
+    Returns:
+        The robot.
+
+    Raises:
+        RobotError: If the name is unknown or the file is not valid; the message names the field.
+
+    Example:
+        >>> load_robot("h1").biped.total_mass
+        86.0
+    """
+    path = Path(name)
+    if path.suffix == ".toml":
+        if not os.path.exists(path):
+            raise RobotError(f"robot file {path} does not exist")
+    else:
+        path = _FOLDER / str(name) / "robot.toml"
+        if os.sep in str(name) or not is_file(path):
+            raise RobotError(f"unknown robot '{name}'; allowed: {', '.join(builtin_robots())}, or a robot .toml file")
+    return _RobotFile(read_toml(path, RobotError, f"robot file {path}"), path).robot()
+
+
+class _RobotFile(RobotTables):
+    """A robot's TOML, and where it lies.
+
+    Args:
+        source: What the file holds.
+        path: The file.
+    """
+
+    def __init__(self, source: Mapping[str, Any], path: Path) -> None:
+        super().__init__(source, str(path) if path.parent.parent != _FOLDER else f"robot '{path.parent.name}'")
+        self.path = path
+
+    def robot(self) -> Robot:
+        """The robot that it describes.
+
+        Raises:
+            RobotError: If a table or field is missing, unknown or outside what is allowed.
+        """
+        self._refuse_unknown_fields()
+        kind = self._kind()
+        biped = BipedParameters.from_table(self.table("biped"), self.where) if kind == "biped" else None
+        model_file = None if kind == "biped" else self._model_file()
+        foot = self._foot() if kind == "biped" or "foot" in self.source else None
+        legs = self._legs()
+        parts = {
+            "posture": {side: self._angles(side, len(legs[side].joints)) for side in SIDES},
+            **self._shoe(kind),
+            **self._torso(legs),
+            **self._gait(),
+            **self._servo(biped, len(legs["left"].joints)),
+            "balance": self._balance(),
+            "controller": self._controller(),
+        }
+        refuse_unknown_keys(
+            self.source, ("name", "description", "biped", *CONTROLLER_TABLES, *_KEYS), self.where, RobotError
+        )
+        return Robot(
+            name=self.text("name"),
+            description=str(self.source.get("description", "")),
+            kind=kind,
+            biped=biped,
+            model_file=model_file,
+            foot=foot,
+            legs=legs,
+            path=self.path,
+            arms=self._arms() if "arms" in self.source else None,
+            **parts,
+        )
+
+    def _refuse_unknown_fields(self) -> None:
+        for key, allowed in _KEYS.items():
+            if key in self.source:
+                refuse_unknown_keys(self.table(key), allowed, self.place(key), RobotError)
+
+    def _kind(self) -> str:
+        """What the robot's model is made from."""
+        kind = self.text("kind", "model")
+        if kind not in ("biped", "mjcf", "urdf"):
+            raise RobotError(f"{self.place('model')} kind is '{kind}'; allowed: biped, mjcf, urdf")
+        return kind
+
+    def _model_file(self) -> Path:
+        path = self.path.parent / self.text("file", "model")
+        named_file(path, (self.path.parent,), RobotError, f"{self.place('model')} file")
+        check_input(path, RobotError, where=f"{self.place('model')} file {path}")
+        return path
+
+    def _foot(self) -> FootShape:
+        x, y = self.numbers("sole_center", "foot", 2, -1.0, 1.0)
+        return FootShape(
+            self.number("foot_length", "foot", 0.01, 1.0),
+            self.number("foot_width", "foot", 0.01, 1.0),
+            (x, y),
+            self.number("corner_radius", "foot", 0.0, 0.5),
+            int(self.number("taxels", "foot", 1, 100000)),
+        )
+
+    def _legs(self) -> dict[Side, LegNames]:
+        """The names of both legs, which have as many joints each and share none."""
+        legs = {side: self._leg(side) for side in SIDES}
+        shared = set(legs["left"].joints) & set(legs["right"].joints)
+        if shared:
+            raise RobotError(f"{self.place('legs')} both legs name joint '{min(shared)}'; each joint is of one leg")
+        count = len(legs["left"].joints)
+        if len(legs["right"].joints) != count:
+            raise RobotError(f"{self.place('legs')} the left leg has {count} joints, the right another number")
+        return legs
+
+    def _leg(self, side: Side) -> LegNames:
+        table, where = self.table("legs", side), self.place("legs", side)
+        refuse_unknown_keys(table, ("joints", "foot_body", "sole_site"), where, RobotError)
+        joints = table.get("joints")
+        if not isinstance(joints, list) or not all(isinstance(j, str) for j in joints):
+            raise RobotError(f"{where} joints is {joints!r}; allowed: a list of joint names")
+        if len(joints) < _LEAST_JOINTS:
+            raise RobotError(f"{where} joints names {len(joints)}; allowed: {_LEAST_JOINTS} or more from hip to foot")
+        if len(set(joints)) != len(joints):
+            twice = next(j for j in joints if joints.count(j) > 1)
+            raise RobotError(f"{where} joints names '{twice}' more than once")
+        site = self.text("sole_site", "legs", side, default=f"{side}_sole")
+        return LegNames(tuple(joints), self.text("foot_body", "legs", side), site)
+
+    def _angles(self, side: Side, joints: int) -> tuple[float, ...]:
+        """Joint angles in rad of one leg when standing."""
+        degrees = self.numbers(side, "posture", joints, -_LARGEST_ANGLE, _LARGEST_ANGLE)
+        return tuple(math.radians(v) for v in degrees)
+
+    def _shoe(self, kind: str) -> dict[str, Any]:
+        """Layouts, and the shoe's mass, thickness and place: what `plantar shoe` wrote, or what the file says."""
+        exported = _exported_shoe(self._layout_file("left"))
+        places = self._sole_frames(kind)
+        return {
+            "layouts": {side: self._layout(side) for side in SIDES},
+            "sole_origins": {side: place[0] for side, place in places.items()},
+            "sole_rotations": {side: place[1] for side, place in places.items()},
+            "shoe_thickness": self.number("thickness", "shoe", 0.0, 0.1, exported.get("thickness")),
+            "shoe_mass": self.number("mass", "shoe", 0.0, 20.0, exported.get("mass")),
+            "rim_stiffness": self.number("rim_stiffness", "shoe", 0.0, 100.0, exported.get("rim_stiffness", 0.0)),
+            "contact_damping": self.number("contact_damping", "shoe", 0.1, 10.0, 1.0),
+        }
+
+    def _sole_frames(self, kind: str) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Origin (3,) in m and rotation (3, 3) of each sole frame in its foot's body; the right mirrors the left where
+        the file does not say otherwise."""
+        if kind == "biped":
+            return {side: (np.zeros(3), np.eye(3)) for side in SIDES}
+        given = self.table("shoe")
+        origin = np.array(self.numbers("origin", "shoe", 3, -1.0, 1.0))
+        angles = np.array(self._turn("rotation")) if "rotation" in given else np.zeros(3)
+        right = origin * (1.0, -1.0, 1.0)
+        if "origin_right" in given:
+            right = np.array(self.numbers("origin_right", "shoe", 3, -1.0, 1.0))
+        turned = np.array(self._turn("rotation_right")) if "rotation_right" in given else angles * (-1.0, 1.0, -1.0)
+
+        def rotation(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
+            return rotation_from_angles(math.radians(yaw), math.radians(pitch), math.radians(roll))
+
+        return {"left": (origin, rotation(*angles)), "right": (right, rotation(*turned))}
+
+    def _turn(self, field: str) -> tuple[float, ...]:
+        """Roll, pitch and yaw in degrees."""
+        return self.numbers(field, "shoe", 3, -_LARGEST_ANGLE, _LARGEST_ANGLE)
+
+    def _layout_file(self, side: Side) -> Path:
+        path = self.path.parent / self.text("layout", "shoe").replace("{side}", side)
+        return named_file(path, (self.path.parent,), RobotError, f"{self.place('shoe')} layout")
+
+    def _layout(self, side: Side) -> SoleLayout:
+        path = self._layout_file(side)
+        try:
+            layout = read_layout(path)
+        except LayoutError as error:
+            raise RobotError(f"{self.where}: {error}") from None
+        if layout.side != side:
+            raise RobotError(
+                f"{self.place('shoe')} layout {path} is of the {layout.side} sole, not the {side} one; "
+                'allowed: a name with {side} in it, as "layout_{side}.json"'
+            )
+        return layout
+
+    def _torso(self, legs: Mapping[Side, LegNames]) -> dict[str, Any]:
+        imu_site = self.text("imu_site", "torso")
+        sites = [imu_site, *(leg.sole_site for leg in legs.values())]
+        if len(set(sites)) != len(sites):
+            raise RobotError(
+                f"{self.where}: the IMU's site and the soles' need different names, not {', '.join(sites)}"
+            )
+        return {"torso_body": self.text("body", "torso"), "imu_site": imu_site}
+
+    def _arms(self) -> Arms:
+        """Arms that it may wear: of a built-in machine, or of one whose file lies beside the robot's."""
+        machine = self.text("machine", "arms")
+        if machine.endswith(".toml"):
+            path = self.path.parent / machine
+            machine = str(named_file(path, (self.path.parent,), RobotError, f"{self.place('arms')} machine"))
+        return Arms(machine, self.text("chest", "arms"), {side: self.text(side, "arms") for side in SIDES})
+
+    def _gait(self) -> dict[str, Any]:
+        crouch = self.number("largest_crouch", "gait", 0.0, 0.5, 0.15)
+        return {
+            "com_height": self.number("com_height", "gait", 0.05, 5.0),
+            "stance_width": self.number("stance_width", "gait", 0.01, 2.0),
+            "leg_length": self.number("leg_length", "gait", 0.02, 3.0) if "leg_length" in self.table("gait") else 0.0,
+            "largest_crouch": crouch,
+            "largest_crouch_partial": self.number("largest_crouch_partial", "gait", 0.0, crouch, crouch),
+            "trunk_lean": self.number("trunk_lean", "gait", 0.0, 5.0, 0.0),
+            "single_support": self._duration("single_support", 0.2),
+            "double_support": self._duration("double_support", 0.02),
+            "approach_support": self._duration("approach_support", 0.2),
+            "ankle_reach": self.number("ankle_reach", "gait", 0.0, 1.0, 1.0),
+            "rocks": self.switch("rocks", "gait"),
+            "pace": self.number("pace", "gait", 0.5, 5.0, 1.0),
+        }
+
+    def _duration(self, name: str, least: float) -> float:
+        """A duration of the gait in s; 0 where the file leaves it to the length of the legs."""
+        return self.number(name, "gait", least, 10.0) if name in self.table("gait") else 0.0
+
+    def _servo(self, biped: BipedParameters | None, joints: int) -> dict[str, Any]:
+        """Gains of the servos and limits of the joints of one leg; without limits there are none."""
+        given = self.table("servo")
+        efforts = self.numbers("effort_limits", "servo", joints, 1e-3, 1e5) if "effort_limits" in given else ()
+        speeds = () if biped is None else biped.velocity_limits
+        if "velocity_limits" in given:
+            speeds = self.numbers("velocity_limits", "servo", joints, 1e-3, 1e3)
+        return {
+            "stiffness": self.number_each("stiffness", "servo", joints, 1.0, 1e6),
+            "damping": self.number_each("damping", "servo", joints, 0.0, 1e5),
+            "effort_limits": efforts,
+            "velocity_limits": speeds,
+        }
+
+    def _balance(self) -> dict[str, Any]:
+        """The balance law and its gains."""
+        balance = dict(self.table("balance"))
+        try:
+            balance_gains(balance)
+        except InputError as error:
+            raise RobotError(f"{self.where}: {error}") from None
+        return balance
+
+    def _controller(self) -> dict[str, Mapping[str, Any]]:
+        """Settings of the controller's other parts."""
+        return {
+            name: check_controller_table(name, self.source[name], self.place(name), RobotError)
+            for name in CONTROLLER_TABLES
+            if name in self.source and name != "balance"
+        }
+
+
+def _exported_shoe(layout: Path) -> dict[str, Any]:
+    """What `plantar shoe` wrote of a shoe beside its layout: mass in kg, thickness in m and the stiffness of the
+    rim beside its taxels; a robot's file may say otherwise."""
+    found = read_json(layout, RobotError, str(layout)).get("shoe", {})
+    names = ("mass", "thickness", "rim_stiffness")
+    return {k: found[k] for k in names if k in found} if isinstance(found, dict) else {}

@@ -1,0 +1,39 @@
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.robots.kinematics.ankle_limits import ankle_limits
+from plantar.robots.kinematics.body import body_of, stood
+from plantar.robots.kinematics.robot_model import build_leg_model
+from plantar.robots.robot_file import load_robot
+from plantar.sides import SIDES
+
+
+@pytest.mark.parametrize("name", ["h1", "hrp2kai"])
+def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name: str) -> None:
+    robot = load_robot(name)
+    model = build_leg_model(robot).model
+    weight = body_of(robot, model).weight
+    data = stood(robot, model)
+    mujoco.mj_comPos(model, data)
+    for side, strips in ankle_limits(robot, model, weight).items():
+        assert len(strips) == 2
+        site = model.site(robot.legs[side].sole_site).id
+        origin, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
+        for (x, y, middle, half), kind in zip(strips.tolist(), ("pitch", "roll"), strict=True):
+            joint = model.joint(f"{side}_ankle_{kind}")
+            for edge in (middle - half, middle + half):
+                place = origin + rotation[:, :2] @ (edge * np.array([x, y]))
+                # MuJoCo's own Jacobian of the point, fixed to the foot: an upward force's generalised force is J^T f.
+                jacobian = np.zeros((3, model.nv))
+                mujoco.mj_jac(model, data, jacobian, None, place, int(model.site_bodyid[site]))
+                torque = weight * jacobian[2, joint.dofadr[0]]
+                limit = model.actuator(f"{side}_ankle_{kind}").forcerange[1]
+                assert abs(torque) == pytest.approx(limit, rel=1e-9)
+
+
+def test_joints_without_limits_have_no_strips() -> None:
+    robot = load_robot("h1")
+    model = build_leg_model(robot).model
+    model.actuator_forcelimited[:] = 0
+    assert all(len(ankle_limits(robot, model, 800.0)[side]) == 0 for side in SIDES)
