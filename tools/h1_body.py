@@ -1,9 +1,9 @@
 """Write the MJCF of the machine `h1-body`: `python tools/h1_body.py sim/companion/machines/h1-body/h1_body.xml`.
 
-Legs, pelvis and total mass are those of the walking robot h1 (`plantar/robots/h1/robot.toml`); two waist joints, a torso,
-two arms of seven joints and a head of two replace its chest. Lengths and masses of the upper body are assumed, for 1.65 m
-in all; the torso takes the rest of the mass, and its centre of mass is where the whole robot's comes out at the published
-0.80 m above the soles in the machine's posture.
+Legs, pelvis and total mass are those of the walking robot h1 (`plantar/robots/h1/robot.toml`); two waist joints, a
+torso, two arms of seven joints and a head of two replace its chest. Lengths and masses of the upper body are assumed,
+for 1.65 m in all; the torso takes the rest of the mass, and its centre of mass is where the whole robot's comes out at
+the published 0.80 m above the soles in the machine's posture.
 """
 
 from __future__ import annotations

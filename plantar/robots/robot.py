@@ -100,7 +100,7 @@ class Robot:
             `control.conform`), where a centre of pressure at the heel loads the knee more.
         trunk_lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
         single_support: t_ss in s of a walk whose scene does not say; 0 takes the same number of beats of
-            the leg as for every robot (`plantar.sim.run.controller_settings`).
+            the leg as for every robot (`plantar.robots.controller_settings`).
         double_support: t_ds likewise.
         approach_support: Least t_ss in s of a walk whose swing comes down slowly (`walk.approach_height`) and so has to
             reach its place in three fifths of it: for motors that are weak; 0 for those that are not.

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from plantar.gait.controller import WalkingController
 from plantar.gait.plan.footsteps import Footstep
 from plantar.layouts.layout import Side
+from plantar.robots.robot import Robot
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES
 from plantar.sim.judging.foothold_truth import FootholdTruth
@@ -22,7 +23,6 @@ from plantar.sim.judging.verdict import Ending, reasons
 from plantar.sim.judging.zmp_comparison import ZmpComparison
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
-from plantar.sim.robots.robot import Robot
 from plantar.sim.run.pushing import Pusher
 from plantar.sim.run.scene import Scene
 from plantar.sim.run.servos import LegServos

@@ -16,16 +16,17 @@ import numpy as np
 
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.controller import Command, Sensors, Start, WalkingController
-from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.percepts.percept import Percept
+from plantar.robots.controller_settings import com_height_of, controller_settings
 from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import Visitor, build_leg_model
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
+from plantar.robots.start import start_of_walk
 from plantar.sensing.link_skin import BodySkin
 from plantar.sides import SIDES
 from plantar.sim.arms.compliant_arm import CompliantArm
@@ -41,10 +42,9 @@ from plantar.sim.judging.walk_goal import WalkGoal
 from plantar.sim.judging.zmp_comparison import ZmpComparison
 from plantar.sim.model.world import World, build_world, check_stable
 from plantar.sim.plant.draw import drawn_plant
-from plantar.sim.run.controller_settings import controller_settings
 from plantar.sim.run.hand_pushing import upper_body_skin_of
 from plantar.sim.run.log import RunLog
-from plantar.sim.run.planned_walk import planned_feet, planned_steps, velocity_command
+from plantar.sim.run.planned_walk import planned_feet
 from plantar.sim.run.pushing import Pusher
 from plantar.sim.run.run_summary import Result, summary_of
 from plantar.sim.run.scene import SECTIONS, Push, Scene
@@ -87,7 +87,8 @@ class Simulation:
         self.scene = scene = scene.for_body(self.body)
         walk = scene.walk
         self.velocities = walk.velocities(seed)
-        self.feet, self.steps = self.plan_walk()
+        start = self.start_walk()
+        self.feet, self.steps = start.feet, start.steps
         skin = upper_body_skin_of(scene, robot, self.legs.model, self.body, self.worn)
         self.settings = controller_settings(
             scene,
@@ -97,10 +98,6 @@ class Simulation:
             ankle_limits(robot, self.legs.model, self.body.weight),
             skin if scene.sensing.body_skin else None,
         )
-        commands = []
-        if self.velocities is not None:
-            commands.append(velocity_command(scene, robot, self.velocities, self.settings.com_height))
-        start = Start(self.feet, self.steps, walk.begin, tuple(commands))
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs)
         planned = planned_feet(robot, self.feet, self.steps, self.controller.schedule)
         ground = scene.terrain.ground(planned, np.random.default_rng([seed, 0x7E]))
@@ -155,10 +152,6 @@ class Simulation:
         """
         return build_world(self.robot, self.ground, self.scene.control.physics_period, self.plant, others)
 
-    def plan_walk(self) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
-        """Where the feet stand, and the footsteps that are planned at the start."""
-        return planned_steps(self.scene, self.robot, commanded=self.velocities is not None)
-
     def _arm(self, skin: BodySkin | None) -> CompliantArm | None:
         """The arm that moves, with its sensors; None for a robot without."""
         if self.worn is None:
@@ -168,6 +161,11 @@ class Simulation:
         self.legs.hold_others(arm.posture)
         self.sensors.body_links = arm.read
         return arm
+
+    def start_walk(self) -> Start:
+        """Where the feet are at the start, and what is planned and commanded."""
+        scene, height = self.scene, com_height_of(self.scene.walk, self.scene.control, self.robot)
+        return start_of_walk(scene.walk, self.robot, height, scene.terrain.height, self.velocities)
 
     @property
     def end(self) -> float:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gait.controller import Command
+from plantar.gait.command import Command
 from plantar.kernels.joints.setpoints import Setpoints
+from plantar.robots.kinematics.command_joints import carry_command, follow_command
 from plantar.robots.kinematics.leg_model import LegModel
-from plantar.sides import Side
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.drives import TrueDrives
@@ -17,14 +17,6 @@ __all__ = ["LegServos"]
 
 _SPEED_SHARE = 0.9  # of a joint's speed limit that its set-point may have: the joint itself overshoots by up to a tenth
 _REACH_ERROR = 0.02  # rad, or m on a leg of 0.6 m, of a joint solution; the motion of one control period leaves 8 mm
-_LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, three times what the robots' knees can
-_YIELDING: dict[tuple[bool, bool], tuple[Side, ...]] = {
-    (False, False): (),
-    (True, False): ("left",),
-    (False, True): ("right",),
-    (True, True): ("left", "right"),
-}
-"""Feet that miss their targets first, for whether the left and the right one carry nothing."""
 _LOW_PASS = 0.0075  # s, time constant of each of two stages at the servo's own rate: no tick steps a torque
 _SLOW = 0.0247  # rad/beat from which a joint moves against its friction: 0.1 rad/s on a leg of 0.6 m
 
@@ -84,24 +76,10 @@ class LegServos:
 
     def command(self, command: Command) -> NDArray[np.float64]:
         """Solve a command for the joints; returns the joint reference (k,) in rad, within the speed limits."""
-        left, right = command.feet["left"], command.feet["right"]
-        missed = self._legs.follow(
-            command.com,
-            command.rotation_torso,
-            {"left": left.position, "right": right.position},
-            {"left": left.rotation, "right": right.rotation},
-            yielding=_YIELDING[left.force.item(2) <= 0.0, right.force.item(2) <= 0.0],
-            largest_step=_LARGEST_STEP,
-        )
+        missed = follow_command(self._legs, command)
         if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
-        self._legs.carry(
-            {"left": left.force, "right": right.force},
-            {
-                "left": (*left.center_of_pressure.tolist(), left.position.item(2)),
-                "right": (*right.center_of_pressure.tolist(), right.position.item(2)),
-            },
-        )
+        carry_command(self._legs, command)
         setpoints = self._setpoints
         setpoints.go_to()
         # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.

@@ -8,12 +8,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import RobotError, SceneError
+from plantar.errors import SceneError
 from plantar.gait.plan.footsteps import Footstep
 from plantar.layouts.layout import Side
-from plantar.mechanics.lip import GRAVITY
-from plantar.mechanics.rotation import level_rotation
 from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.kinematics.standing_posture import solve_standing
 from plantar.sides import SIDES
 from plantar.sim.judging.leg_contact import legs_that_touch
 from plantar.sim.model.world import World, check_stable
@@ -50,35 +49,8 @@ def stand(
         SceneError: If the legs cannot reach that stance or touch each other in it, it does not keep standing there, or
             the physics becomes unstable.
     """
-    posture = np.array([*world.robot.posture["left"], *world.robot.posture["right"]])
-    stands = legs.posture(posture).positions
-    if not stands["left"][1] > stands["right"][1]:
-        raise RobotError(
-            f"robot '{world.robot.name}': the foot of [legs.left] is to the right of [legs.right]'s in [posture]; "
-            "x points forward, y to the left"
-        )
+    joints, torques = solve_standing(world.robot, legs, feet, centers, com_height)
     ground = float(np.mean([feet[s].z for s in SIDES]))
-    middle = np.mean([centers[s] for s in SIDES], axis=0)
-    com = np.array([middle[0], middle[1], ground + com_height])
-    yaw = feet["left"].yaw
-    rotation = level_rotation(yaw)
-    quaternion = np.array([np.cos(0.5 * yaw), 0.0, 0.0, np.sin(0.5 * yaw)])
-    legs.set_configuration(com, quaternion, posture)
-    joints, error = legs.solve(
-        com,
-        rotation,
-        {s: feet[s].position for s in SIDES},
-        {s: feet[s].rotation_sole_to_world for s in SIDES},
-        iterations=50,
-    )
-    if not error < 1e-6:
-        raise SceneError(
-            f"robot '{world.robot.name}' cannot stand with its CoM at {com_height:.3f} m and feet "
-            f"{np.hypot(feet['left'].x - feet['right'].x, feet['left'].y - feet['right'].y):.3f} m apart; "
-            "allowed: what the legs reach from [posture] (degrees), within their joints' limits"
-        )
-    half = np.array([0.0, 0.0, 0.5 * legs.mass * GRAVITY])
-    torques = legs.static_torques(dict.fromkeys(SIDES, half), {s: np.array([*centers[s], ground]) for s in SIDES})
     data = world.data
     mujoco.mj_resetData(world.model, data)
     # The robot comes first; others have their places after it.

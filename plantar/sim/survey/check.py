@@ -11,15 +11,16 @@ import mujoco
 import numpy as np
 
 from plantar.gait.plan.footsteps import Footstep, straight_plan
+from plantar.robots.controller_settings import controller_settings
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
+from plantar.robots.walk import CONTROL_PERIOD
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
-from plantar.sim.run.controller_settings import CONTROL_PERIOD, controller_settings
 from plantar.sim.run.scene import Scene, load_scene
 from plantar.sim.survey.fitted_gait import HELD, MISSED, ROLL_MOST
 from plantar.sim.survey.joint_inertia import joint_inertia

@@ -18,10 +18,9 @@ from plantar.robots.kinematics.body import body_of, pitching_joints, stood
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.robot import Robot
+from plantar.robots.walk import CONTROL_PERIOD, Walk, walk_timing
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
-from plantar.sim.run.controller_settings import CONTROL_PERIOD, walk_timing
-from plantar.sim.run.scene import Walk
 from plantar.sim.survey.joint_inertia import JointInertia, joint_inertia
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, standing_feet
 from plantar.sim.survey.rocking_gait import ankle_reach, has_ankle_roll, rocking

@@ -21,8 +21,8 @@ from plantar.geometry.polygon import area
 from plantar.layouts.layout_file import read_layout
 from plantar.robots.robot import LegNames, Robot
 from plantar.robots.robot_file import load_robot
+from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sides import SIDES
-from plantar.sim.run.controller_settings import CONTROL_PERIOD
 from plantar.sim.survey.fitted_gait import FittedGait, fit_gait
 from plantar.sim.survey.model_copy import add_rotors, write_model_copy
 from plantar.sim.survey.robot_picture import draw_robot

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from plantar.gravity import GRAVITY
 from plantar.mechanics.rotation import vector_from_rotation
 from plantar.robots.robot import Robot
+from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sides import SIDES, Side
-from plantar.sim.run.controller_settings import CONTROL_PERIOD
 from plantar.sim.survey.fitted_gait import KNEE_LEAST, QUICK_HELD, STEP_SHARE, FittedGait
 from plantar.sim.survey.rocking_gait import LEAN_MOST
 from plantar.sim.survey.servo_gains import SAMPLED, STIFFNESS

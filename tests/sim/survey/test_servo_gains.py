@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar.sim.run.controller_settings import CONTROL_PERIOD
+from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sim.survey.joint_inertia import JointInertia
 from plantar.sim.survey.model_copy import add_rotors
 from plantar.sim.survey.servo_gains import SAMPLED, rotor_inertia, servo_gains

@@ -5,6 +5,7 @@ from __future__ import annotations
 import traceback
 import warnings
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import PlantarError
 from plantar.gait.command import Command, Sensors
+from plantar.gait.controller import Start
 from plantar.gait.plan.footsteps import Footstep
 from plantar.sides import SIDES, Side
 from plantar.sim.bench.stress.command_check import CommandCheck
@@ -72,9 +74,10 @@ class _StressedRun(Simulation):
         self.controller.step = stepped  # type: ignore[method-assign, assignment]
         self.servos.command = checked  # type: ignore[method-assign]
 
-    def plan_walk(self) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
-        feet, steps = super().plan_walk()
-        return {side: self._placed(foot) for side, foot in feet.items()}, tuple(map(self._placed, steps))
+    def start_walk(self) -> Start:
+        start = super().start_walk()
+        feet = {side: self._placed(foot) for side, foot in start.feet.items()}
+        return replace(start, feet=feet, steps=tuple(map(self._placed, start.steps)))
 
     def _placed(self, foot: Footstep) -> Footstep:
         x, y, yaw = self._place

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,6 @@ from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.gait.feet.foot_motion import Landing
 from plantar.gait.feet.ground_conformity import ConformityGains
 from plantar.gait.feet.swing_fit import SwingFitRules
-from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.double_support_timing import DoubleSupportTimingRules
 from plantar.gait.propose.dsp_opt import DspWeights
 from plantar.gait.propose.feasibility import FeasibilityRules
@@ -36,23 +35,17 @@ from plantar.gait.propose.step_adjustment import StepAdjustmentRules
 from plantar.gait.propose.step_timing import StepTimingRules
 from plantar.layouts.layout import Side
 from plantar.robots.robot import Robot
+from plantar.robots.walk import Control, Walk, walk_timing
 from plantar.sensing.link_skin import BodySkin
 from plantar.sensing.net_wrench import NetWrenchRules
 from plantar.settings.body_scale import BodyScale
 from plantar.settings.schema import Settings
-from plantar.sim.run.scene import Control, Scene, Walk
 
-__all__ = ["CONTROL_PERIOD", "controller_settings", "walk_timing"]
-
-CONTROL_PERIOD = Control().period
-"""Control period in s of a scene that does not say."""
+__all__ = ["Task", "com_height_of", "controller_settings"]
 
 _YAW_ON_UNKNOWN_GROUND = 0.1
 """Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
 little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the side.)"""
-
-_SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
-"""Beats that the phases of a step last where neither scene nor robot says: 0.9 and 0.3 s on a leg of 0.6 m."""
 
 _OF_STEPS = ("step_adjustment", "step_region", "ankle_strategy")
 """Tables of steps that move for balance, however they do."""
@@ -60,14 +53,35 @@ _OF_STEPS = ("step_adjustment", "step_region", "ankle_strategy")
 _OF_DOUBLE_SUPPORTS = ("double_support_timing", "dsp_weights")
 """Tables of double supports that end sooner or later for it."""
 
-_LEAST_START = 0.2
-"""Least time in s of the first shift of the weight."""
-
 T = TypeVar("T", bound=Settings)
 
 
+class Task(Protocol):
+    """What a controller is asked to do; a scene of the simulator is one."""
+
+    @property
+    def name(self) -> str:
+        """Name, for messages."""
+
+    @property
+    def walk(self) -> Walk:
+        """The gait."""
+
+    @property
+    def control(self) -> Control:
+        """Which parts of the controller run."""
+
+    @property
+    def controller(self) -> Mapping[str, Mapping[str, Any]]:
+        """Settings of the controller's parts by table and name, as far as given."""
+
+    @property
+    def proximity_range(self) -> float:
+        """Distance in m that the soles see."""
+
+
 def controller_settings(
-    scene: Scene,
+    scene: Task,
     robot: Robot,
     body: BodyScale,
     ankles: Mapping[Side, AnkleSensor],
@@ -92,8 +106,6 @@ def controller_settings(
     """
     walk, control = scene.walk, scene.control
     _refuse_unused(scene, robot)
-    partial = control.footholds != "off" or control.conform
-    crouch = robot.largest_crouch_partial if partial else robot.largest_crouch
     approach = 0.0 if robot.rocks else walk.approach_height  # a slow one takes longer than its swing
     adjusts = control.step_adjustment and not robot.rocks
     yaw = {"yaw": _YAW_ON_UNKNOWN_GROUND} if control.pfc else {}
@@ -103,7 +115,7 @@ def controller_settings(
         return kind.from_table(table, f"[{name}]", SceneError)
 
     found = ControllerSettings(
-        com_height=robot.com_height - min(walk.crouch, crouch),
+        com_height=com_height_of(walk, control, robot),
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
         period=_period(control),
@@ -114,7 +126,7 @@ def controller_settings(
         landing=made(Landing, "landing", approach_height=approach, approach_speed=walk.approach_speed),
         compliance=made(ComplianceGains, "compliance") if control.pfc else None,
         touchdown=made(TouchdownGains, "touchdown"),
-        ground_map=made(GroundMapSettings, "ground_map", sensing_range=scene.sensing.proximity_range),
+        ground_map=made(GroundMapSettings, "ground_map", sensing_range=scene.proximity_range),
         slope=made(SlopeRules, "slope"),
         feasibility=made(FeasibilityRules, "feasibility", rule=control.feasibility)
         if control.feasibility != "off"
@@ -151,6 +163,21 @@ def controller_settings(
         raise SceneError(f"scene '{scene.name}' with robot '{robot.name}': {error}") from None
 
 
+def com_height_of(walk: Walk, control: Control, robot: Robot) -> float:
+    """CoM height in m above the soles with which a robot walks.
+
+    Args:
+        walk: The gait, for the same body.
+        control: Which parts of the controller run; on parts of its soles the robot crouches less.
+        robot: The robot.
+
+    Returns:
+        The height.
+    """
+    partial = control.footholds != "off" or control.conform
+    return robot.com_height - min(walk.crouch, robot.largest_crouch_partial if partial else robot.largest_crouch)
+
+
 def _period(control: Control) -> float:
     """Control period in s: a whole number of physics steps."""
     steps = control.period / control.physics_period
@@ -162,29 +189,7 @@ def _period(control: Control) -> float:
     return control.period
 
 
-def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
-    """Durations of a walk's phases: the scene's, else the robot's, else the same number of beats for every robot.
-
-    A robot that rocks from foot to foot has its own, and begins and ends as quickly.
-
-    Args:
-        walk: Gait of a scene, for the same body.
-        robot: The robot.
-        body: How large it is.
-
-    Returns:
-        The durations.
-    """
-    stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
-    single = stated[0] or robot.single_support or _SINGLE_SUPPORT * body.beat
-    if walk.approach_height > 0.0 and not robot.rocks:
-        single = max(single, robot.approach_support)
-    double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat
-    start, end = (max(_LEAST_START, double), single + double) if robot.rocks else (walk.start, walk.end)
-    return Timing(single, double, start, end, walk.settle)
-
-
-def _refuse_unused(scene: Scene, robot: Robot) -> None:
+def _refuse_unused(scene: Task, robot: Robot) -> None:
     """Refuse switches that need another one, and settings of what is switched off: they would do nothing."""
     control, steps = scene.control, StepAdjustmentRules()
     table = {**robot.controller.get("step_adjustment", {}), **scene.controller.get("step_adjustment", {})}

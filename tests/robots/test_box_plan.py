@@ -7,8 +7,8 @@ import math
 import pytest
 
 from plantar.errors import InputError
+from plantar.robots.box_plan import box_plan
 from plantar.sides import Side
-from plantar.sim.run.box_plan import box_plan
 
 
 @pytest.mark.parametrize("first", ["left", "right"])

@@ -1,0 +1,152 @@
+"""A robot's walking controller with the kinematics of its legs, for a control loop of one's own.
+
+No simulator is needed: what comes in are readings of the robot's sensors, what goes out are targets of its joints.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import SceneError
+from plantar.gait.command import Command, Sensors
+from plantar.gait.contact.foot_contacts import middle_of_sole
+from plantar.gait.controller import WalkingController
+from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
+from plantar.gait.plan.walk_plan import vrp_of_step
+from plantar.robots.controller_settings import controller_settings
+from plantar.robots.kinematics.ankle_limits import ankle_limits
+from plantar.robots.kinematics.ankle_sensors import ankle_sensors
+from plantar.robots.kinematics.body import body_of
+from plantar.robots.kinematics.command_joints import carry_command, follow_command
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.kinematics.robot_model import build_leg_model
+from plantar.robots.kinematics.standing_posture import solve_standing
+from plantar.robots.robot import Robot
+from plantar.robots.robot_file import load_robot
+from plantar.robots.start import start_of_walk
+from plantar.robots.walk import Control, Walk
+from plantar.settings.unknown_keys import refuse_unknown_keys
+
+__all__ = ["JointTargets", "RobotController", "load_controller"]
+
+
+class JointTargets(NamedTuple):
+    """Targets of a robot's leg joints, in the order of `RobotController.joints`.
+
+    Attributes:
+        angles: Joint angles (k,) in rad.
+        torques: Joint torques (k,) in N m that hold the expected load at these angles.
+    """
+
+    angles: NDArray[np.float64]
+    torques: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What the controller is asked to do (`plantar.robots.controller_settings.Task`)."""
+
+    name: str
+    walk: Walk
+    control: Control
+    controller: Mapping[str, Mapping[str, Any]]
+    proximity_range: float
+
+
+@dataclass(frozen=True, eq=False)
+class RobotController:
+    """A walking controller and the legs that follow it. Made by `load_controller`.
+
+    Attributes:
+        robot: The robot.
+        legs: Kinematics of its legs (`plantar.robots.kinematics.leg_model.LegModel`).
+        controller: The controller.
+        joints: Names of the leg joints, in the order of every joint vector.
+        period: Control period in s; `step` expects to be called once in each.
+        stance: Joint angles and torques in which the robot waits for the start.
+        base_position: Position (3,) in m of the base in that stance, world frame.
+
+    Example:
+        >>> walker = load_controller("h1", {"walk": {"steps": 4}})
+        >>> walker.period, len(walker.joints), round(walker.controller.end, 1)
+        (0.005, 12, 8.8)
+    """
+
+    robot: Robot
+    legs: LegModel
+    controller: WalkingController
+    joints: tuple[str, ...]
+    period: float
+    stance: JointTargets
+    base_position: NDArray[np.float64] = field(repr=False)
+
+    def step(self, sensors: Sensors) -> Command:
+        """One control tick.
+
+        Args:
+            sensors: What the robot's sensors measure now.
+
+        Returns:
+            The command: CoM, torso orientation, and pose and force of each sole.
+        """
+        return self.controller.step(sensors)
+
+    def joint_targets(self, command: Command) -> JointTargets:
+        """Inverse kinematics of a command.
+
+        Args:
+            command: What `step` returned at this tick.
+
+        Returns:
+            The targets. They stay within the joints' limits; where a command is out of reach, the foot that carries
+            nothing misses its target first.
+        """
+        follow_command(self.legs, command)
+        carry_command(self.legs, command)
+        angles = self.legs.joints.copy()
+        if command.joint_offsets is not None:
+            angles += command.joint_offsets
+        return JointTargets(angles, self.legs.torques.copy())
+
+
+def load_controller(
+    robot: str | os.PathLike[str], tables: Mapping[str, Mapping[str, Any]] | None = None, *, seed: int = 0
+) -> RobotController:
+    """Load the walking controller of a robot.
+
+    Args:
+        robot: A built-in name (`plantar list robots`) or the path of a robot TOML.
+        tables: Settings as the tables of a scene file: "walk" (steps or velocity), "control" (which parts run) and
+            those of the controller's parts, such as "estimator" (`plantar list settings`). Default: 20 steps forward.
+        seed: Draws the velocities of a walk that wanders.
+
+    Returns:
+        The controller, before its first tick.
+
+    Raises:
+        RobotError: If the robot is unknown, or its file or model is not valid.
+        SceneError: If a setting is not valid or does not fit the robot; the message names it.
+    """
+    own = load_robot(robot)
+    legs = build_leg_model(own)
+    body = body_of(own, legs.model)
+    given = dict(tables or {})
+    refuse_unknown_keys(given, ("walk", "control", *CONTROLLER_TABLES), "load_controller", SceneError)
+    walk = Walk.from_table(given.pop("walk", {}), "[walk]", SceneError).for_body(body)
+    control = Control.from_table(given.pop("control", {}), "[control]", SceneError).for_body(body)
+    parts = {name: check_controller_table(name, table, f"[{name}]", SceneError) for name, table in given.items()}
+    task = _Task("load_controller", walk, control, parts, own.layouts["left"].proximity_range)
+    limits = ankle_limits(own, legs.model, body.weight)
+    settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits)
+    start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))
+    controller = WalkingController(settings, start, own.layouts, legs)
+    centers = {s: vrp_of_step(foot, middle_of_sole(own.layouts[s], own.ankle_reach)) for s, foot in start.feet.items()}
+    stance = JointTargets(*solve_standing(own, legs, start.feet, centers, settings.com_height))
+    names = (*own.legs["left"].joints, *own.legs["right"].joints)
+    return RobotController(own, legs, controller, names, settings.period, stance, legs.configuration[:3])

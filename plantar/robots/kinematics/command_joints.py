@@ -1,0 +1,56 @@
+"""A walking controller's command as joint angles and torques of the legs."""
+
+from __future__ import annotations
+
+from plantar.gait.command import Command
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.sides import Side
+
+__all__ = ["carry_command", "follow_command"]
+
+_LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, three times what the robots' knees can
+_YIELDING: dict[tuple[bool, bool], tuple[Side, ...]] = {
+    (False, False): (),
+    (True, False): ("left",),
+    (False, True): ("right",),
+    (True, True): ("left", "right"),
+}
+"""Feet that miss their targets first, by whether the left and the right one carry nothing."""
+
+
+def follow_command(legs: LegModel, command: Command) -> float:
+    """Solve a command for the joints; the angles are `legs.joints`.
+
+    Args:
+        legs: Kinematics of the robot.
+        command: What the controller asks of the body.
+
+    Returns:
+        The largest task error before the last step, in units of length or rad; not a number if a target is not.
+    """
+    left, right = command.feet["left"], command.feet["right"]
+    return legs.follow(
+        command.com,
+        command.rotation_torso,
+        {"left": left.position, "right": right.position},
+        {"left": left.rotation, "right": right.rotation},
+        yielding=_YIELDING[left.force.item(2) <= 0.0, right.force.item(2) <= 0.0],
+        largest_step=_LARGEST_STEP,
+    )
+
+
+def carry_command(legs: LegModel, command: Command) -> None:
+    """Torques that hold the last solution under the forces of a command; they are `legs.torques`.
+
+    Args:
+        legs: Kinematics of the robot.
+        command: What the controller asks of the body.
+    """
+    left, right = command.feet["left"], command.feet["right"]
+    legs.carry(
+        {"left": left.force, "right": right.force},
+        {
+            "left": (*left.center_of_pressure.tolist(), left.position.item(2)),
+            "right": (*right.center_of_pressure.tolist(), right.position.item(2)),
+        },
+    )

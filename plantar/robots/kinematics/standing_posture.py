@@ -1,0 +1,71 @@
+"""The posture in which a robot waits for its walk to begin."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError, SceneError
+from plantar.gait.plan.footsteps import Footstep
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.rotation import level_rotation
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.robot import Robot
+from plantar.sides import SIDES, Side
+
+__all__ = ["solve_standing"]
+
+
+def solve_standing(
+    robot: Robot,
+    legs: LegModel,
+    feet: Mapping[Side, Footstep],
+    centers: Mapping[Side, NDArray[np.float64]],
+    com_height: float,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Stand on given footholds, with the CoM midway between the soles' centers.
+
+    Args:
+        robot: The robot.
+        legs: Its kinematics, which start from this posture afterwards.
+        feet: Where the soles stand.
+        centers: Point (2,) of each sole in the world frame in m that carries its half of the weight.
+        com_height: CoM height above the soles in m.
+
+    Returns:
+        Joint angles (k,) in rad, and the torques (k,) in N m that hold them.
+
+    Raises:
+        RobotError: If the left foot is to the right of the other.
+        SceneError: If the legs cannot reach that stance.
+    """
+    posture = np.array([*robot.posture["left"], *robot.posture["right"]])
+    stands = legs.posture(posture).positions
+    if not stands["left"][1] > stands["right"][1]:
+        raise RobotError(
+            f"robot '{robot.name}': the foot of [legs.left] is to the right of [legs.right]'s in [posture]; "
+            "x points forward, y to the left"
+        )
+    ground = float(np.mean([feet[s].z for s in SIDES]))
+    middle = np.mean([centers[s] for s in SIDES], axis=0)
+    com = np.array([middle[0], middle[1], ground + com_height])
+    yaw = feet["left"].yaw
+    legs.set_configuration(com, np.array([np.cos(0.5 * yaw), 0.0, 0.0, np.sin(0.5 * yaw)]), posture)
+    joints, error = legs.solve(
+        com,
+        level_rotation(yaw),
+        {s: feet[s].position for s in SIDES},
+        {s: feet[s].rotation_sole_to_world for s in SIDES},
+        iterations=50,
+    )
+    if not error < 1e-6:
+        raise SceneError(
+            f"robot '{robot.name}' cannot stand with its CoM at {com_height:.3f} m and feet "
+            f"{np.hypot(feet['left'].x - feet['right'].x, feet['left'].y - feet['right'].y):.3f} m apart; "
+            "allowed: what the legs reach from [posture] (degrees), within their joints' limits"
+        )
+    half = np.array([0.0, 0.0, 0.5 * legs.mass * GRAVITY])
+    torques = legs.static_torques(dict.fromkeys(SIDES, half), {s: np.array([*centers[s], ground]) for s in SIDES})
+    return joints, torques

@@ -1,0 +1,201 @@
+"""The task of a walking controller: its gait and which of its parts run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import chain, repeat
+from typing import Any
+
+import numpy as np
+
+from plantar.errors import InputError
+from plantar.gait.plan.phases import Timing
+from plantar.gait.propose.velocity_command import STOP, VelocityTable, table_of
+from plantar.robots.robot import Robot
+from plantar.settings.body_scale import BodyScale
+from plantar.settings.schema import Settings, choice, number, share, switch, tables, whole
+
+__all__ = ["CONTROL_PERIOD", "Control", "Walk", "walk_timing"]
+
+_SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
+"""Beats that the phases of a step last where neither scene nor robot says: 0.9 and 0.3 s on a leg of 0.6 m."""
+
+_LEAST_START = 0.2
+"""Least time in s of the first shift of the weight."""
+
+_VELOCITY_UNITS = ("s", "m/s", "m/s", "rad/s")
+"""Units of a row of a velocity command."""
+
+
+class Walk(Settings):
+    """Gait of a scene. Lengths in m, times in s.
+
+    Attributes:
+        steps: Number of steps; the last one closes the feet.
+        pattern: Where the steps go: "straight", or in a "box" of six steps a round whose side is `length`.
+        length: Distance by which a step leads the other foot.
+        sideways: Lateral distance by which each opening step leads, positive to the left.
+        stance_width: Distance of the ankles when the feet stand side by side; 0 takes the robot's own.
+        wider: By how much farther apart than that they stand.
+        first: Foot that moves first.
+        single_support: t_ss; 0 takes the robot's own.
+        double_support: t_ds; 0 takes the robot's own.
+        swing_height: Clearance of the swing foot.
+        lean: Whether the trunk leans over the stance foot, which takes load off the hip roll joints (see the robot's
+            `trunk_lean`).
+        crouch: How much lower than its own CoM height the robot walks, to reach further and ground that is lower than
+            expected; as far as the robot can (its `largest_crouch` and `largest_crouch_partial`).
+        approach_height: Height above the expected ground from which the swing foot goes down slowly; it then aims as
+            far below it, for ground that is lower than expected.
+        approach_speed: Speed of that in m/s.
+        start: Duration of the first weight shift.
+        end: Duration of the last weight shift.
+        settle: Standing time that is simulated after the walk.
+        begin: Standing time before the walk; the CoM leads the first weight shift by about 1 s.
+        velocity: Walk at this velocity [forward, left, turn] in m/s, m/s and rad/s, or in texts with units, instead of
+            a number of steps; zeros take steps in place.
+        commands: Such velocities over time: each [time, forward, left, turn], or [time, "stop"], in s after `begin`.
+        wander: Largest velocity [forward, left, turn], either way, of those that the seed draws, a new one each
+            `change_every`.
+        change_every: Time from one such velocity to the next.
+        until: Time after which a walk at a velocity is told to stop.
+    """
+
+    steps: int = whole(20, "steps", 0, 100000)
+    pattern: str = choice("straight", "box")
+    length: float = share(1 / 3, "leg", -0.5, 0.5)
+    sideways: float = number(0.0, "m", -0.3, 0.3)
+    stance_width: float = number(0.0, "m", 0, 0.6)
+    wider: float = share(0.0, "leg", 0, 0.5)
+    first: str = choice("left", "right")
+    single_support: float = number(0.0, "s", 0, 10)
+    double_support: float = number(0.0, "s", 0, 10)
+    swing_height: float = share(1 / 12, "leg", 0.005, 0.25)
+    lean: bool = switch(False)
+    crouch: float = number(0.0, "m", 0, 0.15)
+    approach_height: float = number(0.0, "m", 0, 0.1)
+    approach_speed: float = share(0.0247, "leg/beat", 0.005, 0.5)
+    start: float = share(4.85, "beat", 0.2, 60)
+    end: float = share(4.04, "beat", 0.2, 60)
+    settle: float = number(2.0, "s", 0, 600)
+    begin: float = number(1.0, "s", 1, 60)
+    velocity: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
+    commands: tuple[Sequence[float | str], ...] = tables('a list of [time, forward, left, turn] or [time, "stop"]')
+    wander: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
+    change_every: float = number(6.0, "s", 0.5, 600)
+    until: float = number(10.0, "s", 0, 36000)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        given = [name for name in ("velocity", "commands", "wander") if getattr(self, name)]
+        if len(given) > 1:
+            raise InputError(f"{' and '.join(given)} are given; allowed: one of them")
+        self.velocities(0)
+
+    def velocities(self, seed: int) -> VelocityTable | None:
+        """The commanded velocities over time in s; None for a walk of a number of steps.
+
+        Args:
+            seed: Draws those of a walk that wanders.
+        """
+        rows: list[Sequence[float | str]] = [self._in_si(row) for row in self.commands]
+        if self.velocity:
+            rows = [self._in_si([0.0, *self.velocity])]
+        if self.wander:
+            wander = self._in_si([0.0, *self.wander])
+            table_of([wander], 0.0)  # checks it
+            rng = np.random.default_rng([seed, 0xC0])
+            count = max(1, math.ceil(self.until / self.change_every - 1e-9))
+            drawn = rng.uniform(-1.0, 1.0, (count, 3)) * np.array(wander[1:], dtype=float)
+            rows = [[k * self.change_every, *velocity] for k, velocity in enumerate(drawn.tolist())]
+        if not rows:
+            return None
+        table = table_of(rows, self.begin)
+        if table.commands[-1] is not STOP:
+            if self.until <= rows[-1][0]:  # type: ignore[operator]
+                raise InputError(f"until is {self.until:g} s; allowed: after the last velocity, at {rows[-1][0]:g} s")
+            table = table_of([*rows, [self.until, "stop"]], self.begin)
+        return table
+
+    def _in_si(self, row: Any) -> Any:
+        """A row of [time, forward, left, turn] whose texts with units are numbers in s, m/s and rad/s; what is none of
+        those stays, for who reads the row to refuse."""
+        if not isinstance(row, Sequence) or isinstance(row, str):
+            return row
+        units = chain(_VELOCITY_UNITS, repeat("1"))
+        return [self.in_si(value, unit, "a velocity command") for value, unit in zip(row, units, strict=False)]
+
+
+class Control(Settings):
+    """How the scene is controlled and computed.
+
+    Attributes:
+        feedback: False walks the plan in open loop.
+        zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
+        footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole; "force" goes by the
+            taxels' forces, "skin" by what they see before they touch, too.
+        pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
+        feasibility: Rule by which a foothold is refused that is higher than expected: "off", "skin" (supported area) or
+            "force_torque" (moment at the ankle). Needs pfc.
+        conform: Feet take the ground's shape: standing soles turn until the ground carries them where they shall be
+            loaded. For bumps; needs pfc.
+        identify: The controller identifies how robot and sensors differ from its model, such as the gyro's bias.
+        step_timing: The controller ends a single support sooner or later than planned where the DCM asks for it; not of
+            a robot that rocks.
+        step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks. For ground where a
+            foot may stand anywhere.
+        learn_strides: Strides become longer by what pushed steps went farther; needs `step_adjustment`.
+        push_estimate: What tells of a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
+            "skin" on the upper body, and the soles where that feels nothing.
+        dcm_estimate: What estimates the CoM's velocity, and so the DCM: "observer", or "kalman", a Kalman filter that
+            takes what neither ZMP nor push explain for a push that nothing feels.
+        swing_shape: Path of the swing foot: "polynomial" changes only with the plan; "fit" is fitted at every tick to
+            where and when the foot shall land.
+        period: Control period in s.
+        physics_period: Time step of the simulated physics in s; a contact takes five of them.
+        skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
+    """
+
+    feedback: bool = switch(True)
+    zmp_source: str = choice("skin", "force_torque")
+    footholds: str = choice("off", "force", "skin")
+    pfc: bool = switch(False)
+    feasibility: str = choice("off", "skin", "force_torque")
+    conform: bool = switch(False)
+    identify: bool = switch(True)
+    step_timing: bool = switch(True)
+    step_adjustment: bool = switch(False)
+    learn_strides: bool = switch(False)
+    push_estimate: str = choice("off", "soles", "skin")
+    dcm_estimate: str = choice("observer", "kalman")
+    swing_shape: str = choice("polynomial", "fit")
+    period: float = number(0.005, "s", 0.0005, 0.05)
+    physics_period: float = number(0.001, "s", 0.0001, 0.002)
+    skip: str = choice("auto", "none")
+
+
+CONTROL_PERIOD = Control().period
+"""Control period in s of a scene that does not say."""
+
+
+def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
+    """Durations of a walk's phases: the scene's, else the robot's, else the same number of beats for every robot.
+
+    A robot that rocks from foot to foot has its own, and begins and ends as quickly.
+
+    Args:
+        walk: Gait of a scene, for the same body.
+        robot: The robot.
+        body: How large it is.
+
+    Returns:
+        The durations.
+    """
+    stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
+    single = stated[0] or robot.single_support or _SINGLE_SUPPORT * body.beat
+    if walk.approach_height > 0.0 and not robot.rocks:
+        single = max(single, robot.approach_support)
+    double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat
+    start, end = (max(_LEAST_START, double), single + double) if robot.rocks else (walk.start, walk.end)
+    return Timing(single, double, start, end, walk.settle)
