@@ -382,11 +382,11 @@ def sim(
     if video is not None:
         os.environ.setdefault("MUJOCO_GL", "egl")
     need_libraries("sim", *LIBRARIES)
-    from plantar.sim.run.scene_kind import open_scene, run_opened_to_files, summary_text
+    from plantar.sim.run.scene_kind import open_scene, run, summary_text
 
     loaded = open_scene(scene, settings or [], robot)
     with progress_bar() as tell:
-        summary = run_opened_to_files(loaded, seed, record=record, video=video, plot=plot, progress=tell)
+        summary = run(loaded, seed, record=record, video=video, plot=plot, progress=tell)
     end_command(summary, as_json, summary_text(summary), failed=not summary["completed"])
 
 

@@ -97,15 +97,16 @@ def test_the_names_of_a_lazy_package_are_those_of_its_modules(package, others):
     loaded = importlib.import_module(package)
     tree = ast.parse((ROOT.joinpath(*package.split("."), "__init__.py")).read_text(encoding="utf-8"))
     typed = {
-        (alias.name, node.module)
+        (alias.asname or alias.name, node.module, alias.name)
         for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith(f"{package}.")
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.partition(".")[0] == "plantar"
         for alias in node.names
     }
-    assert {n for n, _ in typed} | others == set(loaded.__all__)
-    for name, module in typed:
-        assert getattr(loaded, name) is getattr(importlib.import_module(module), name)
-        assert f"{package}.{loaded._MODULE_OF_NAME.get(name, 'errors')}" == module
+    assert {n for n, _, _ in typed} | others == set(loaded.__all__)
+    for name, module, called in typed:
+        assert getattr(loaded, name) is getattr(importlib.import_module(module), called)
+        place, _, other = loaded._PLACES.get(name, "errors").partition(":")
+        assert (f"{package}.{place}".rstrip("."), other or name) == (module, called)
     assert set(loaded.__all__) <= set(dir(loaded))
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         loaded.nothing  # noqa: B018

@@ -24,7 +24,8 @@ import numpy as np
 from plantar.settings.schema import Settings, choice, number
 from plantar.mechanics.lip import pendulum_frequency
 from plantar.geometry import polygon
-from plantar import Percept, Reading, SoleLayout, hex_layout, inscribed_circle
+from plantar import Percept, Reading, SoleLayout, hex_layout
+from plantar.geometry.inscribed import inscribed_circle
 from plantar.shoes.units import to_m
 from plantar.sim.run.scene import Scene, load_scene
 

@@ -40,7 +40,7 @@ __all__ = [
     "read_parameters",
 ]
 
-_MODULE_OF_NAME = {
+_PLACES = {
     "Foot": "foot.foot",
     "Shoe": "build",
     "ShoeBuild": "build",
@@ -62,9 +62,9 @@ if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a n
 
     def __getattr__(name: str) -> object:
         """Load a public name at first use."""
-        if name not in _MODULE_OF_NAME:
+        if name not in _PLACES:
             raise AttributeError(f"module 'plantar.shoes' has no attribute {name!r}")
-        value = globals()[name] = getattr(import_module(f"plantar.shoes.{_MODULE_OF_NAME[name]}"), name)
+        value = globals()[name] = getattr(import_module(f"plantar.shoes.{_PLACES[name]}"), name)
         return value
 
     def __dir__() -> list[str]:

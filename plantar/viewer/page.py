@@ -35,11 +35,13 @@ _FARTHEST = 1e9  # m, or s: what damaged numbers of 32 bits are limited to
 _EXPORT = re.compile(r"export\s*\{([^}]*)\};?\s*$")
 
 
-def write_page(recordings: Sequence[str | os.PathLike[str]], path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Write the page of one recording, or of two side by side.
+def write_page(
+    recordings: str | os.PathLike[str] | Sequence[str | os.PathLike[str]], path: str | os.PathLike[str] = "view.html"
+) -> dict[str, Any]:
+    """Write a page for the browser that plays one recording, or two side by side.
 
     Args:
-        recordings: MCAP files.
+        recordings: MCAP file, or a list of up to two.
         path: HTML file to write.
 
     Returns:
@@ -50,6 +52,7 @@ def write_page(recordings: Sequence[str | os.PathLike[str]], path: str | os.Path
         InputError: If there are too many recordings or the page cannot be written.
         FormatError: If a recording cannot be read or has no soles to show.
     """
+    recordings = [recordings] if isinstance(recordings, str | os.PathLike) else recordings
     if not 1 <= len(recordings) <= _MOST:
         raise InputError(f"{len(recordings)} recordings to show; allowed: 1, or {_MOST} side by side")
     walks = [read_walk(recording) for recording in recordings]

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from plantar import HexLattice, InputError, SoleLayout, cli, hex_layout
+from plantar import InputError, SoleLayout, cli, hex_layout
+from plantar.layouts.hex_lattice import HexLattice
 from plantar.sim.contact_models import (
     CANDIDATES,
     Candidate,

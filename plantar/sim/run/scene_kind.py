@@ -21,8 +21,8 @@ __all__ = [
     "full_setting_name",
     "open_scene",
     "robot_file_of",
+    "run",
     "run_opened",
-    "run_opened_to_files",
     "summary_text",
 ]
 
@@ -110,19 +110,19 @@ def run_opened(scene: Scene | CompanionScene, seed: int) -> dict[str, Any]:
     return run_companion(scene, seed)
 
 
-def run_opened_to_files(
-    scene: Scene | CompanionScene,
-    seed: int,
+def run(
+    scene: Scene | CompanionScene | str | os.PathLike[str],
+    seed: int = 0,
     *,
     record: Path | None = None,
     video: Path | None = None,
     plot: Path | None = None,
     progress: Callable[[float, str], None] | None = None,
 ) -> dict[str, Any]:
-    """Run a scene of either kind with the files that are asked for.
+    """Simulate a scene, judge the run by the true contact forces, and write the files that are asked for.
 
     Args:
-        scene: The scene.
+        scene: The scene, its built-in name or the path of its TOML file.
         seed: Seed of what is left to chance.
         record: File of the recording, .mcap; None leaves none behind.
         video: File of the video, .mp4; None makes none.
@@ -130,12 +130,19 @@ def run_opened_to_files(
         progress: Called with the fraction done and a text.
 
     Returns:
-        The summary, with the paths of the figures under "figures" where they were drawn.
+        The summary, as `plantar sim --json` prints it: "completed", "reasons" (each criterion that failed), "fell" and
+        more, with the paths of figures under "figures".
 
     Raises:
         SceneError: If the scene cannot be run.
         InputError: If a file or folder cannot be written, or the scene has nothing to record.
+
+    Example:
+        >>> run("flat", 0)["completed"]  # doctest: +SKIP
+        True
     """
+    if isinstance(scene, str | os.PathLike):
+        scene = open_scene(scene)
     if isinstance(scene, Scene):
         from plantar.sim.run.run_files import run_to_files
 

@@ -3,8 +3,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar import bounding_box, inscribed_rectangle, safe_rectangle
 from plantar.errors import InputError
+from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.geometry.enclosing import bounding_box
+from plantar.geometry.inscribed import inscribed_rectangle
 from plantar.geometry.polygon import convex_hull
 
 seeds = st.integers(0, 2**32 - 1)

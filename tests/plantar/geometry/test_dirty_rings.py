@@ -11,28 +11,25 @@ from functools import cache
 import numpy as np
 import pytest
 
-from plantar import (
-    Outline,
-    bounding_box,
-    enclosing_parallelogram,
-    feet_support_polygon,
-    grid_layout,
+from plantar import grid_layout, walking_tick
+from plantar.bench import references as exact
+from plantar.bench.dirty_rings import ExactRing, chamfered_rectangle, dirty_ring, vanishing_depths
+from plantar.bench.soles import sole_of
+from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
+from plantar.geometry.inscribed import (
     inscribed_circle,
     inscribed_parallelogram,
     inscribed_rectangle,
     inscribed_rectangle_any_angle,
     inscribed_triangle,
-    oriented_box,
     rectangle_in_outline,
     rectangle_in_outline_any_angle,
-    safe_rectangle,
-    walking_tick,
 )
-from plantar.bench import references as exact
-from plantar.bench.dirty_rings import ExactRing, chamfered_rectangle, dirty_ring, vanishing_depths
-from plantar.bench.soles import sole_of
+from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
 from plantar.kernels.geometry.clean import turning
+from plantar.percepts.support import feet_support_polygon
 from plantar.sensing.partial_contact import PartialContact
 
 COUNT = 600

@@ -6,7 +6,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar import bounding_box, enclosing_parallelogram, oriented_box
+from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
 from plantar.geometry.polygon import area, convex_hull
 
 seeds = st.integers(0, 2**32 - 1)

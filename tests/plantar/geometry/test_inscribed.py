@@ -8,11 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog, minimize
 
-from plantar import (
-    HexLattice,
-    Outline,
-    concave_outline,
-    hex_layout,
+from plantar import hex_layout
+from plantar.bench.soles import contacts
+from plantar.geometry.inscribed import (
     inscribed_circle,
     inscribed_parallelogram,
     inscribed_rectangle,
@@ -21,9 +19,10 @@ from plantar import (
     rectangle_in_outline,
     rectangle_in_outline_any_angle,
 )
-from plantar.bench.soles import contacts
+from plantar.geometry.outline import Outline, concave_outline
 from plantar.geometry.polygon import area, convex_hull
 from plantar.kernels import is_compiled
+from plantar.layouts.hex_lattice import HexLattice
 
 seeds = st.integers(0, 2**32 - 1)
 CONVEX = [inscribed_triangle, inscribed_parallelogram, inscribed_rectangle, inscribed_rectangle_any_angle]

@@ -8,8 +8,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import Outline, concave_outline, feet_outline, hex_layout, kernels, rectangle_in_outline
+from plantar import hex_layout, kernels
 from plantar.errors import InputError, ReadingError
+from plantar.geometry.inscribed import rectangle_in_outline
+from plantar.geometry.outline import Outline, concave_outline, feet_outline
 from plantar.layouts.cell_edges import edge_table
 from plantar.layouts.layout import SoleLayout
 

@@ -13,8 +13,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import InputError, Outline, concave_outline, rectangle_in_outline, rectangle_in_outline_any_angle
+from plantar import InputError
 from plantar.bench.dirty_rings import dirty_ring
+from plantar.geometry.inscribed import rectangle_in_outline, rectangle_in_outline_any_angle
+from plantar.geometry.outline import Outline, concave_outline
 from plantar.geometry.polygon import area
 from plantar.kernels import is_compiled
 from plantar.kernels.geometry import concave, corridors, node_heap
@@ -185,7 +187,8 @@ def test_a_budget_is_a_number_of_0_or_more(budget):
 def test_an_interrupt_ends_the_work_soon(work):
     code = f"""
 import numpy as np
-from plantar import Outline, rectangle_in_outline, rectangle_in_outline_any_angle
+from plantar.geometry.inscribed import rectangle_in_outline, rectangle_in_outline_any_angle
+from plantar.geometry.outline import Outline
 rng = np.random.default_rng(0)
 t = np.linspace(0.0, 2.0 * np.pi, 40000, endpoint=False)
 r = 1.0 + 0.3 * rng.random(len(t))

@@ -3,8 +3,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar import LayoutError, ground_reaction_wrench, hex_layout, laid_over, read_layout, write_layout
+from plantar import LayoutError, hex_layout, laid_over, read_layout, write_layout
 from plantar.layouts.curved_sole import rotations_to_normals
+from plantar.sensing.force import ground_reaction_wrench
 
 RECTANGLE = [[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]]
 seeds = st.integers(0, 2**32 - 1)

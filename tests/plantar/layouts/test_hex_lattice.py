@@ -6,8 +6,8 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar import HexLattice, InputError
-from plantar.layouts.hex_lattice import AXIAL_NEIGHBOURS, hexagon_side
+from plantar import InputError
+from plantar.layouts.hex_lattice import AXIAL_NEIGHBOURS, HexLattice, hexagon_side
 
 cell_areas = st.floats(1e-6, 1e-2)
 angles = st.floats(-math.pi, math.pi)

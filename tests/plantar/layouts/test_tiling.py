@@ -8,7 +8,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import HexLattice, InputError, LayoutError, grid_layout, hex_layout
+from plantar import InputError, LayoutError, grid_layout, hex_layout
+from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.tiling import MOST_TAXELS
 
 RECTANGLE = [[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]]

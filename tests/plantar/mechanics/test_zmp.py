@@ -6,9 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from plantar import InputError, wrench_at, zmp_of_feet, zmp_of_wrench
+from plantar import InputError
 from plantar.mechanics.lip import divergent_component
-from plantar.mechanics.zmp import centroidal_moment_pivot, zero_moment_wrench, zmp_in_plane
+from plantar.mechanics.wrench import wrench_at
+from plantar.mechanics.zmp import centroidal_moment_pivot, zero_moment_wrench, zmp_in_plane, zmp_of_feet, zmp_of_wrench
 from plantar.percepts.sole_pose import SolePose, wrench_of_feet, zmp_of_soles
 
 seeds = st.integers(0, 2**32 - 1)

@@ -4,7 +4,8 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar import InputError, Percept, Reading, mirrored, zmp_of_feet
+from plantar import InputError, Percept, Reading, mirrored
+from plantar.mechanics.zmp import zmp_of_feet
 from plantar.percepts.feet import FeetPercept
 from plantar.percepts.sole_pose import SolePose
 

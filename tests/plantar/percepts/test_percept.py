@@ -12,20 +12,12 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import (
-    Percept,
-    PerceptOptions,
-    PlantarError,
-    Reading,
-    ReadingError,
-    center_of_pressure,
-    ground_reaction_wrench,
-    kernels,
-)
+from plantar import Percept, PerceptOptions, PlantarError, Reading, ReadingError, kernels
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import signed_margin
 from plantar.kernels.skin.percept_fields import PerceptFields
 from plantar.lazy import lazy
+from plantar.sensing.force import center_of_pressure, ground_reaction_wrench
 from plantar.sensing.ground_plane import fit_ground_plane
 from plantar.sensing.health import TaxelHealth
 from plantar.sensing.proximity import preemptive_polygon

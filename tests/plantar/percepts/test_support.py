@@ -4,9 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from plantar import feet_support_polygon
 from plantar.geometry.polygon import area, signed_margin
-from plantar.percepts.support import polygon_in_world
+from plantar.percepts.support import feet_support_polygon, polygon_in_world
 
 SOLE = np.array([[-0.1, -0.05], [0.15, -0.05], [0.15, 0.05], [-0.1, 0.05]])
 angles = st.floats(-0.5, 0.5)

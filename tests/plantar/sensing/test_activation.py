@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from plantar import InputError, ReadingError, active_taxels
-from plantar.sensing.activation import TaxelActivation, hysteresis
+from plantar import InputError, ReadingError
+from plantar.sensing.activation import TaxelActivation, active_taxels, hysteresis
 
 anything = st.floats(allow_nan=True, allow_infinity=True)
 forces = st.lists(anything, max_size=20)

@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from plantar import InputError, ReadingError, ground_reaction_wrench
+from plantar import InputError, ReadingError
 from plantar.sensing.body_skin import active_cells, patch_signal, pseudo_force, skin_wrench
+from plantar.sensing.force import ground_reaction_wrench
 
 seeds = st.integers(0, 2**32 - 1)
 signals = st.lists(

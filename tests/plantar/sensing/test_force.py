@@ -6,16 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from plantar import (
-    InputError,
-    ReadingError,
-    SoleLayout,
-    center_of_pressure,
-    ground_reaction_wrench,
-    wrench_at,
-    zmp_of_feet,
-    zmp_of_wrench,
-)
+from plantar import InputError, ReadingError, SoleLayout
+from plantar.mechanics.wrench import wrench_at
+from plantar.mechanics.zmp import zmp_of_feet, zmp_of_wrench
+from plantar.sensing.force import center_of_pressure, ground_reaction_wrench
 
 seeds = st.integers(0, 2**32 - 1)
 

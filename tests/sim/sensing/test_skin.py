@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from plantar import InputError, RobotError, center_of_pressure, hex_layout
+from plantar import InputError, RobotError, hex_layout
+from plantar.sensing.force import center_of_pressure
 from plantar.sim.model.contact_truth import ContactSet, contact_wrench_in_frame
 from plantar.sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
 

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import InputError, LayoutError, SoleLayout, center_of_pressure, hex_layout, layout_of_cells
+from plantar import InputError, LayoutError, SoleLayout, hex_layout, layout_of_cells
 from plantar.geometry.polygon import convex_hull, inner_offset, signed_margin
+from plantar.sensing.force import center_of_pressure
 from plantar.sim.sensing.sole_pressure import SolePressure
 from plantar.sim.sensing.sole_pressure import _pseudo_inverse as pseudo_inverse
 
