@@ -565,11 +565,6 @@ def bench(
     layout: Annotated[
         Path | None, Option(help="contact: layout file of the sole. Default: 250 x 155 mm with taxels of 691 mm^2.")
     ] = None,
-    stress: Annotated[
-        bool, Option("--stress", help="kernels: throw readings at every function and check what comes back.")
-    ] = False,
-    readings: Annotated[int, Option(help="--stress: how many readings.")] = 1_000_000,
-    seed: Annotated[int, Option(help="--stress: seed of what is left to chance.")] = 0,
     scenarios: Annotated[int, Option(help="stress: how many scenarios.")] = 10_000,
     first: Annotated[int, Option(min=0, help="stress: number of the first one.")] = 0,
     scene: Annotated[
@@ -585,8 +580,7 @@ def bench(
     """Measure run time against error, and write tables, figures and bench.json.
 
     kernels: the perception's kernels beside scipy, shapely, cv2 and approximations, with the error against exact
-    references; under 2 minutes. With --stress instead a million odd readings for every function of the perception:
-    exit code 1 if one raises, hangs, gives NaN or leaves its bound.
+    references; under 2 minutes.
 
     contact: ways to simulate a sole's contact and its taxels, against MuJoCo's exact contact wrench. Exit code 1 if the
     chosen model is not as right as it must be (centre of pressure within 2 mm, tip-over edge within 1 mm).
@@ -610,12 +604,12 @@ def bench(
 
     Example: plantar bench kernels -o out/bench
 
-    Example: plantar bench kernels --stress --readings 20000 --json
+    Example: plantar bench stress --scenarios 10 --json
     """
     from plantar.sim.bench.kinds import BenchOptions, measure
 
     walks = tuple(scene or ()), tuple(robot or ())
-    told = measure(what, BenchOptions(layout, stress, readings, seed, scenarios, first, *walks, quick), output)
+    told = measure(what, BenchOptions(layout, scenarios, first, *walks, quick), output)
     end_command(told.result, as_json, told.text, told.failures, bool(told.failures))
 
 

@@ -26,9 +26,6 @@ class BenchOptions:
 
     Attributes:
         layout: Layout file of the sole, or None for the default one.
-        stress: Throw readings at the perception.
-        readings: How many.
-        seed: Seed of what is left to chance in them.
         scenarios: How many scenarios of the whole loop.
         first: Number of the first one.
         scene: Walks to run; all where empty.
@@ -37,9 +34,6 @@ class BenchOptions:
     """
 
     layout: Path | None = None
-    stress: bool = False
-    readings: int = 1_000_000
-    seed: int = 0
     scenarios: int = 10_000
     first: int = 0
     scene: tuple[str, ...] = ()
@@ -81,8 +75,6 @@ def measure(what: str, options: BenchOptions, output: Path) -> Told:
         raise InputError(f"cannot measure '{what}'; allowed: {', '.join(allowed)}")
     _check(what, options)
     with progress_bar() as tell:
-        if options.stress:
-            return _readings(options, tell)
         if what in _TABLES:
             told = _TABLES[what](output, options, tell)
             told.result["files"] = [str(output / name) for name in told.result["files"]]
@@ -92,35 +84,20 @@ def measure(what: str, options: BenchOptions, output: Path) -> Told:
 
 def _check(what: str, options: BenchOptions) -> None:
     """Refuse options that would do nothing."""
-    kind = f"{what} --stress" if options.stress else what
     for told in fields(options):
         takers = _TAKEN_BY[told.name]
-        if getattr(options, told.name) != told.default and kind not in takers:
+        if getattr(options, told.name) != told.default and what not in takers:
             raise InputError(f"--{told.name} is for {' and '.join(takers)}, not '{what}': plantar bench {takers[0]}")
 
 
 _TAKEN_BY: Mapping[str, tuple[str, ...]] = {
     "layout": ("contact", "all"),
-    "stress": ("kernels --stress",),
-    "readings": ("kernels --stress",),
-    "seed": ("kernels --stress",),
     "scenarios": ("stress",),
     "first": ("stress",),
     "scene": ("scenes",),
     "robot": ("scenes",),
     "quick": ("all", "scenes"),
 }
-
-
-def _readings(options: BenchOptions, tell: Progress) -> Told:
-    """Odd readings for every function of the perception."""
-    need_libraries("sim", "scipy", "cv2")
-    from plantar.bench.stress.stress_run import stress
-    from plantar.bench.stress.stress_text import stress_text
-
-    result = stress(options.readings, options.seed, progress=tell)
-    failures = (f"{result.failures} failures in {result.readings} readings",) if result.failures else ()
-    return Told(result.as_dict(), stress_text(result), failures)
 
 
 def _scenes(output: Path, options: BenchOptions, tell: Progress) -> Told:

@@ -13,7 +13,6 @@ import pytest
 
 from plantar import grid_layout, walking_tick
 from plantar.bench import references as exact
-from plantar.bench.dirty_rings import ExactRing, chamfered_rectangle, dirty_ring, vanishing_depths
 from plantar.bench.soles import sole_of
 from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
@@ -31,6 +30,8 @@ from plantar.geometry.polygon import area, centroid, closest_point, convex_hull,
 from plantar.kernels.geometry.clean import turning
 from plantar.percepts.support import feet_support_polygon
 from plantar.sensing.partial_contact import PartialContact
+
+from ..fuzz.dirty_rings import ExactRing, chamfered_rectangle, dirty_ring, vanishing_depths
 
 COUNT = 600
 

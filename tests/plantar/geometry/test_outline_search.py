@@ -14,13 +14,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import InputError
-from plantar.bench.dirty_rings import dirty_ring
 from plantar.geometry.inscribed import rectangle_in_outline, rectangle_in_outline_any_angle
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.geometry.polygon import area
 from plantar.kernels import is_compiled
 from plantar.kernels.geometry import concave, corridors, node_heap
 from plantar.layouts.tiling import grid_layout, hex_layout
+
+from ..fuzz.dirty_rings import dirty_ring
 
 pytestmark = pytest.mark.skipif(not is_compiled("outline_search"), reason="too slow for the interpreted form")
 

@@ -12,9 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import hex_layout, kernels
-from plantar.bench.dirty_rings import dirty_ring
 from plantar.kernels.geometry import clean, convex, hull
 from plantar.kernels.skin import frames, sole
+
+from ..fuzz.dirty_rings import dirty_ring
 
 ROOT = Path(__file__).resolve().parents[3]
 CLEAN, CONVEX, FRAMES, HULL, SOLE = map(kernels.python_form, ("clean", "convex", "frames", "hull", "sole"))

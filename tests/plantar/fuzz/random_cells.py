@@ -8,11 +8,12 @@ import time
 import numpy as np
 
 from plantar.bench.random_cells import random_outline
-from plantar.bench.stress.soles import Block
-from plantar.bench.stress.tally import Tally
 from plantar.geometry.inscribed import rectangle_in_outline, rectangle_in_outline_any_angle
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import area
+
+from .soles import Block
+from .tally import Tally
 
 __all__ = ["RANDOM_CHECKS"]
 

@@ -3,8 +3,9 @@ import math
 import numpy as np
 import pytest
 
-from plantar.bench.dirty_rings import ExactRing, chamfered_rectangle, convex_ring, dirty_ring, vanishing_depths
 from plantar.bench.references import area_exact
+
+from .dirty_rings import ExactRing, chamfered_rectangle, convex_ring, dirty_ring, vanishing_depths
 
 
 def test_a_ring_stands_for_its_hull():

@@ -168,18 +168,18 @@ def array_functions() -> Iterator[str]:
         >>> "polygon.area" in set(array_functions())
         True
     """
-    for room in ROOMS:
-        package = import_module(f"plantar.{room}")
-        for found in pkgutil.iter_modules(package.__path__):
-            module = import_module(f"plantar.{room}.{found.name}")
-            for name in getattr(module, "__all__", ()):
-                value = getattr(module, name)
-                if getattr(value, "__module__", None) != module.__name__:
-                    continue
-                members = {"": value}
-                if inspect.isclass(value):
-                    members |= {f".{k}": getattr(value, k) for k in vars(value) if not k.startswith("_")}
-                yield from (f"{found.name}.{name}{k}" for k, member in members.items() if _takes_array(member))
+    rooms = [f"plantar.{room}" for room in ROOMS]
+    inside = [f"{r}.{m.name}" for r in rooms for m in pkgutil.iter_modules(import_module(r).__path__)]
+    for module in map(import_module, [*inside, "plantar.batch"]):
+        for name in getattr(module, "__all__", ()):
+            value = getattr(module, name)
+            if getattr(value, "__module__", None) != module.__name__:
+                continue
+            members = {"": value}
+            if inspect.isclass(value):
+                members |= {f".{k}": getattr(value, k) for k in vars(value) if not k.startswith("_")}
+            called = module.__name__.rpartition(".")[2]
+            yield from (f"{called}.{name}{k}" for k, member in members.items() if _takes_array(member))
 
 
 def _takes_array(function: Any) -> bool:

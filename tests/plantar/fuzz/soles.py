@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.bench.rings import Rings
 from plantar.bench.soles import foot_outline, sole_of
 from plantar.layouts.cell_layout import joined_layout, layout_of_cells
 from plantar.layouts.curved_sole import laid_over
@@ -21,17 +19,15 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing.reading import Reading
 
-__all__ = ["Block", "blocks_of", "stress_soles", "unit_wrenches"]
+from .rings import Rings
+
+__all__ = ["Block", "block_of", "stress_soles", "unit_wrenches"]
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 _STRONG = {"force": (0.0, 1e12), "proximity": (0.0, 0.05), "temperature": (0.0, 60.0)}
 """Ranges of a sole that 1e9 N do not saturate."""
-
-
-_LEAST = 16
-"""Readings of the smallest block: every kind of check finds some that it looks at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,31 +150,19 @@ def stress_soles() -> list[SoleLayout]:
     return soles
 
 
-def blocks_of(soles: list[SoleLayout], readings: int, seed: int, size: int = 500) -> Iterator[Block]:
-    """Blocks of readings, each of one sole in turn.
+def block_of(layout: SoleLayout, count: int, seed: int, number: int) -> Block:
+    """A block of readings.
 
     Args:
-        soles: The soles.
-        readings: How many readings in all, at least: the last block has 16 or more.
+        layout: The sole.
+        count: How many readings.
         seed: Of what is left to chance.
-        size: Most readings in a block.
+        number: Number of the block: patterns of few cells go on from one to the next, every third is far away.
 
-    Yields:
-        The blocks; the same ones for the same arguments.
+    Returns:
+        The block; the same one for the same arguments.
     """
-    # Soles with few cells meet more readings: they are faster, and their patterns are the hard ones.
-    order = [s for s in soles for _ in range(1 if len(s) > 30 else 4)]
-    done = number = 0
-    while done < readings:
-        layout = order[number % len(order)]
-        rng = np.random.default_rng([seed, number])
-        count = min(size, max(readings - done, _LEAST))
-        yield _block(layout, count, rng, number, (number // len(order)) * size)
-        done += count
-        number += 1
-
-
-def _block(layout: SoleLayout, count: int, rng: np.random.Generator, number: int, first: int) -> Block:
+    rng, first = np.random.default_rng([seed, number]), number * count
     n = len(layout)
     if n <= 12:  # every pattern in turn
         pattern = (np.arange(first, first + count)[:, None] >> np.arange(n)) & 1 == 1

@@ -9,14 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.bench import references as exact
-from plantar.bench.results import not_finite
-from plantar.bench.rings import Rings
-from plantar.bench.stress.soles import Block
-from plantar.bench.stress.tally import Tally
 from plantar.geometry import enclosing, inscribed, polygon
 from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.geometry.outline import Outline, concave_outline, feet_outline
 from plantar.percepts.support import feet_support_polygon
+
+from .results import not_finite
+from .rings import Rings
+from .soles import Block
+from .tally import Tally
 
 __all__ = ["SHAPE_CHECKS"]
 

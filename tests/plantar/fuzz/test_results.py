@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.bench.results import differing, not_finite, numbers
 from plantar.geometry.outline import Outline
+
+from .results import differing, not_finite, numbers
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 

@@ -10,9 +10,6 @@ from numpy.typing import NDArray
 
 from plantar import batch
 from plantar.bench import references as exact
-from plantar.bench.results import differing, not_finite
-from plantar.bench.stress.soles import Block, unit_wrenches
-from plantar.bench.stress.tally import Tally
 from plantar.mechanics import zmp
 from plantar.mechanics.lip import divergent_component
 from plantar.mechanics.wrench import wrench_at
@@ -23,6 +20,10 @@ from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PerceptOptions
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing import activation, force, health, pressure_wrench
+
+from .results import differing, not_finite
+from .soles import Block, unit_wrenches
+from .tally import Tally
 
 __all__ = ["FORCE_CHECKS", "LAST_CHECKS"]
 

@@ -7,11 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.bench.results import differing
-from plantar.bench.rings import Rings
-from plantar.bench.stress.soles import Block
-from plantar.bench.stress.tally import Tally
 from plantar.sensing import body_skin, ground_plane, proximity, temperature, virtual_wrench
+
+from .results import differing
+from .rings import Rings
+from .soles import Block
+from .tally import Tally
 
 __all__ = ["FIELD_CHECKS"]
 

@@ -11,23 +11,20 @@ import math
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.bench.stress.public_calls import Argument, Call, public_calls
-from plantar.bench.stress.soles import Block
-from plantar.bench.stress.tally import Tally
 from plantar.errors import PlantarError
 from plantar.geometry.outline import Outline
 
-__all__ = ["ARGUMENT_CHECKS", "MEMBERS", "complaint", "same_answer"]
+from .public_calls import Argument, Call
+
+__all__ = ["MEMBERS", "complaint", "same_answer"]
 
 Array = NDArray[Any]
 _ROUNDING = 1e-13  # of an answer's largest number
-_DRAWS = 5  # a block
 Draw = Callable[[Array, np.random.Generator], Any]
 
 
@@ -195,7 +192,7 @@ def complaint(call: Call, array: str, member: str, rng: np.random.Generator) -> 
         The fault, or None.
 
     Example:
-        >>> from plantar.bench.stress.public_calls import public_calls
+        >>> from .public_calls import public_calls
         >>> area = next(call for call in public_calls() if call.name == "polygon.area")
         >>> complaint(area, "polygon", "complex", np.random.default_rng(0)) is None
         True
@@ -280,25 +277,3 @@ def _parts(answer: Any) -> Iterator[Array]:
         yield answer
     else:
         yield np.array(answer if isinstance(answer, int | float | np.generic) else repr(type(answer)))
-
-
-@cache
-def _calls() -> tuple[Call, ...]:
-    return tuple(public_calls())
-
-
-def _wrong_arguments(block: Block, tally: Tally) -> None:
-    """A few functions, each with one of its arrays wrong."""
-    for _ in range(_DRAWS):
-        call = _calls()[int(block.rng.integers(len(_calls())))]
-        array = list(call.arrays)[int(block.rng.integers(len(call.arrays)))]
-        member = list(MEMBERS)[int(block.rng.integers(len(MEMBERS)))]
-        fault = complaint(call, array, member, block.rng)
-        name = f"wrong arguments: {call.name}"
-        tally.add(name, block, [fault is not None])
-        if fault is not None:
-            tally.tested[name].examples[-1:] = [f"{array} is '{member}': {fault}"]
-
-
-ARGUMENT_CHECKS = (_wrong_arguments,)
-"""The check of this module, a function of a block and a tally."""

@@ -1,1 +1,0 @@
-"""The stress run: odd readings for every function of the perception."""
