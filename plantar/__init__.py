@@ -9,6 +9,7 @@ Doors, each documented by `help(plantar.NAME)`; what a door needs is loaded at i
     load_controller(robot)       its walking controller, for a control loop of your own; needs no simulator
     load_scene(name or file)     a scene for the simulator
     run(scene, seed)             simulate it, judge it by the true contact forces, and record it
+    mujoco                       the same skin for any MuJoCo model
 
 What a sole measures, and what follows from it:
 
@@ -40,7 +41,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plantar import batch
+    from plantar import batch, mujoco
     from plantar.errors import (
         DependencyError,
         FootError,
@@ -112,6 +113,7 @@ __all__ = [
     "load_robot",
     "load_scene",
     "mirrored",
+    "mujoco",
     "polygon",
     "read",
     "read_layout",
@@ -150,6 +152,7 @@ _PLACES = {
     "walking_tick": "percepts.foot_tick",
     "write_layout": "layouts.layout_file",
     "batch": "",
+    "mujoco": "",
     "polygon": "geometry",
 }
 """Module below plantar of each name that is not an error, and what it is called there where that differs."""
