@@ -88,7 +88,7 @@ class Simulation:
         walk = scene.walk
         self.velocities = walk.velocities(seed)
         start = self.start_walk()
-        self.feet, self.steps = start.feet, start.steps
+        self.feet, self.steps = dict(start.feet), start.steps
         skin = upper_body_skin_of(scene, robot, self.legs.model, self.body, self.worn)
         self.settings = controller_settings(
             scene,
