@@ -335,7 +335,7 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
         (
             "plantar/gait/plan/phases.py",
             "from mujoco import MjModel",
-            "mujoco is imported outside plantar.sim, plantar.mujoco",
+            "mujoco is imported outside plantar.sim, plantar.robots",
         ),
         (
             "plantar/gait/plot.py",
