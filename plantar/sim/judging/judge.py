@@ -18,11 +18,12 @@ from plantar.kernels.contacts.ground_reaction import GroundReaction
 from plantar.kernels.judging.estimate_error import EstimateError
 from plantar.kernels.judging.step_watch import FALLING, LEGS, StepWatch
 from plantar.layouts.layout import Side
-from plantar.sides import SIDES
+from plantar.sides import SIDES, other_side
 from plantar.sim.judging.joint_limits import JointLimits
 from plantar.sim.judging.leg_contact import LegContact
-from plantar.sim.judging.step_count import StepCount
-from plantar.sim.judging.walk_goal import WalkGoal
+from plantar.sim.judging.plain_ground import PlainGround
+from plantar.sim.judging.step_count import Stand, StepCount
+from plantar.sim.judging.walk_goal import WalkGoal, Way
 from plantar.sim.model.contact_truth import ContactReader, GroundTruth, foot_contacts
 from plantar.sim.model.world import DIVERGED, World
 
@@ -33,6 +34,7 @@ _LEAST = 0.0012  # weight on both feet below which there is no ZMP: 1 N for H1
 _AIRBORNE = 0.607  # beats without contact before a touch counts as a landing: 0.15 s for H1
 _IMPACT_WINDOW = 0.202  # beats after touchdown in which the impact is looked for: 50 ms
 _SETTLED = 2.43  # beats after touchdown in which the contact area is looked for: 0.6 s
+_PUSH_LASTS = 15.0  # beats in which a push may move steps: three of H1's, and what lies between
 _FALLEN_TILT = 40.0  # degrees
 _FALLEN_HEIGHT = 0.6  # of the standing CoM height
 _FLAT_FACES = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_BOX))
@@ -67,11 +69,14 @@ class Judge:
         world: The world.
         standing_height: CoM height above the ground at the start in m.
         goal: Where the feet have to be put down.
+        ground: Where the ground is plain; None where it is everywhere.
+        fall: What fell how far, as (criterion's value, limit, text); None for no fall.
     """
 
     world: World
     standing_height: float
     goal: WalkGoal
+    ground: PlainGround | None = None
     fall: tuple[float, float, str] | None = None
 
     def __post_init__(self) -> None:
@@ -83,7 +88,8 @@ class Judge:
         self._angles: list[float | None] = []
         self._lowest = _FALLEN_HEIGHT * self.standing_height
         self._start = float(data.time)
-        self.steps = StepCount(self.goal, body.weight, self._time_of)
+        self.steps = StepCount(self.goal, body.weight, self._time_of, self._justified)
+        self._pushed: list[float] = []
         self.legs = LegContact(world)
         self.joints = JointLimits(world)
         ground = is_ground(world).astype(np.uint8)
@@ -180,7 +186,12 @@ class Judge:
         return math.degrees(math.acos(min(1.0, abs(float(up @ sole)))))
 
     def update(
-        self, time: float, com: NDArray[np.float64], zmp: NDArray[np.float64] | None, moved: Sequence[MovedStep] = ()
+        self,
+        time: float,
+        com: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        moved: Sequence[MovedStep] = (),
+        pushed: bool = False,
     ) -> None:
         """After the physics step that began with a control tick: compare the controller's estimates.
 
@@ -189,10 +200,26 @@ class Judge:
             com: The controller's estimate of the CoM (3,) in m.
             zmp: The controller's estimate of the ZMP (2,) in m, or None.
             moved: Footsteps that the controller reports to have just planned again.
+            pushed: Whether somebody truly pushes on the robot.
         """
+        if pushed:
+            self._pushed.append(time)
         self._estimates.update(com.tolist(), None if zmp is None else zmp.tolist())
         if moved:
             self.goal.hear(time, moved)
+
+    def _justified(self, stand: Stand, way: Way, before: tuple[float, float, float]) -> bool:
+        """Whether a push in the last three steps, or the ground where a step was planned or the one before it stood,
+        justify that it is moved."""
+        since = stand.touchdown - _PUSH_LASTS * self.world.body.beat
+        if any(since <= time <= stand.touchdown for time in self._pushed):
+            return True
+        if self.ground is None:
+            return False
+        x, y, yaw = before
+        c, s = math.cos(yaw), math.sin(yaw)
+        place = (x + c * way[0] - s * way[1], y + s * way[0] + c * way[1], yaw + way[2])
+        return not (self.ground.under(stand.side, *place) and self.ground.under(other_side(stand.side), *before))
 
     def truth(self) -> GroundTruth:
         """Ground reaction, true ZMP and true support polygon at the last physics step."""

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import groupby
 
-import numpy as np
-
-from plantar.gait.plan.footsteps import Footstep
 from plantar.kernels.judging.stand_watch import StandWatch
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
-from plantar.sim.judging.walk_goal import NEAR_YAW, WalkGoal
+from plantar.sim.judging.walk_goal import NEAR_YAW, WalkGoal, Way
 
-__all__ = ["Stand", "StepCount"]
+__all__ = ["Count", "Stand", "StepCount"]
 
 _CARRIES = 0.25
 """Share of the weight that makes a touch a stand: probes, taps and bounces carry less, or are followed by one."""
+
+_LOST = 0.02
+"""Share of the way by which steps may add up to another place than planned: feet slip and legs give way. 300 steps of
+H1 on the flat come to 0.002 of their 60 m."""
+
+_TURNED = math.radians(0.3)
+"""Heading in rad for each leg length of the way by which they may turn off their course: 0.5 degrees a metre for H1,
+which turns by 0.007."""
 
 
 @dataclass(frozen=True)
@@ -36,26 +41,59 @@ class Stand:
     place: tuple[float, float, float]
 
 
+@dataclass(frozen=True)
+class Count:
+    """The steps of a walk that were taken.
+
+    Attributes:
+        stands: The stands that were steps, one after the other.
+        missed: What became of the first step that was not taken; empty where all were.
+        drift: How far in m (forward, left, in the plan's frame) the ways from foothold to foothold came to differ from
+            the planned ones, added up.
+        turned: The same of the heading in rad.
+    """
+
+    stands: tuple[Stand, ...]
+    missed: str
+    drift: tuple[float, float]
+    turned: float
+
+    @property
+    def taken(self) -> int:
+        """How many they are."""
+        return len(self.stands)
+
+
 class StepCount:
     """Follows both feet through a walk.
 
     A step is taken when the foot of its side, after all steps before it, stands at its place: not where it touched
-    first, but where it stood last before the other foot touched down. A foot that taps, probes or is put down anew
-    therefore takes one step.
+    first, but where it stood last before the other foot touched down. A foot that taps, probes or is put down again
+    therefore takes one step. Its place is seen from the foothold before it, so that a long walk is not judged by what
+    dead reckoning loses; what adds up of it is limited by the way.
 
     Args:
         goal: The footsteps.
         weight: Weight of the robot in N.
         time_of: When a physics step began in s, by its number.
+        justified: Whether ground or a push justify that a step is moved: the stand, the way of the step as planned, and
+            the foothold before as it truly was.
 
     Attributes:
         watch: Takes in where the feet are and what they carry after each physics step.
     """
 
-    def __init__(self, goal: WalkGoal, weight: float, time_of: Callable[[int], float]) -> None:
+    def __init__(
+        self,
+        goal: WalkGoal,
+        weight: float,
+        time_of: Callable[[int], float],
+        justified: Callable[[Stand, Way, tuple[float, float, float]], bool],
+    ) -> None:
         self.goal = goal
         self.watch = StandWatch(_CARRIES * weight)
         self._time_of = time_of
+        self._justified = justified
 
     @property
     def slip(self) -> float:
@@ -67,48 +105,88 @@ class StepCount:
         rows = [list(group)[-1] for _, group in groupby(self.watch.stands(), key=lambda row: row[1])]
         return [Stand(SIDES[foot], self._time_of(step), (x, y, yaw)) for step, foot, x, y, yaw in rows]
 
-    def taken(self) -> tuple[int, str]:
-        """How many steps were taken one after the other, and what became of the first that was not."""
-        steps = self.goal.steps
-        stands = self.last_stands()
-        taken, missed = 0, ""
+    def count(self) -> Count:
+        """The steps that were taken one after the other."""
+        steps, start = self.goal.steps, self.goal.start() if self.goal.steps else None
+        stands, missed = self.last_stands(), ""
+        taken: list[Stand] = []
+        before = (0.0, 0.0, 0.0) if start is None else (start.x, start.y, start.yaw)
+        course = before[2]  # heading that the plan had, were each step as planned from the one before
+        drift, turned = (0.0, 0.0), 0.0
         for stand in stands:
-            if taken == len(steps):
+            k = len(taken)
+            if k == len(steps):
                 break
-            off = self._off(stand, taken)
-            if off is None:
-                taken, missed = taken + 1, ""
-            elif not missed:
-                missed = off
-        if taken == len(steps):  # whatever they did since, both feet have to stand there in the end
-            for side, k in self._last_steps().items():
-                last = next((s for s in reversed(stands) if s.side == side), None)
-                off = None if last is None else self._off(last, k)
-                if off is not None and k < taken:
-                    taken, missed = k, off
-        if taken < len(steps) and not missed:
-            missed = f"the {steps[taken].side} foot did not land for it"
-        return taken, missed
+            landed = taken[-1].touchdown if taken else -math.inf
+            found = self._step(stand, k, before, landed, (drift, turned, course))
+            if isinstance(found, str):
+                missed = missed or found
+                continue
+            taken.append(stand)
+            drift, turned, way = found
+            before, course, missed = stand.place, course + way[2], ""
+        if len(taken) == len(steps):  # whatever they did since, both feet have to stand there in the end
+            for side, k in {step.side: k for k, step in enumerate(steps)}.items():
+                last = next(s for s in reversed(stands) if s.side == side)
+                off, turn = _apart(taken[k].place, last.place) if k < len(taken) else (0.0, 0.0)
+                if off > self.goal.near or turn > NEAR_YAW:
+                    taken, missed = taken[:k], _words(side, off, turn)
+        if len(taken) < len(steps) and not missed:
+            missed = f"the {steps[len(taken)].side} foot did not land for it"
+        return Count(tuple(taken), missed, drift, turned)
 
-    def _last_steps(self) -> Mapping[Side, int]:
-        return {step.side: k for k, step in enumerate(self.goal.steps)}
-
-    def _off(self, stand: Stand, k: int) -> str | None:
-        """What keeps a stand from being step k; None where nothing does."""
-        step = self.goal.steps[k]
-        if stand.side != step.side:
+    def _step(
+        self,
+        stand: Stand,
+        k: int,
+        before: tuple[float, float, float],
+        landed: float,
+        so_far: tuple[tuple[float, float], float, float],
+    ) -> str | tuple[tuple[float, float], float, Way]:
+        """Drift with a stand that is step k, and the step's way; else what keeps it from being the step."""
+        goal, side, (drift, turned, course) = self.goal, self.goal.steps[k].side, so_far
+        if stand.side != side:
             return f"the {stand.side} foot landed in its stead"
-        return _far_from(self.goal.places(k, stand.touchdown), stand.place, step.side, self.goal.near)
+        planned, moved = goal.ways(k, stand.touchdown, landed)
+        ways = [planned]
+        if moved is not None and self._justified(stand, planned, before):
+            ways.append(moved)
+        true = _from(before, stand.place)
+        offs = [(math.hypot(true[0] - w[0], true[1] - w[1]), abs(_turn(true[2] - w[2])), w) for w in ways]
+        fits = [(off, turn, way) for off, turn, way in offs if off <= goal.near and turn <= NEAR_YAW]
+        if not fits:
+            off, turn, _ = min(offs)
+            excuse = f"; its move, '{goal.reason(k, stand.touchdown)}', neither ground nor a push justifies"
+            return _words(side, off, turn) + (excuse if moved is not None and len(ways) == 1 else "")
+        _, _, way = min(fits)
+        c, s = math.cos(course), math.sin(course)
+        ex, ey = true[0] - way[0], true[1] - way[1]
+        drift = (drift[0] + c * ex - s * ey, drift[1] + s * ex + c * ey)
+        turned += _turn(true[2] - way[2])
+        lost, most = math.hypot(*drift), goal.near + _LOST * goal.way_to(k)
+        if lost > most:
+            return f"steps had added up to {lost:.3f} m from their ways; allowed: {most:.3f} m by then"
+        if abs(turned) > NEAR_YAW + _TURNED * goal.way_to(k) / goal.leg:
+            return f"steps had added up to {math.degrees(abs(turned)):.1f} deg from their headings"
+        return drift, turned, way
 
 
-def _far_from(places: Sequence[Footstep], place: tuple[float, float, float], side: Side, near: float) -> str | None:
-    x, y, yaw = place
-    offs = []
-    for wanted in places:
-        off = math.hypot(x - wanted.x, y - wanted.y)
-        turn = abs(math.remainder(yaw - wanted.yaw, 2.0 * math.pi))
-        if off <= near and turn <= NEAR_YAW:
-            return None
-        offs.append((off, turn))
-    off, turn = min(offs)
-    return f"the {side} foot stood {1e3 * off:.0f} mm and {np.degrees(turn):.1f} deg from its place"
+def _turn(angle: float) -> float:
+    """An angle in rad from -pi to pi."""
+    return math.remainder(angle, 2.0 * math.pi)
+
+
+def _from(before: tuple[float, float, float], place: tuple[float, float, float]) -> Way:
+    """The way from one place to another, in the frame of the first."""
+    c, s = math.cos(before[2]), math.sin(before[2])
+    dx, dy = place[0] - before[0], place[1] - before[1]
+    return c * dx + s * dy, c * dy - s * dx, _turn(place[2] - before[2])
+
+
+def _apart(one: tuple[float, float, float], other: tuple[float, float, float]) -> tuple[float, float]:
+    """Distance in m and angle in rad between two places."""
+    return math.hypot(one[0] - other[0], one[1] - other[1]), abs(_turn(one[2] - other[2]))
+
+
+def _words(side: Side, off: float, turn: float) -> str:
+    return f"the {side} foot stood {1e3 * off:.0f} mm and {math.degrees(turn):.1f} deg from its place"

@@ -1,7 +1,8 @@
 """The goal of a walk: its footsteps as planned at the start, and what of them was planned anew, and why.
 
-The judge keeps the goal itself. A controller cannot make it shorter, and can move a footstep only by saying so before
-the foot lands there, with a reason, to a place that a detour explains.
+The judge keeps the goal itself. A controller cannot make it shorter, and can move a footstep only by a report before
+the foot lands there, with a reason, to a place that a detour explains. Whether the ground or a push justified the move,
+the count of the steps asks.
 """
 
 from __future__ import annotations
@@ -18,10 +19,12 @@ from plantar.gait.plan.plan_change import MovedStep
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side
 from plantar.settings.body_scale import REFERENCE_BODY
-from plantar.sides import SIDES
+from plantar.sides import SIDES, other_side
 
-__all__ = ["NEAR_YAW", "WalkGoal"]
+__all__ = ["NEAR_YAW", "WalkGoal", "Way"]
 
+Way = tuple[float, float, float]
+"""From one foothold to the next: forward and left in m, in the frame of the first, and the turn in rad."""
 
 _NEAR = 1 / 12
 """Distance in leg lengths within which a foot has reached a place: 50 mm for H1."""
@@ -59,6 +62,7 @@ class WalkGoal:
     Attributes:
         steps: The footsteps as planned at the start.
         near: Distance in m within which a foot has reached a place.
+        leg: Length of the robot's legs in m.
         refused: How many moves were not taken over: without a reason, not finite, or further than a detour explains.
     """
 
@@ -71,7 +75,7 @@ class WalkGoal:
     ) -> None:
         self.steps = tuple(steps)
         self.near = _NEAR * leg
-        self._leg, self._led = leg, led
+        self.leg, self._led = leg, led
         self.refused = 0
         self._feet = dict(feet)
         self._moves: dict[int, list[_Move]] = {}
@@ -114,28 +118,58 @@ class WalkGoal:
         """Whether a detour explains where a footstep is moved to."""
 
         def from_the_one_before(steps: Sequence[Footstep]) -> tuple[float, float]:
-            before = steps[k - 1] if k else self._feet["left" if steps[0].side == "right" else "right"]
+            before = steps[k - 1] if k else self._before(0)
             return steps[k].x - before.x, steps[k].y - before.y
 
         there, planned = from_the_one_before(places), from_the_one_before(self.steps)
         step, original = places[k], self.steps[k]
         away = math.hypot(step.x - original.x, step.y - original.y)
         turned = abs(math.remainder(step.yaw - original.yaw, 2.0 * math.pi))
-        detour, most = _DETOUR * self._leg, _AWAY * self._leg + _DRIFT * self._way[k] + self._led
+        detour, most = _DETOUR * self.leg, _AWAY * self.leg + _DRIFT * self._way[k] + self._led
         return math.dist(there, planned) <= detour and away <= most and turned <= _DETOUR_YAW
 
-    def places(self, step: int, time: float) -> tuple[Footstep, ...]:
-        """Where a step may be put down: as planned at the start, or as planned anew last.
+    def ways(self, step: int, time: float, before: float) -> tuple[Way, Way | None]:
+        """How a step may lead on from the foothold before it.
 
         Args:
             step: Its index.
-            time: When the foot touched down in s; what is said later does not count.
+            time: When the foot touched down in s; what is reported later does not count.
+            before: When the foot before it did: where that one was to go is not reported later either.
 
         Returns:
-            The places, the first one as planned at the start.
+            The way as planned at the start, and as planned last where that is another one.
         """
-        heard = [m.place for m in self._moves.get(step, ()) if m.time <= time]
-        return (self.steps[step], *heard[-1:])
+        planned = _way(self._before(step), self.steps[step])
+        if self._heard(step, time) is None:
+            return planned, None
+        begin = self._before(step) if step == 0 else self._place(step - 1, before)
+        return planned, _way(begin, self._place(step, time))
+
+    def _before(self, step: int) -> Footstep:
+        """The foothold before a step, as planned at the start."""
+        return self.steps[step - 1] if step else self._feet[other_side(self.steps[0].side)]
+
+    def _heard(self, step: int, time: float) -> _Move | None:
+        """How a step was moved last until some time."""
+        heard = [m for m in self._moves.get(step, ()) if m.time <= time]
+        return heard[-1] if heard else None
+
+    def _place(self, step: int, time: float) -> Footstep:
+        move = self._heard(step, time)
+        return self.steps[step] if move is None else move.place
+
+    def reason(self, step: int, time: float) -> str:
+        """Why a step was moved last until some time in s; empty where it was not."""
+        move = self._heard(step, time)
+        return "" if move is None else move.reason
+
+    def start(self) -> Footstep:
+        """The foot that stands while the first step is made."""
+        return self._before(0)
+
+    def way_to(self, step: int) -> float:
+        """How far in m the middle between the feet is planned to have moved with a step."""
+        return self._way[step]
 
     def end(
         self, centers: Mapping[Side, NDArray[np.float64]], *, at_start: bool = False
@@ -163,3 +197,10 @@ class WalkGoal:
             moved = math.hypot(move.place.x - planned.x, move.place.y - planned.y)
             rows.append({"step": k, "moved_m": round(moved, 4), "time_s": round(move.time, 3), "reason": move.reason})
         return rows
+
+
+def _way(before: Footstep, step: Footstep) -> Way:
+    """The way from a foothold to another."""
+    c, s = math.cos(before.yaw), math.sin(before.yaw)
+    dx, dy = step.x - before.x, step.y - before.y
+    return c * dx + s * dy, c * dy - s * dx, math.remainder(step.yaw - before.yaw, 2.0 * math.pi)

@@ -40,6 +40,7 @@ class Pusher:
         direction: Direction in words.
         step: Step that the push falls into; None for none.
         shoves: The pushes as asked.
+        pushing: Whether a push acts in the present physics step.
         applied: Impulse (3,) in N s that was applied of each so far; ends with the last one that began.
 
     Raises:
@@ -53,7 +54,7 @@ class Pusher:
         self.shoves: tuple[Shove, ...] = ()
         self.applied: list[NDArray[np.float64]] = []
         self._next = 0
-        self._pushing = False
+        self.pushing = False
         self._height = push.height
         if push.strength <= 0.0:
             return
@@ -72,17 +73,17 @@ class Pusher:
 
     def apply(self, world: World) -> None:
         """Set the external force on the torso for the next physics step."""
-        if self._next >= len(self.shoves) and not self._pushing:
+        if self._next >= len(self.shoves) and not self.pushing:
             return
         time, period = world.data.time + SAME_TIME, world.period
         force = np.zeros(3)
-        self._pushing = False
+        self.pushing = False
         while self._next < len(self.shoves) and time + period > self.shoves[self._next].start:
             part = self.shoves[self._next].force(time, period)
             if len(self.applied) == self._next:
                 self.applied.append(np.zeros(3))
             self.applied[self._next] += period * part
-            force, self._pushing = force + part, True
+            force, self.pushing = force + part, True
             if time + period < self.shoves[self._next].end:
                 break
             self._next += 1

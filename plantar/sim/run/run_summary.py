@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.gait.controller import WalkingController
 from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side
 from plantar.robots.robot import Robot
 from plantar.settings.body_scale import BodyScale
@@ -18,6 +20,7 @@ from plantar.sides import SIDES
 from plantar.sim.judging.foothold_truth import FootholdTruth
 from plantar.sim.judging.judge import Judge
 from plantar.sim.judging.recovery import Recovery
+from plantar.sim.judging.step_count import Count
 from plantar.sim.judging.velocity_truth import VelocityTruth
 from plantar.sim.judging.verdict import Ending, reasons
 from plantar.sim.judging.zmp_comparison import ZmpComparison
@@ -82,8 +85,11 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
     result: What its loop left behind.
     """
     world, data, judge = run.world, run.world.data, run.judge
-    taken, missed = judge.steps.taken()
-    position, yaw = _final_error(run)
+    count = judge.steps.count()
+    ends = [judge.goal.end(run.centers, at_start=at_start) for at_start in (False, True)]
+    position, yaw = _final_error(run, ends if run.speeds is None else [run.speeds.course])
+    # Where all steps were taken, the feet are where they have to be, and the body has to be over them.
+    off, turned = _final_error(run, [_over_feet(run, count)]) if 0 < count.taken == len(run.steps) else (position, yaw)
     upright = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
     balance = {} if run.recovery is None else run.recovery.summary(run.pusher.applied)
     stopped = run.controller.safe_state
@@ -91,10 +97,10 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
         body=run.body,
         fall=judge.fall,
         stopped=stopped,
-        steps=(taken, len(run.steps)),
-        missed=missed,
-        position=position if run.speeds is None else None,
-        heading=yaw if run.speeds is None else None,
+        steps=(count.taken, len(run.steps)),
+        missed=count.missed,
+        position=off if run.speeds is None else None,
+        heading=turned if run.speeds is None else None,
         tilt=upright,
         pushes=(balance.get("recovered", 0), len(balance.get("pushes", ()))),
         overrun=result.overrun,
@@ -118,7 +124,7 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
         "emergency_stop": stopped is not None,
         "fell": judge.fell,
         "steps_planned": len(run.steps) if run.speeds is None else None,
-        "steps_taken": taken if run.speeds is None else len(judge.steps.last_stands()),
+        "steps_taken": count.taken if run.speeds is None else len(judge.steps.last_stands()),
         "sim_time_s": round(float(data.time), 4),
         "wall_time_s": round(result.wall_time, 4),
         "real_time_factor": round(float(data.time) / max(result.wall_time, 1e-9), 2),
@@ -146,6 +152,13 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
             "tilt_deg": round(upright, 3),
             "height_m": round(judge.height, 4),
         },
+        "drift": {
+            "position_m": round(math.hypot(*count.drift), 4),
+            "heading_deg": round(math.degrees(count.turned), 3),
+            "way_m": round(judge.goal.way_to(count.taken - 1), 4),
+        }
+        if count.taken
+        else None,
         "slip_max_m": round(judge.steps.slip, 4),
         **judge.joints.summary(),
         "estimate": {
@@ -197,18 +210,23 @@ def _of_parts(run: FinishedRun, landings: list[float], balance: dict[str, Any]) 
     return found
 
 
-def _final_error(run: FinishedRun) -> tuple[float, float]:
-    """Distance in m and heading error in degrees of the true torso from the end of the walk's goal.
+def _over_feet(run: FinishedRun, count: Count) -> tuple[NDArray[np.float64], float]:
+    """Middle (2,) in m between the centres of the soles where they stood last as steps, and the last heading in rad."""
+    feet = dict(run.feet)
+    for stand in count.stands:
+        feet[stand.side] = Footstep(stand.side, *stand.place)
+    middle = 0.5 * sum(vrp_of_step(feet[side], run.centers[side]) for side in SIDES)
+    return np.asarray(middle), count.stands[-1].place[2]
 
-    A commanded walk's goal is the end of the commanded course. Else it is the end as planned at the start or as planned
-    last, whichever is nearer: steps that are moved because dead reckoning is off come to lie where they were planned at
-    the start.
+
+def _final_error(run: FinishedRun, ends: Sequence[tuple[NDArray[np.float64], float]]) -> tuple[float, float]:
+    """Distance in m and heading error in degrees of the true torso from the nearest of some ends of the walk.
+
+    A walk ends as planned at the start or as planned last: steps that are moved because dead reckoning is off come to
+    lie where they were planned at the start.
     """
     world, data = run.world, run.world.data
     com = data.subtree_com[world.torso, :2]
-    ends = [run.judge.goal.end(run.centers, at_start=at_start) for at_start in (False, True)]
-    if run.speeds is not None:
-        ends = [run.speeds.course]
     end, wanted = min(ends, key=lambda goal: math.dist(goal[0], com))
     heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
     return float(np.hypot(*(com - end))), abs(math.degrees(math.remainder(heading - wanted, 2.0 * math.pi)))

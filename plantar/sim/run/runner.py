@@ -36,6 +36,7 @@ from plantar.sim.figures.film import Film
 from plantar.sim.figures.render import FRAME_RATE
 from plantar.sim.judging.foothold_truth import FootholdTruth
 from plantar.sim.judging.judge import Judge
+from plantar.sim.judging.plain_ground import PlainGround
 from plantar.sim.judging.recovery import Recovery
 from plantar.sim.judging.velocity_truth import VelocityTruth
 from plantar.sim.judging.walk_goal import WalkGoal
@@ -58,6 +59,7 @@ __all__ = ["Simulation", "run_scene"]
 Progress = Callable[[float, str], None]
 
 _MEMBERS = frozenset(Percept.members())
+_AROUND = 0.25  # leg around a sole within which an edge may be why a step is moved
 _LONGEST = 5  # times its first duration, after which a run whose end is put off again and again is cut off
 
 
@@ -142,7 +144,8 @@ class Simulation:
         if self.velocities is not None:
             begin = goal.end(self.centers)
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing, begin)
-        self.judge = Judge(self.world, self.settings.com_height, goal)
+        plain = PlainGround(ground, {s: robot.layouts[s].outline for s in SIDES}, _AROUND * self.body.leg)
+        self.judge = Judge(self.world, self.settings.com_height, goal, plain)
 
     def build_world(self, others: Sequence[Visitor]) -> World:
         """The world of this run, with the robot, its ground and who else is in it.
@@ -284,7 +287,8 @@ class Simulation:
         judge, time = self.judge, reading.time
         if command.footholds:
             self.foothold_truth.update(command.footholds)
-        judge.update(time, command.state.com, command.state.zmp, command.moved_steps)
+        pushed = self.pusher.pushing or (self.touch is not None and bool(np.any(self.touch.force)))
+        judge.update(time, command.state.com, command.state.zmp, command.moved_steps, pushed)
         if self.speeds is not None:
             self.speeds.update(time)
         if self.touched is not None:

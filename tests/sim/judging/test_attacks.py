@@ -138,6 +138,17 @@ def test_steps_at_other_places_than_planned_do_not_count() -> None:
     assert re.search(r"step 0 .* 6\d mm and 0.0 deg from its place", text)
 
 
+def test_shorter_steps_do_not_count_by_reporting_each_as_moved() -> None:
+    """4 steps of 0.15 m for 4 of 0.2 m on plain ground, where no push came."""
+    _, plan = straight_plan(4, length=0.15, width=0.17)
+    says = tuple(MovedStep(k, s.x, s.y, s.yaw, "x") for k, s in enumerate(plan))
+    summary = walked_otherwise(4, 0.15, says)
+    assert "steps" in criteria(summary)
+    assert summary["steps_taken"] < 2
+    text = next(r["text"] for r in summary["reasons"] if r["criterion"] == "steps")
+    assert "its move, 'x', neither ground nor a push justifies" in text
+
+
 @pytest.mark.parametrize("reason", ["", "because"])
 def test_saying_so_does_not_make_a_walk_in_place_one_of_three_steps(reason: str) -> None:
     """Without a reason no place moves; with one none moves further than a detour explains."""

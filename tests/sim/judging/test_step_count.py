@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -22,9 +23,11 @@ WEIGHT = 800.0
 class Walk:
     """Feet that are put down somewhere, a second after each other."""
 
-    def __init__(self, steps: tuple[Footstep, ...] = STEPS, feet: dict[Side, Footstep] = FEET) -> None:
+    def __init__(
+        self, steps: tuple[Footstep, ...] = STEPS, feet: dict[Side, Footstep] = FEET, justified: bool = True
+    ) -> None:
         self.goal = WalkGoal(feet, steps)
-        self.count = StepCount(self.goal, WEIGHT, float)
+        self.count = StepCount(self.goal, WEIGHT, float, lambda stand, way, before: justified)
         self.time = 0.0
 
     def land(self, step: Footstep, force: float = WEIGHT, dx: float = 0.0, dyaw: float = 0.0) -> None:
@@ -37,7 +40,7 @@ class Walk:
 
     @property
     def taken(self) -> int:
-        return self.count.taken()[0]
+        return self.count.count().taken
 
 
 def test_a_walk_as_planned_counts_every_step() -> None:
@@ -45,7 +48,9 @@ def test_a_walk_as_planned_counts_every_step() -> None:
     for k, step in enumerate(STEPS):
         assert walk.taken == k
         walk.land(step)
-    assert walk.count.taken() == (6, "")
+    counted = walk.count.count()
+    assert (counted.taken, counted.missed) == (6, "")
+    assert (*counted.drift, counted.turned) == pytest.approx((0.0, 0.0, 0.0), abs=1e-12)
 
 
 @pytest.mark.parametrize(("off", "turn", "counts"), [(0.049, 0.0, 6), (0.051, 0.0, 2), (0.0, 4.9, 6), (0.0, 5.1, 2)])
@@ -53,9 +58,9 @@ def test_a_place_is_5_cm_and_5_degrees_wide(off: float, turn: float, counts: int
     walk = Walk()
     for k, step in enumerate(STEPS):
         walk.land(step, dx=off if k == 2 else 0.0, dyaw=math.radians(turn) if k == 2 else 0.0)
-    taken, missed = walk.count.taken()
-    assert taken == counts
-    assert (f"{1e3 * off:.0f} mm and {turn:.1f} deg" in missed) == (counts < 6)
+    counted = walk.count.count()
+    assert counted.taken == counts
+    assert (f"{1e3 * off:.0f} mm and {turn:.1f} deg" in counted.missed) == (counts < 6)
 
 
 def test_tapping_one_foot_is_one_step_at_most() -> None:
@@ -71,7 +76,7 @@ def test_bounces_and_taps_that_carry_nothing_are_no_steps() -> None:
     for step in steps:
         walk.land(step, force=0.2 * WEIGHT)
     assert walk.taken == 0
-    missed = walk.count.taken()[1]
+    missed = walk.count.count().missed
     assert "left foot did not land" in missed
 
 
@@ -215,3 +220,84 @@ def test_steps_that_do_not_exist_are_not_taken_over() -> None:
     walk = Walk()
     walk.say(MovedStep(-1, 0.0, 0.0, 0.0, "a"), MovedStep(6, 0.0, 0.0, 0.0, "a"))
     assert walk.goal.refused == 2
+
+
+def walked_differently(
+    steps: tuple[Footstep, ...], feet: dict[Side, Footstep], turn: float, stretch: float, slip: float = 0.0
+) -> Walk:
+    """Each way from foothold to foothold as planned, but turned, stretched and slipped to the left by a little."""
+    walk = Walk(steps, feet)
+    goal, before = walk.goal, walk.goal.start()
+    for k, step in enumerate(steps):
+        (ahead, left, turns), _ = goal.ways(k, math.inf, math.inf)
+        c, s = math.cos(before.yaw), math.sin(before.yaw)
+        ahead, left = stretch * ahead, left + slip
+        x, y = before.x + c * ahead - s * left, before.y + s * ahead + c * left
+        before = Footstep(step.side, x, y, before.yaw + turns + turn)
+        walk.land(before)
+    return walk
+
+
+def test_a_long_walk_is_judged_from_foothold_to_foothold() -> None:
+    """300 steps that drift by 1 % and turn by a quarter of a turn in all, as dead reckoning would let them."""
+    feet, steps = straight_plan(300, length=0.2)
+    walk = walked_differently(steps, feet, math.radians(0.09), 0.99)
+    counted = walk.count.count()
+    assert (counted.taken, counted.missed) == (300, "")
+    assert math.degrees(counted.turned) == pytest.approx(27.0, abs=0.1)
+    assert counted.drift[0] == pytest.approx(-0.6, abs=0.01)
+    assert counted.stands[-1].place[1] > 10.0  # far from where the plan has it
+
+
+@pytest.mark.parametrize(
+    ("turn", "stretch", "slip", "words"),
+    [
+        (0.0, 0.97, 0.0, "added up to 0.*m from their ways"),
+        (0.0, 1.03, 0.0, "added up to 0.*m from their ways"),
+        (0.0, 1.0, 0.006, "added up to 0.*m from their ways"),
+        (0.2, 1.0, 0.0, "deg from their headings"),
+        (4.9, 1.0, 0.0, "deg from their headings"),
+    ],
+    ids=["shorter", "longer", "aside", "turned", "turned as far as a step may"],
+)
+def test_a_little_of_each_step_does_not_add_up_to_another_walk(
+    turn: float, stretch: float, slip: float, words: str
+) -> None:
+    feet, steps = straight_plan(100, length=0.2)
+    counted = walked_differently(steps, feet, math.radians(turn), stretch, slip).count.count()
+    assert counted.taken < 80
+    assert re.search(words, counted.missed)
+
+
+def test_a_move_that_nothing_justifies_does_not_count() -> None:
+    """20 steps of 0.15 m for 20 of 0.2 m, each reported as moved: 1 m short."""
+    feet, steps = straight_plan(20, length=0.2)
+    short = straight_plan(20, length=0.15)[1]
+    for justified in (True, False):
+        walk = Walk(steps, feet, justified)
+        walk.say(*(MovedStep(k, s.x, s.y, 0.0, "x") for k, s in enumerate(short)))
+        for step in short:
+            walk.land(step)
+        counted = walk.count.count()
+        assert (counted.taken == 20) == justified
+    assert "its move, 'x', neither ground nor a push justifies" in counted.missed
+    assert counted.taken < 3
+
+
+def test_the_foothold_before_is_not_moved_after_it_was_stood_on() -> None:
+    """A step of 0.2 m becomes one of 0.1 m where the one before it is reported to have been meant 0.1 m further on."""
+    walk = Walk()
+    walk.land(STEPS[0])
+    first = STEPS[0]
+    walk.time += 0.1
+    walk.say(MovedStep(0, first.x + 0.1, first.y, 0.0, "x"), MovedStep(1, STEPS[1].x, STEPS[1].y, 0.0, "x"))
+    walk.land(STEPS[1], dx=-0.1)
+    assert walk.taken == 1
+
+
+def test_a_move_that_is_justified_is_judged_where_it_leads() -> None:
+    walk = Walk()
+    walk.say(*moved_from(STEPS, 2, 0.12, 0.0, "foothold refused"))
+    for k, step in enumerate(STEPS):
+        walk.land(step, dx=0.06 if k >= 2 else 0.0)
+    assert walk.taken == 2
