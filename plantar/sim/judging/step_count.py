@@ -148,16 +148,17 @@ class StepCount:
         if stand.side != side:
             return f"the {stand.side} foot landed in its stead"
         planned, moved = goal.ways(k, stand.touchdown, landed)
-        ways = [planned]
+        ways, excuse = [planned], ""
         if moved is not None and self._justified(stand, planned, before):
             ways.append(moved)
+        elif moved is not None:
+            excuse = f"; its move, '{goal.reason(k, stand.touchdown)}', neither ground nor a push justifies"
         true = _from(before, stand.place)
         offs = [(math.hypot(true[0] - w[0], true[1] - w[1]), abs(_turn(true[2] - w[2])), w) for w in ways]
         fits = [(off, turn, way) for off, turn, way in offs if off <= goal.near and turn <= NEAR_YAW]
         if not fits:
             off, turn, _ = min(offs)
-            excuse = f"; its move, '{goal.reason(k, stand.touchdown)}', neither ground nor a push justifies"
-            return _words(side, off, turn) + (excuse if moved is not None and len(ways) == 1 else "")
+            return _words(side, off, turn) + excuse
         _, _, way = min(fits)
         c, s = math.cos(course), math.sin(course)
         ex, ey = true[0] - way[0], true[1] - way[1]
@@ -165,7 +166,7 @@ class StepCount:
         turned += _turn(true[2] - way[2])
         lost, most = math.hypot(*drift), goal.near + _LOST * goal.way_to(k)
         if lost > most:
-            return f"steps had added up to {lost:.3f} m from their ways; allowed: {most:.3f} m by then"
+            return f"steps had added up to {lost:.3f} m from their ways; allowed: {most:.3f} m by then{excuse}"
         if abs(turned) > NEAR_YAW + _TURNED * goal.way_to(k) / goal.leg:
             return f"steps had added up to {math.degrees(abs(turned)):.1f} deg from their headings"
         return drift, turned, way
