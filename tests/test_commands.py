@@ -103,6 +103,6 @@ def test_demo_makes_all_three_and_names_them(tmp_path: Path) -> None:
     assert {"shoe/shoe_left.stl", "walk/run.mcap", "analysis/report.html"} <= files
     assert all((tmp_path / "out" / f).stat().st_size > 0 for f in files)
     assert made["analysis"]["feet"]["left"]["steps"] == 24
-    shown = re.findall(r"plantar analyze (\S+\.mcap)", cli.analyze.__doc__ or "")
+    shown = re.findall(r"plantar analyze (\S+\.mcap)", analyze.__doc__ or "")
     assert shown
     assert set(shown) <= set(made["files"])  # what the help of analyze takes is what a demo leaves

@@ -19,7 +19,8 @@ ALLOWED = {
     "wholebody": {"wholebody", "plantar"},
     "shoes": {"shoes", "plantar"},
     "sim": {"sim", "robots", "gait", "wholebody", "plantar"},
-    "cli": {"cli", "sim", "robots", "gait", "wholebody", "shoes", "plantar"},
+    "commands": {"commands", "sim", "robots", "gait", "wholebody", "shoes", "plantar"},
+    "cli": {"cli", "commands", "sim", "robots", "gait", "wholebody", "shoes", "plantar"},
 }
 """What each part of the distribution may import of the distribution: `plantar` is what lies in no other part."""
 
@@ -37,6 +38,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "plantar": (
         *(
             "errors",
+            "extensions",
             "sides",
             "gravity",
             "kernels",

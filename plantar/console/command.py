@@ -5,16 +5,16 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Annotated, Any, cast
+from typing import Annotated, Any, NamedTuple, cast
 
 import typer
 
 from plantar.console.ending import BAD_INPUT
 from plantar.errors import InputError
 
-__all__ = ["Json", "Output", "end_command", "file_lines", "run_command"]
+__all__ = ["Command", "Json", "Output", "end_command", "file_lines", "run_command"]
 
 Output = Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")]
 """The option for where a command writes."""
@@ -25,6 +25,22 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on std
 
 _WIDEST_HELP = 120
 """Columns that the help takes where the terminal has them; typer's own 80 break the examples in two."""
+
+
+class Command(NamedTuple):
+    """A command of the command line.
+
+    Attributes:
+        function: What runs; its parameters are the command's, as typer reads them.
+        summary: One line for the list of commands.
+        place: Place in that list, ascending.
+        name: What it is called; the function's name where empty.
+    """
+
+    function: Callable[..., None]
+    summary: str
+    place: int = 1000
+    name: str = ""
 
 
 def run_command(app: typer.Typer) -> int:

@@ -19,8 +19,8 @@ def with_option_groups(command: Callable[..., T]) -> Callable[..., T]:
     """Replace each parameter of a command that is annotated with a dataclass by that dataclass's options.
 
     Typer reads a command's signature and knows no groups; without them a command of many options is a function of as
-    many parameters. A field is an option if its metadata has "help"; "metavar" is what stands for its value there. So
-    the dataclass, which says what each field means, needs no typer.
+    many parameters. A field is an option if its metadata has "help"; "metavar" is shown for its value, and "names" are
+    the option's names where the field's does not do. So the dataclass needs no typer.
 
     Args:
         command: The function; all fields of its dataclasses have defaults.
@@ -78,7 +78,8 @@ def _options_of(group: type[Any]) -> list[inspect.Parameter]:
             inspect.Parameter.KEYWORD_ONLY,
             default=f.default,
             annotation=Annotated[
-                hints[f.name], typer.Option(help=f.metadata["help"], metavar=f.metadata.get("metavar"))
+                hints[f.name],
+                typer.Option(*f.metadata.get("names", ()), help=f.metadata["help"], metavar=f.metadata.get("metavar")),
             ],
         )
         for f in fields(group)

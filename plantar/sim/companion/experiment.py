@@ -13,13 +13,14 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol, cast
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import SceneError
+from plantar.extensions import extensions
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, choice, number
 from plantar.sim.body_skin.sensing import SkinSensor
@@ -234,9 +235,10 @@ class Experiment:
 
 
 def experiment_names() -> tuple[str, ...]:
-    """Names of all experiments."""
+    """Names of all experiments: of this package's, and of entry points of other packages (`plantar.experiments`)."""
     package = Path(__file__).parent / "experiments"
-    return tuple(sorted(found.name.replace("_", "-") for found in pkgutil.iter_modules([str(package)])))
+    own = [found.name.replace("_", "-") for found in pkgutil.iter_modules([str(package)])]
+    return tuple(sorted([*own, *extensions("plantar.experiments", Experiment)]))  # type: ignore[type-abstract]
 
 
 def experiment_class(name: str) -> type[Experiment]:
@@ -256,6 +258,9 @@ def experiment_class(name: str) -> type[Experiment]:
         near = ", ".join(get_close_matches(name, known))
         hint = f"nearest: {near}; " if near else ""
         raise SceneError(f"unknown experiment '{name}'; {hint}allowed: {', '.join(known)}")
+    other = extensions("plantar.experiments", Experiment).get(name)  # type: ignore[type-abstract]
+    if other is not None:
+        return cast(type[Experiment], other)
     module = import_module(f"plantar.sim.companion.experiments.{name.replace('-', '_')}")
     own = [
         kind

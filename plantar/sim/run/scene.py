@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.partner.settings import GuideSettings, PartnerSettings
 from plantar.sim.plant.settings import Plant
 from plantar.sim.sensing.settings import Sensing
-from plantar.sim.terrain import TERRAIN_KINDS, Flat, Terrain
+from plantar.sim.terrain import Flat, Terrain, terrain_kinds
 
 __all__ = [
     "SECTIONS",
@@ -101,7 +102,7 @@ class Push(Settings):
 
 
 SECTIONS: dict[str, type[Settings]] = {
-    "terrain": Flat,  # or another of TERRAIN_KINDS, by its field `kind`
+    "terrain": Flat,  # or another of `terrain_kinds`, by its field `kind`
     "walk": Walk,
     "sensing": Sensing,
     "push": Push,
@@ -242,9 +243,9 @@ def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
     """The dataclass of a scene's terrain, as its section."""
     table = source.get("terrain", {})
     kind = table.get("kind", "flat") if isinstance(table, Mapping) else "flat"
-    if not isinstance(kind, str) or kind not in TERRAIN_KINDS:
-        raise SceneError(f"terrain.kind is {kind!r}; allowed: {', '.join(TERRAIN_KINDS)}")
-    return {"terrain": TERRAIN_KINDS[kind]}
+    if not isinstance(kind, str) or kind not in terrain_kinds():
+        raise SceneError(f"terrain.kind is {kind!r}; allowed: {', '.join(terrain_kinds())}")
+    return {"terrain": terrain_kinds()[kind]}
 
 
 def setting_name(scene: Scene, key: str) -> str:
@@ -300,7 +301,11 @@ def scene_file(name: str | os.PathLike[str]) -> Path:
     else:
         path = _FOLDER / f"{name}.toml"
         if os.sep in str(name) or not is_file(path):
-            raise SceneError(f"unknown scene '{name}'; allowed: {', '.join(builtin_scenes())}, or a scene .toml file")
+            near = get_close_matches(str(name), builtin_scenes(), 2)
+            hint = f"did you mean {' or '.join(near)}? " if near else ""
+            raise SceneError(
+                f"unknown scene '{name}'; {hint}allowed: {', '.join(builtin_scenes())}, or a scene .toml file"
+            )
     return path
 
 

@@ -11,7 +11,7 @@ from plantar.settings.schema import Setting
 from plantar.sim.companion.experiment import experiment_names
 from plantar.sim.companion.scene import companion_tables
 from plantar.sim.run.scene import SECTIONS
-from plantar.sim.terrain import TERRAIN_KINDS
+from plantar.sim.terrain import terrain_kinds
 
 __all__ = ["settings_listed", "settings_of_robot"]
 
@@ -37,7 +37,7 @@ def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -
     tables: dict[str, tuple[Setting, ...]] = {
         section: kind.described(body) for section, kind in SECTIONS.items() if section != "terrain"
     }
-    tables |= {f"terrain.{kind}": ground.described(body) for kind, ground in TERRAIN_KINDS.items()}
+    tables |= {f"terrain.{kind}": ground.described(body) for kind, ground in terrain_kinds().items()}
     tables |= {table: controller_settings_described(table, body) for table in CONTROLLER_TABLES}
     for kind in experiment_names():
         tables |= {f"{kind}.{table}": own.described(body) for table, own in companion_tables(kind).items()}

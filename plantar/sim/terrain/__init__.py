@@ -4,11 +4,11 @@ from plantar.sim.terrain.beam import Beam
 from plantar.sim.terrain.block import Block
 from plantar.sim.terrain.course import Course
 from plantar.sim.terrain.ground import GROUND_GROUP, Flat, Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
+from plantar.sim.terrain.kinds import terrain_kinds
 from plantar.sim.terrain.stones import Partial, Pebbles, Stones, Uneven
 
 __all__ = [
     "GROUND_GROUP",
-    "TERRAIN_KINDS",
     "Beam",
     "Block",
     "Course",
@@ -23,16 +23,5 @@ __all__ = [
     "Stones",
     "Terrain",
     "Uneven",
+    "terrain_kinds",
 ]
-
-TERRAIN_KINDS: dict[str, type[Terrain]] = {
-    "flat": Flat,
-    "beam": Beam,
-    "block": Block,
-    "partial": Partial,
-    "stones": Stones,
-    "uneven": Uneven,
-    "pebbles": Pebbles,
-    "course": Course,
-}
-"""Kinds of ground by the name that a scene's `[terrain] kind` gives."""

@@ -1,0 +1,260 @@
+"""`plantar analyze`: measure the steps of a recording, or a study of many."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, Any, cast
+
+from typer import Argument, Option
+
+from plantar.console.command import Command, Json, Output, end_command, file_lines
+from plantar.console.option_group import with_option_groups
+from plantar.console.progress import progress_bar
+from plantar.errors import InputError
+
+__all__ = ["COMMAND", "AnalysisOrder", "FileOrder", "analyze"]
+
+
+def _option(default: Any, text: str, *names: str, metavar: str | None = None) -> Any:
+    return field(default=default, metadata={"help": text, "metavar": metavar, "names": names})
+
+
+@dataclass(frozen=True)
+class FileOrder:
+    """What is known of a file beside what it holds.
+
+    Example:
+        >>> FileOrder(side="left").unit is None
+        True
+    """
+
+    format: str | None = _option(None, "Name of the format, where recognition fails: see plantar list formats.")
+    layout: Path | None = _option(
+        None, "Layout file to use instead of the format's own geometry; mirrored for the other foot."
+    )
+    unit: str | None = _option(None, "Unit of the values, instead of the file's: kPa, N/cm2, mmHg, psi, N, raw, ...")
+    rate: float | None = _option(None, "Frames a second, instead of the file's.")
+    side: str | None = _option(
+        None, "Which foot a file of one foot, or the first columns of a pedar file, hold: left or right."
+    )
+    insole_size: str | None = _option(
+        None, "Size of a pedar insole, instead of the file's: u, v, w, x, y, z, uw, vw or xw."
+    )
+    plates: str | None = _option(
+        None, "Which foot steps on each force plate, in order; - leaves a plate out.", metavar="L,R"
+    )
+    mm_per_pixel: float | None = _option(None, "Footprint images: size of a pixel in mm.")
+
+    def options(self, mass: float | None) -> Any:
+        """The same for the reader of files.
+
+        Args:
+            mass: Mass of the body in kg.
+
+        Returns:
+            `plantar.formats.ReadOptions`.
+
+        Raises:
+            InputError: If a value is not allowed.
+        """
+        from plantar.formats import ReadOptions
+        from plantar.formats.side import sides_of_plates
+
+        if self.side not in (None, "left", "right"):
+            raise InputError(f"--side is '{self.side}'; allowed: left, right")
+        return ReadOptions(
+            unit=self.unit,
+            rate_hz=self.rate,
+            side=cast(Any, self.side),
+            insole_size=self.insole_size,
+            mass_kg=mass,
+            plates=sides_of_plates(self.plates),
+        )
+
+
+@dataclass(frozen=True)
+class AnalysisOrder:
+    """Which steps are measured, and what is known of the person.
+
+    Example:
+        >>> AnalysisOrder(steps="steady").mass is None
+        True
+    """
+
+    steps: str | None = _option(None, "Steps of each foot in the means: 3-14, all, or steady (without start and stop).")
+    begin: float | None = _option(None, "Time in s before which no step is in the means.", "--from")
+    end: float | None = _option(None, "Time in s after which no step is in the means.", "--to")
+    baseline: str = _option("auto", "auto subtracts what sensors read in swing where that is an offset; keep does not.")
+    events: str = _option(
+        "own", "own finds heel strikes and toe offs in the force; vendor uses those of the file; or a file's path."
+    )
+    participant: str = _option("", "The person's name, for the report's heading.")
+    mass: float | None = _option(None, "Mass of the body in kg: forces are given in percent of its weight.")
+    foot_length: float | None = _option(None, "Length of the foot in m, for the report's heading.")
+
+    def choices(self) -> Any:
+        """Which steps and events count: `plantar.gait.analysis.options.AnalysisOptions`."""
+        from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
+
+        return AnalysisOptions(steps_of_text(self.steps), self.begin, self.end, cast(Any, self.baseline), self.events)
+
+    def subject(self) -> Any:
+        """The person: `plantar.gait.analysis.subject.Subject`."""
+        from plantar.gait.analysis.subject import Subject
+
+        return Subject(self.participant, self.mass, self.foot_length)
+
+
+@with_option_groups
+def analyze(
+    file: FileOrder,
+    order: AnalysisOrder,
+    recording: Annotated[
+        Path | None,
+        Argument(
+            metavar="RECORDING",
+            help="Recording, footprint image, or a folder of recordings (a study).",
+            show_default=False,
+        ),
+    ] = None,
+    participants: Annotated[
+        Path | None, Option(help="Of a folder: table (CSV) of file, participant, condition and what else is known.")
+    ] = None,
+    compare: Annotated[
+        tuple[Path, Path] | None,
+        Option("--compare", metavar="A B", help="Compare two recordings instead of measuring one."),
+    ] = None,
+    export: Annotated[
+        list[str] | None,
+        Option(metavar="FORMAT", help="Write the recording in another format, too: c3d, csv or npz; repeatable."),
+    ] = None,
+    figures: Annotated[
+        bool | None,
+        Option("--figures/--no-figures", help="Whether figures and report are drawn; not with --json, else yes."),
+    ] = None,
+    output: Output = Path("out/analysis"),
+    as_json: Json = False,
+) -> None:
+    """Measure feet: recordings of insoles, platforms, robot soles and force plates, or an image of a footprint.
+
+    Finds the steps and writes metrics.json, steps.csv (a row a step), regions.csv, figures (PNG and SVG) and
+    report.html, which opens anywhere. What had to be assumed is listed in "warnings"; docs/metrics.md explains each
+    measure.
+
+    Example: plantar analyze walk.asc -o out/walk
+
+    Example: plantar analyze out/walk/run.mcap --json
+
+    Example: plantar analyze walk.asc --participant P07 --mass 71.5
+
+    Example: plantar analyze walk.asc --export c3d --export npz
+
+    Example: plantar analyze table.csv --layout insole.json --unit kPa
+
+    Example: plantar analyze scan.png --mm-per-pixel 0.5
+
+    Example: plantar analyze --compare before.mcap after.mcap -o out/both
+
+    Example: plantar analyze recordings/ --participants table.csv -o out/study
+
+    Of a folder, every recording is measured; steps.csv, recordings.csv and comparison.csv hold all of them, study.html
+    compares the conditions, and a study that was stopped goes on where it was.
+    """
+    from plantar.formats import is_study_folder
+
+    if (recording is None) == (compare is None):
+        raise InputError("give either one recording or --compare A B: plantar analyze walk.asc")
+    if recording is not None and is_study_folder(recording):
+        if export:
+            raise InputError("--export is for one recording; a study's tables are CSV files")
+        _analyze_study(recording, participants, file, order, output, as_json)
+        return
+    if participants is not None:
+        raise InputError(
+            "--participants is for a folder of recordings: plantar analyze recordings/ --participants table.csv"
+        )
+    if compare is not None:
+        if export:
+            raise InputError("--export is for one recording; --compare takes two")
+        result = _compare(compare, file, order, output)
+        _end(result, {"A": result["a"], "B": result["b"]}, as_json)
+    else:
+        drawn = not as_json if figures is None else figures
+        result = _analyze_one(cast(Path, recording), export or [], file, order, output, drawn)
+        _end(result, {"": result}, as_json)
+
+
+def _analyze_one(
+    recording: Path, export: list[str], file: FileOrder, order: AnalysisOrder, output: Path, figures: bool
+) -> dict[str, Any]:
+    """Measure one recording."""
+    from plantar.gait.analysis.analyse_one import analyse_recording
+    from plantar.gait.analysis.exports import exporter
+
+    options, also = file.options(order.mass), exporter(export)
+    with progress_bar() as progress:
+        return analyse_recording(
+            recording,
+            output,
+            file.format,
+            file.layout,
+            progress,
+            options=options,
+            mm_per_pixel=file.mm_per_pixel,
+            choices=order.choices(),
+            subject=order.subject(),
+            also=also,
+            figures=figures,
+        )
+
+
+def _compare(pair: tuple[Path, Path], file: FileOrder, order: AnalysisOrder, output: Path) -> dict[str, Any]:
+    """Measure two recordings and compare them."""
+    from plantar.gait.analysis.compare import compare_recordings
+
+    if file.mm_per_pixel is not None:
+        raise InputError("--mm-per-pixel is for footprint images; --compare takes recordings over time")
+    known, choices, subject = file.options(order.mass), order.choices(), order.subject()
+    with progress_bar() as progress:
+        return compare_recordings(
+            *pair, output, file.format, file.layout, progress, options=known, choices=choices, subject=subject
+        )
+
+
+def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
+    """Print what was found of each recording, then what had to be assumed."""
+    from plantar.gait.analysis.pages.analysis_text import analysis_text
+
+    text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())
+    end_command(result, as_json, text + file_lines(result["files"]))
+    for name, metrics in () if as_json else parts.items():
+        for warning in metrics["warnings"]:
+            print(f"  note{f' of {name}' if name else ''}: {warning}", file=sys.stderr)
+
+
+def _analyze_study(
+    folder: Path, participants: Path | None, file: FileOrder, order: AnalysisOrder, output: Path, as_json: bool
+) -> None:
+    """Measure a folder of recordings; one that cannot be read is listed and is no error of the command."""
+    from plantar.gait.analysis.analyse_one import with_layout
+    from plantar.gait.analysis.study.run_study import run_study
+    from plantar.gait.analysis.subject import Subject
+
+    options, choices = file.options(order.mass), order.choices()
+    if order.subject() != Subject():
+        raise InputError("--participant, --mass and --foot-length are for one recording: a study has --participants")
+    with progress_bar() as progress:
+        study = run_study(
+            folder, output, participants, progress, choices=choices, options=with_layout(options, file.layout)
+        )
+    summary = study.summary() | {"files": list(study.files)}
+    text = f"{summary['measured']} of {summary['recordings']} recordings measured, {summary['steps']} steps"
+    end_command(summary, as_json, text + file_lines(study.files))
+    for name, why in () if as_json else summary["errors"].items():
+        print(f"  not measured: {name}: {why}", file=sys.stderr)
+
+
+COMMAND = Command(analyze, "Measure the steps of a recording, or a study of many.", 20)
+"""What `plantar.cli` registers."""

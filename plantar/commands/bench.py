@@ -1,0 +1,69 @@
+"""`plantar bench`: measure run time against error, and write tables, figures and bench.json."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option
+
+from plantar.console.command import Command, Json, Output, end_command
+
+__all__ = ["COMMAND", "bench"]
+
+
+def bench(
+    what: Annotated[str, Argument(help="kernels, contact, scenes, skip, stress or all.")] = "all",
+    layout: Annotated[
+        Path | None, Option(help="contact: layout file of the sole. Default: 250 x 155 mm with taxels of 691 mm^2.")
+    ] = None,
+    scenarios: Annotated[int, Option(help="stress: how many scenarios.")] = 10_000,
+    first: Annotated[int, Option(min=0, help="stress: number of the first one.")] = 0,
+    scene: Annotated[
+        list[str] | None, Option(metavar="SCENE", help="scenes: a walk to run (again for more). Default: all.")
+    ] = None,
+    robot: Annotated[
+        list[str] | None, Option(metavar="ROBOT", help="scenes: a robot to run them with, likewise.")
+    ] = None,
+    quick: Annotated[bool, Option("--quick", help="scenes, all: what tells most, once.")] = False,
+    output: Output = Path("out/bench"),
+    as_json: Json = False,
+) -> None:
+    """Measure run time against error, and write tables, figures and bench.json.
+
+    kernels: the perception's kernels beside scipy, shapely, cv2 and approximations, with the error against exact
+    references; under 2 minutes.
+
+    contact: ways to simulate a sole's contact and its taxels, against MuJoCo's exact contact wrench. Exit code 1 if the
+    chosen model is not as right as it must be (centre of pressure within 2 mm, tip-over edge within 1 mm).
+
+    scenes: short walks over the settings that trade run time against error (physics step, contact, solver, skin and
+    control rate, taxel size), beside a fine reference of the same walk: half an hour; --quick 3 minutes. scene_runs.csv
+    goes on where it was left.
+
+    skip: short walks with what a scene needs and with everything, to the same last bit: what was skipped, the time it
+    saves, the time by room, and everything but the physics over the physics alone; 5 minutes. Exit code 1 if a motion
+    is not the same.
+
+    stress: the whole loop in random short scenarios (noise, lost packets, jitter, dead and stuck taxels, silent
+    sensors, saturation, edges, masses and gains anywhere in their ranges, 1 km from the origin, float32): exit code 1
+    if one raises or commands nonsense. A second or two each; stress.csv goes on where it was left. Not part of all.
+
+    all: kernels, contact, skip, quick scenes on flat ground and the papers' experiments, and bench.html, one page that
+    shows them; about 12 minutes of one core, --quick 4.
+
+    Example: plantar bench all -o out/bench
+
+    Example: plantar bench kernels -o out/bench
+
+    Example: plantar bench stress --scenarios 10 --json
+    """
+    from plantar.sim.bench.kinds import BenchOptions, measure
+
+    walks = tuple(scene or ()), tuple(robot or ())
+    told = measure(what, BenchOptions(layout, scenarios, first, *walks, quick), output)
+    end_command(told.result, as_json, told.text, told.failures, bool(told.failures))
+
+
+COMMAND = Command(bench, "Measure run time against error, and show it on a page.", 90)
+"""What `plantar.cli` registers."""

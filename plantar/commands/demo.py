@@ -1,0 +1,63 @@
+"""`plantar demo`: the main job in one go."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+from typer import Option
+
+from plantar.console.command import Command, Json, end_command
+from plantar.console.progress import part_of, progress_bar
+from plantar.optional_library import need_libraries
+from plantar.sides import SIDES
+from plantar.sim.libraries import LIBRARIES
+
+__all__ = ["COMMAND", "demo"]
+
+
+def demo(
+    output: Annotated[Path, Option("-o", "--output", help="Folder for everything that is made.")] = Path("out"),
+    seed: Annotated[int, Option(help="Seed of the sensor noise.")] = 0,
+    as_json: Json = False,
+) -> None:
+    """The main job in one go: build the H1's tactile shoes, walk a 12 cm beam on what they feel, analyse the walk.
+
+    The simulator wears the layouts just written, and the analysis reads the recording just made.
+
+    Example: plantar demo -o out
+    """
+    need_libraries("sim", *LIBRARIES)
+    from plantar.atomic import output_folder, write_text
+    from plantar.gait.analysis.analyse_one import analyse_recording
+    from plantar.layouts.layout_file import read_layout
+    from plantar.shoes import build_shoe, export_shoe
+    from plantar.shoes.foot.source import foot_of_robot
+    from plantar.sim.figures.run_figure import plot_run
+    from plantar.sim.run.run_text import demo_text
+    from plantar.sim.run.runner import run_scene
+    from plantar.sim.run.scene import load_scene
+
+    with output_folder(output) as folder, progress_bar() as tell:
+        for name in ("shoe", "walk", "analysis"):
+            (folder / name).mkdir()
+        foot, taxels = foot_of_robot("h1")
+        build = build_shoe(foot, taxels=taxels, progress=part_of(tell, 0.0, 0.3, "shoe: "))
+        report = export_shoe(build, folder / "shoe", progress=part_of(tell, 0.3, 0.2, "shoe: ")).as_dict()
+        layouts = {s: read_layout(folder / "shoe" / f"layout_{s}.json") for s in SIDES}
+        recording = folder / "walk" / "run.mcap"
+        told = part_of(tell, 0.5, 0.3, "walk: ")
+        walk = run_scene(load_scene("beam"), seed, layouts=layouts, record=recording, progress=told)
+        plot_run(recording, folder / "walk")
+        write_text(folder / "walk" / "summary.json", json.dumps(walk, indent=1) + "\n")
+        told = part_of(tell, 0.8, 0.2, "analysis: ")
+        analysis = analyse_recording(recording, folder / "analysis", progress=told)
+        files = sorted(str(output / p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+    done = bool(walk["completed"]) and bool(report["holds"])
+    made = {"completed": done, "shoe": report, "walk": walk, "analysis": analysis, "files": files}
+    end_command(made, as_json, demo_text(made, output), failed=not done)
+
+
+COMMAND = Command(demo, "The main job in one go: shoe, walk on a beam, analysis.", 70)
+"""What `plantar.cli` registers."""

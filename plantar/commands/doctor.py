@@ -1,0 +1,25 @@
+"""`plantar doctor`: say what is installed of what Plantar can use, what is missing or broken, and how to get it."""
+
+from __future__ import annotations
+
+from plantar.console.command import Command, Json, end_command
+
+__all__ = ["COMMAND", "doctor"]
+
+
+def doctor(as_json: Json = False) -> None:
+    """Say what is installed of what Plantar can use, what is missing or broken, and how to get it.
+
+    Exit code 1 if something that is always needed is missing, or something that is installed cannot be loaded.
+
+    Example: plantar doctor
+    """
+    from plantar import doctor as examination
+
+    found = examination.examine()
+    failures = ["a library is missing or broken: see above"] if not found["holds"] else []
+    end_command(found, as_json, examination.doctor_text(found), failures, not found["holds"])
+
+
+COMMAND = Command(doctor, "Say what is installed, what is missing and how to get it.", 100)
+"""What `plantar.cli` registers."""

@@ -1,0 +1,70 @@
+"""`plantar list`: list robots, scenes, formats and settings."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from typer import Argument, Option
+
+from plantar.console.command import Command, Json, end_command
+from plantar.errors import InputError
+from plantar.optional_library import need_libraries
+
+__all__ = ["COMMAND", "list_"]
+
+
+def list_(
+    what: Annotated[
+        str | None, Argument(metavar="WHAT", help="robots, scenes, formats or settings.", show_default=False)
+    ] = None,
+    name: Annotated[
+        str | None, Argument(help="settings: a table or a setting, such as estimator or balance.dcm_gain.")
+    ] = None,
+    robot: Annotated[
+        str | None, Option(help="settings: the robot whose numbers are told where a default is a share of its body.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """List what there is: robots to walk, scenes to run, recording formats to analyse, settings to change.
+
+    Each setting is shown with its default, unit and range; `--set` and `--grid` take its dotted name. A default that
+    grows with the robot is shown with its share: "70.02 N = 0.083 weight" for H1, or for `--robot`.
+
+    Example: plantar list formats
+
+    Example: plantar list settings estimator
+    """
+    if what is None:
+        kinds = {
+            "robots": "robots to walk, machines with skin",
+            "scenes": "scenes to run: plantar sim",
+            "formats": "formats of recordings to analyse",
+            "settings": "settings to change with --set, of robots and scenes",
+        }
+        _print_names("kinds", kinds, as_json)
+        return
+    for given, words in ((name, "name"), (robot, "robot")):
+        if given is not None and what != "settings":
+            raise InputError(f"'list {what}' takes no {words}, got '{given}'; allowed: plantar list settings NAME")
+    if what == "settings":
+        need_libraries("sim", "mujoco")
+        from plantar.settings.setting_text import setting_rows, setting_text
+        from plantar.sim.run.setting_list import settings_of_robot
+
+        told = settings_of_robot(name, robot)
+        end_command({what: setting_rows(told)}, as_json, setting_text(told))
+        return
+    from plantar.sim.run.listing import listed
+
+    _print_names(what, listed(what), as_json)
+
+
+def _print_names(kind: str, found: dict[str, str], as_json: bool) -> None:
+    """Print names with their descriptions."""
+    width = max((len(name) for name in found), default=0)
+    text = "\n".join(f"{name:{width}}  {text}".rstrip() for name, text in found.items())
+    end_command({kind: [{"name": name, "description": text} for name, text in found.items()]}, as_json, text)
+
+
+COMMAND = Command(list_, "List robots, scenes, recording formats or settings.", 80, name="list")
+"""What `plantar.cli` registers."""

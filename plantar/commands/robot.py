@@ -1,0 +1,65 @@
+"""`plantar robot`: make a robot that walks of its model, or check one."""
+
+from __future__ import annotations
+
+import os
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option
+
+from plantar.console.command import Command, Json, Output, end_command
+from plantar.console.progress import part_of, progress_bar
+from plantar.errors import InputError, RobotError
+from plantar.optional_library import need_libraries
+from plantar.sim.libraries import LIBRARIES
+
+__all__ = ["COMMAND", "robot"]
+
+
+def robot(
+    model: Annotated[
+        Path, Argument(metavar="MODEL", help="Robot's model (.xml .mjcf .urdf), or the word check.", show_default=False)
+    ],
+    robot_file: Annotated[Path | None, Argument(metavar="ROBOT.toml", help="After check: the robot file.")] = None,
+    scene: Annotated[str | None, Option(help="check: the scene whose plan is looked at. Default: flat.")] = None,
+    solid: Annotated[bool, Option("--solid", help="Build the printable shoes, too; takes half a minute.")] = False,
+    output: Output = Path("out/robot"),
+    as_json: Json = False,
+) -> None:
+    """Make a robot that walks of its model: robot.toml, a copy of the model, layouts of its shoes and a picture.
+
+    Finds legs (two chains of five hinges or more), soles, IMU and limits, and fits height, stance, pace and servo gains
+    to them. Each value in robot.toml says how it was found.
+
+    With check, measures what would go wrong in a scene, and says which value works; exit code 1 if something would.
+
+    Example: plantar robot my_robot.urdf -o out/mine && plantar sim flat --robot out/mine/robot.toml
+
+    Example: plantar robot check out/mine/robot.toml --scene beam
+    """
+    os.environ.setdefault("MUJOCO_GL", "egl")
+    need_libraries("sim", *LIBRARIES)
+    if (str(model) == "check") != (robot_file is not None) or (robot_file is None and scene is not None):
+        raise InputError("a robot file and --scene are for the check: plantar robot check ROBOT.toml --scene beam")
+    if robot_file is None and model.suffix.lower() == ".toml":
+        raise InputError(f"{model} is no model but a robot file; look at it with: plantar robot check {model}")
+    if robot_file is not None:
+        from plantar.sim.survey.check import check_robot
+
+        checked = check_robot(robot_file, scene or "flat")
+        end_command(checked.as_dict(), as_json, checked.text(), checked.failures, not checked.holds)
+        return
+    from plantar.atomic import output_folder
+    from plantar.files.model_files import files_of_model
+    from plantar.shoes.found_foot import shoe_for_surface
+    from plantar.sim.survey.introduce import introduce
+
+    with output_folder(output, files_of_model(model, RobotError)) as folder, progress_bar() as tell:
+        made = introduce(model, folder, partial(shoe_for_surface, solid=solid, progress=part_of(tell, 0.1, 0.5)), tell)
+    end_command(made.as_dict(output), as_json, made.text(output))
+
+
+COMMAND = Command(robot, "Make a robot of an MJCF or URDF, ready to walk, and check it.", 30)
+"""What `plantar.cli` registers."""

@@ -1,0 +1,78 @@
+"""`plantar sim`: run one scenario in MuJoCo and judge it by the true contact forces."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option
+
+from plantar.console.command import Command, Json, end_command
+from plantar.console.progress import progress_bar
+from plantar.errors import InputError
+from plantar.optional_library import need_libraries
+from plantar.sim.libraries import LIBRARIES
+
+__all__ = ["COMMAND", "sim"]
+
+
+def sim(
+    scene: Annotated[
+        str | None,
+        Argument(
+            metavar="SCENE", help="A built-in scene (plantar list scenes) or a scene .toml file.", show_default=False
+        ),
+    ] = None,
+    robot: Annotated[
+        str | None, Option(help="Robot to use instead of the scene's: a built-in name or a robot .toml file.")
+    ] = None,
+    seed: Annotated[int, Option(help="Seed of the sensor noise and of what the scene leaves to chance.")] = 0,
+    settings: Annotated[
+        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change a value of the scene; repeatable.")
+    ] = None,
+    record: Annotated[
+        Path | None, Option(help="Write a recording: an .mcap file for Foxglove and plantar view.")
+    ] = None,
+    video: Annotated[Path | None, Option(help="Write a video with what the soles feel: an .mp4 file.")] = None,
+    plot: Annotated[Path | None, Option(help="Folder for figures: balance, plane and feet.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Run one scenario in MuJoCo and judge it by the true contact forces.
+
+    The controller reads taxels, encoders and IMU only; the judge reads the simulator. Exit code 1 if the robot fell or
+    did not do what was planned.
+
+    Example: plantar sim flat --robot h1 --plot out/flat
+
+    Example: plantar sim push --seed 3 --set feedback=false --json
+
+    With --set plant=random the true robot, its sensors and the ground differ from what the controller takes them for,
+    by the seed; level=1 halves that (plantar list settings plant).
+
+    Example: plantar sim flat --set plant=random --set level=1
+    """
+    if scene is None:
+        from plantar.sim.run.listing import listed
+
+        raise InputError(
+            f"give a scene: plantar sim flat; allowed: {', '.join(listed('scenes'))}, or a scene .toml file"
+        )
+    if seed < 0:
+        raise InputError(f"--seed is {seed}; allowed: 0 or more")
+    for option, file, ending in (("--record", record, ".mcap"), ("--video", video, ".mp4")):
+        if file is not None and file.suffix != ending:
+            raise InputError(f"{option} {file} needs a name that ends in {ending}")
+    if video is not None:
+        os.environ.setdefault("MUJOCO_GL", "egl")
+    need_libraries("sim", *LIBRARIES)
+    from plantar.sim.run.scene_kind import open_scene, run, summary_text
+
+    loaded = open_scene(scene, settings or [], robot)
+    with progress_bar() as tell:
+        summary = run(loaded, seed, record=record, video=video, plot=plot, progress=tell)
+    end_command(summary, as_json, summary_text(summary), failed=not summary["completed"])
+
+
+COMMAND = Command(sim, "Run one scenario in MuJoCo, judged by the true contacts.", 40)
+"""What `plantar.cli` registers."""

@@ -1,0 +1,37 @@
+"""The kinds of ground: classes of this package's modules, and entry points of other packages (`plantar.terrain`)."""
+
+from __future__ import annotations
+
+import pkgutil
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+
+from plantar.extensions import extensions
+from plantar.sim.terrain.ground import Terrain
+
+__all__ = ["terrain_kinds"]
+
+
+@cache
+def terrain_kinds() -> dict[str, type[Terrain]]:
+    """Kinds of ground by the name that a scene's `[terrain] kind` gives: their class's, in lower case.
+
+    A new kind is a `Terrain` in a module of its own, here or in another package that names it as an entry point.
+
+    Returns:
+        The classes; "flat" first, the default.
+
+    Example:
+        >>> list(terrain_kinds())[:3]
+        ['flat', 'beam', 'block']
+    """
+    package = Path(__file__).parent
+    modules = [import_module(f"{__package__}.{module.name}") for module in pkgutil.iter_modules([str(package)])]
+    found = {
+        name.lower(): kind
+        for module in modules
+        for name in module.__all__
+        if isinstance(kind := getattr(module, name), type) and issubclass(kind, Terrain) and kind is not Terrain
+    }
+    return {"flat": found.pop("flat"), **found, **extensions("plantar.terrain", Terrain)}  # type: ignore[type-abstract, dict-item]
