@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from plantar import cli
+from plantar.commands.analyze import analyze
 
 SHORT = ["--set", "steps=2", "--set", "settle=0.2"]
 

@@ -31,7 +31,7 @@ class FileOrder:
     """
 
     format: str | None = _option(None, "Name of the format, where recognition fails: see plantar list formats.")
-    layout: Path | None = _option(
+    layout: Path | None = _option(  # noqa: RUF009
         None, "Layout file to use instead of the format's own geometry; mirrored for the other foot."
     )
     unit: str | None = _option(None, "Unit of the values, instead of the file's: kPa, N/cm2, mmHg, psi, N, raw, ...")

@@ -238,7 +238,7 @@ def experiment_names() -> tuple[str, ...]:
     """Names of all experiments: of this package's, and of entry points of other packages (`plantar.experiments`)."""
     package = Path(__file__).parent / "experiments"
     own = [found.name.replace("_", "-") for found in pkgutil.iter_modules([str(package)])]
-    return tuple(sorted([*own, *extensions("plantar.experiments", Experiment)]))  # type: ignore[type-abstract]
+    return tuple(sorted([*own, *extensions("plantar.experiments", Experiment)]))
 
 
 def experiment_class(name: str) -> type[Experiment]:
@@ -258,7 +258,7 @@ def experiment_class(name: str) -> type[Experiment]:
         near = ", ".join(get_close_matches(name, known))
         hint = f"nearest: {near}; " if near else ""
         raise SceneError(f"unknown experiment '{name}'; {hint}allowed: {', '.join(known)}")
-    other = extensions("plantar.experiments", Experiment).get(name)  # type: ignore[type-abstract]
+    other = extensions("plantar.experiments", Experiment).get(name)
     if other is not None:
         return cast(type[Experiment], other)
     module = import_module(f"plantar.sim.companion.experiments.{name.replace('-', '_')}")
