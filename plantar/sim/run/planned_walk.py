@@ -25,6 +25,9 @@ def planned_feet(
         feet: Where the feet stand at the start.
         steps: The footsteps.
         schedule: When they are made.
+
+    Returns:
+        The footprints.
     """
     swings = {p.step: p for p in schedule.phases if p.swing is not None}
 
