@@ -49,7 +49,7 @@ def test_a_shell_completes_commands() -> None:
     ("arguments", "words"),
     [
         (["walk"], ("walk", "plantar --help")),
-        (["sim"], ("scene", "plantar sim --help")),
+        (["sim"], ("give a scene", "flat", "s-curve")),
         (["sim", "flat", "--nosuch"], ("--nosuch", "plantar sim --help")),
         (["sim", "flat", "--seed", "x"], ("--seed", "integer")),
         (["analyze", "--compare", "one"], ("--compare", "2 arguments", "plantar analyze --help")),
