@@ -78,11 +78,14 @@ class FinishedRun(Protocol):
 
 
 def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
-    """The summary of a run (see DESIGN: `plantar sim --json`); what was not measured is None.
+    """The summary of a run, as `plantar sim --json` prints it; what was not measured is None.
 
     Args:
-    run: The run.
-    result: What its loop left behind.
+        run: The run.
+        result: What its loop left behind.
+
+    Returns:
+        Its values by name, plain JSON.
     """
     world, data, judge = run.world, run.world.data, run.judge
     count = judge.steps.count()
