@@ -206,13 +206,21 @@ class Ground:
         """
         import mujoco
 
+        from plantar.sim.terrain.face_contact import MARK, install_face_contacts
+
+        install_face_contacts()
         kinds = {
             "box": mujoco.mjtGeom.mjGEOM_BOX,
             "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
             "ellipsoid": mujoco.mjtGeom.mjGEOM_ELLIPSOID,
             "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
         }
-        common = {"group": GROUND_GROUP, "contype": 2, "conaffinity": 1, "friction": [self.friction, 0.005, 0.0001]}
+        common = {
+            "group": GROUND_GROUP,
+            "contype": 2 | MARK,
+            "conaffinity": 1,
+            "friction": [self.friction, 0.005, 0.0001],
+        }
         spec.worldbody.add_geom(
             name="ground",
             type=mujoco.mjtGeom.mjGEOM_PLANE,

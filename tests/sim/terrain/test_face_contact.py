@@ -1,0 +1,130 @@
+"""Contacts of a sole on each kind of solid: continuous in its pose, exact where they can be derived."""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.sim.model.contact_truth import contact_wrench_in_world, foot_contacts
+from plantar.sim.terrain import Ground, Solid
+
+HALF = np.array([0.115, 0.08, 0.006])
+MASS, COM, INERTIA = 80.0, [0.0, 0.0, 0.7], [8.0, 8.0, 2.0]
+STEP = 1e-6
+"""By how much, in m and rad, a pose moves between two that are compared."""
+
+SOLIDS = {
+    "beam": Solid("box", (0.06, 1.0, 0.1), np.zeros(3)),
+    "stone": Solid("box", (0.12, 0.09, 0.15), np.zeros(3)),
+    "small stone": Solid("box", (0.05, 0.04, 0.05), np.zeros(3)),
+    "platform": Solid("box", (0.7, 0.8, 0.1), np.zeros(3)),
+    "slope": Solid("box", (0.12, 0.3, 0.15), np.zeros(3), rotation_from_angles(0.4, 0.12, -0.1)),
+    "pebble": Solid("sphere", (0.03, 0.0, 0.0), np.zeros(3)),
+    "hill": Solid("ellipsoid", (0.2, 0.3, 0.05), np.zeros(3)),
+    "post": Solid("cylinder", (0.06, 0.1, 0.0), np.zeros(3)),
+    "drum": Solid("cylinder", (0.3, 0.1, 0.0), np.zeros(3), rotation_from_angles(0.3, 0.05, 0.02)),
+}
+HEIGHTS = {"sphere": 0, "ellipsoid": 2, "cylinder": 1, "box": 2}
+
+
+class Rig:
+    """A sole under a free body on one piece of ground."""
+
+    def __init__(self, ground: Ground) -> None:
+        spec = mujoco.MjSpec()
+        spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+        spec.option.impratio = 10.0
+        spec.add_material(name="ground")
+        ground.add_to(spec)
+        body = spec.worldbody.add_body(name="foot")
+        body.add_freejoint()
+        body.mass, body.ipos, body.inertia, body.explicitinertial = MASS, COM, INERTIA, True
+        body.add_geom(
+            name="sole",
+            type=mujoco.mjtGeom.mjGEOM_BOX,
+            size=HALF,
+            contype=1,
+            conaffinity=2,
+            mass=0.0,
+            pos=[0, 0, HALF[2]],
+        )
+        self.model = spec.compile()
+        self.model.geom_solref[:] = [0.005, 1.0]
+        self.model.geom_solimp[:] = [0.95, 0.99, 0.001, 0.5, 2]
+        self.model.geom_gap[:] = 0.001
+        self.data = mujoco.MjData(self.model)
+        self.sole = {self.model.geom("sole").id}
+
+    def wrench(self, place: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Wrench (6,) of the ground about the world's origin on a sole at rest, whose frame is at `place`."""
+        self.data.qpos[:3] = place
+        mujoco.mju_mat2Quat(self.data.qpos[3:7], rotation.ravel())
+        self.data.qvel[:] = self.data.qacc_warmstart[:] = 0.0
+        mujoco.mj_forward(self.model, self.data)
+        return contact_wrench_in_world(foot_contacts(self.model, self.data, self.sole), np.zeros(3))
+
+
+def turned(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation (3, 3) about a vector by its length."""
+    quaternion, matrix = np.empty(4), np.empty(9)
+    angle = float(np.linalg.norm(vector))
+    mujoco.mju_axisAngle2Quat(quaternion, vector / angle, angle)
+    mujoco.mju_quat2Mat(matrix, quaternion)
+    return matrix.reshape(3, 3)
+
+
+def resting_pose(
+    rig: Rig, solid: Solid, rng: np.random.Generator
+) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+    """Random place and rotation of a sole that lies 20 to 300 um deep on the upper side of a solid; None where the draw
+    misses it."""
+    lean = rng.normal(0.0, 10.0 ** rng.uniform(-4.0, -2.3), 2)
+    yaw = rng.normal(0.0, 3e-3) if rng.random() < 0.5 else rng.uniform(-math.pi, math.pi)
+    rotation = solid.rotation @ turned(np.array([*lean, 1e-12])) @ rotation_from_angles(yaw)
+    reach = np.array(solid.size)[[0, 0 if solid.shape in ("sphere", "cylinder") else 1]]
+    offset = rng.uniform(-1.0, 1.0, 2) * (np.minimum(reach, 0.2) + 0.7 * HALF[:2])
+    top = solid.size[HEIGHTS[solid.shape]]
+    place = solid.position + solid.rotation @ np.array([*offset, top - 1e-4])
+    up = solid.rotation[:, 2]
+    depth = rng.uniform(20e-6, 300e-6)
+    for _ in range(3):  # down along the normal until the deepest contact is as deep as wanted
+        rig.wrench(place, rotation)
+        if not rig.data.ncon:
+            return None
+        place = place - (float(rig.data.contact.dist.min()) + depth) * up
+    wrench = rig.wrench(place, rotation)
+    return None if wrench[2] < 0.1 * MASS * GRAVITY else (place, rotation)
+
+
+def breaks(name: str, count: int, seed: int) -> tuple[int, int]:
+    """How many of some pairs of poses break continuity, and how many there were."""
+    solid = SOLIDS[name]
+    rig, rng = Rig(Ground((solid,), -2.0, 0.8)), np.random.default_rng(seed)
+    broken = tried = 0
+    while tried < count:
+        pose = resting_pose(rig, solid, rng)
+        if pose is None:
+            continue
+        place, rotation = pose
+        shift, turn = rng.normal(size=(2, 3))
+        a = rig.wrench(place, rotation)
+        b = rig.wrench(
+            place + STEP * shift / np.linalg.norm(shift), turned(STEP * turn / np.linalg.norm(turn)) @ rotation
+        )
+        jump = abs(a[2] - b[2]) / (MASS * GRAVITY)
+        moved = math.hypot(a[4] / a[2] - b[4] / b[2], a[3] / a[2] - b[3] / b[2])
+        tried += 1
+        broken += jump > 0.02 or moved > 2e-3
+    return broken, tried
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_force_and_center_of_pressure_are_continuous(name: str) -> None:
+    broken, _ = breaks(name, 400, 0)
+    assert broken == 0
