@@ -1,8 +1,17 @@
-"""`python -m plantar`: the command line."""
+"""`python -m plantar` and the console script: the command line, which Ctrl-C ends from its first moment."""
 
-from plantar.cli import main
+from plantar.console.ending import leave_at_interrupt
 
-__all__: list[str] = []
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Entry point of the console script."""
+    leave_at_interrupt()
+    from plantar import cli
+
+    cli.main()
+
 
 if __name__ == "__main__":
     main()

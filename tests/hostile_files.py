@@ -12,6 +12,7 @@ import os
 import struct
 import zipfile
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +31,10 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("xml", "urdf"), BODY),
     **dict.fromkeys(("npz", "npy", "mcap", "bag", "db3", "c3d", "csv", "asf", "asc", "lst", "txt"), ANALYZE),
     **dict.fromkeys(("png", "jpg", "tif", "bmp"), (*ANALYZE, "--mm-per-pixel", "0.5")),
+    "view.mcap": ("view", "{file}", "-o", "{out}"),
+    **dict.fromkeys(("events.csv", "events.xlsx"), ("analyze", "{good}", "--events", "{file}", "-o", "{out}")),
+    "participants.csv": ("analyze", "{folder}", "--participants", "{file}", "-o", "{out}"),
+    "robot.xml": ("robot", "{file}", "-o", "{out}"),
     "layout.json": ("analyze", "{good}", "--layout", "{file}", "-o", "{out}"),
     "parameters.json": ("shoe", "--dimensions", "240x100", "--parameters", "{file}", "-o", "{out}"),
     "parameters.toml": ("shoe", "--dimensions", "240x100", "--parameters", "{file}", "-o", "{out}"),
@@ -457,6 +462,54 @@ def _recordings() -> Iterator[tuple[str, str, Content]]:
     yield "tif", "directories in a ring", b"II*\0\x08\0\0\0\0\0\x08\0\0\0"
 
 
+def _beside_recordings() -> Iterator[tuple[str, str, Content]]:
+    """What is read beside a recording: events, participants; and what is shown, or made a robot of."""
+    head = "side,heel_strike_s,toe_off_s\n"
+    yield "events.csv", "UTF-16 without rows", head.encode("utf-16")
+    yield "events.csv", "a quote without an end", head + 'left,"1,2\n' * 200_000
+    yield "events.csv", "a side that is none", head + "up,1,2\n"
+    yield "events.csv", "zero bytes", head + "left,1\0,2\n"
+    yield "events.csv", "a million columns", "side" + ",heel_strike_s" * 1_000_000 + "\nleft\n"
+    yield "events.xlsx", "3000 sheets", partial(_workbook, sheets=3000, rows=0)
+    yield "events.xlsx", "200,000 rows", partial(_workbook, sheets=1, rows=200_000)
+    yield "events.xlsx", "a part that unpacks to 900 MB", partial(_workbook, sheets=1, rows=1, padding=900_000_000)
+    yield "participants.csv", "a file elsewhere twice", "file,participant,condition\n/dev/zero,a,b\n/dev/zero,a,b\n"
+    yield "participants.csv", "a quote without an end", 'file,participant,condition\n"a,b,c\n'
+    for name, inside in (
+        ("a hundred million replicas", '<replicate count="100000000"><geom size="1"/></replicate>'),
+        ("replicas of replicas", '<replicate count="3000">' * 3 + '<geom size="1"/>' + "</replicate>" * 3),
+    ):
+        yield "robot.xml", name, _mjcf(inside)
+        yield "xml", name, _mjcf(inside)
+    field = _mjcf("", '<hfield name="h" nrow="60000" ncol="60000" size="1 1 1 1"/>')
+    yield "robot.xml", "a height field of 3.6 billion points", field
+    yield "xml", "a height field of 3.6 billion points", field
+    yield (
+        "robot.xml",
+        "a texture of 10 billion pixels",
+        _mjcf("", '<texture type="2d" width="100000" height="100000"/>'),
+    )
+    yield "robot.xml", "memory of a terabyte", _mjcf("", '</asset><size memory="1T"/><asset>')
+    yield "view.mcap", "a record of 2^62 bytes", b"\x89MCAP0\r\n\x06" + struct.pack("<Q", 2**62) + bytes(999)
+
+
+def _workbook(path: Path, sheets: int, rows: int, padding: int = 0) -> None:
+    names = "".join(f'<sheet name="Left Steps" r:id="r{i}"/>' for i in range(sheets))
+    links = "".join(f'<Relationship Id="r{i}" Target="s{i}.xml"/>' for i in range(sheets))
+    space = 'xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"'
+    space += ' xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"'
+    cells = '<row><c r="B1"><v>1</v></c></row>' * rows
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("xl/workbook.xml", f"<workbook {space}><sheets>{names}</sheets></workbook>")
+        archive.writestr("xl/_rels/workbook.xml.rels", f"<Relationships>{links}</Relationships>")
+        for i in range(sheets):
+            with archive.open(f"xl/s{i}.xml", "w") as part:
+                part.write(f"<worksheet {space}><sheetData>{cells}".encode())
+                for _ in range(padding // 1_000_000):
+                    part.write(b" " * 1_000_000)
+                part.write(b"</sheetData></worksheet>")
+
+
 def _settings() -> Iterator[tuple[str, str, Content]]:
     for kind in ("parameters.toml", "scene.toml", "robot.toml"):
         yield kind, "nested without an end", "a = " + "[" * 100_000
@@ -477,7 +530,7 @@ def _settings() -> Iterator[tuple[str, str, Content]]:
 
 FAMILIES: dict[str, tuple[str, Content]] = {
     f"{kind}: {defect}": (kind, content)
-    for family in (_meshes, _packages, _drawings, _models, _recordings, _settings)
+    for family in (_meshes, _packages, _drawings, _models, _recordings, _beside_recordings, _settings)
     for kind, defect, content in family()
 }
 """Kind and content of the file with each defect."""

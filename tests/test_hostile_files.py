@@ -76,7 +76,8 @@ def refused(folder: Path, kind: str, content: Content) -> None:
     good.write_text("time,left 1,left 2,left 3\n" + "".join(f"{0.01 * i},1,2,3\n" for i in range(50)))
     write(path, content)
     before = {p.name for p in folder.iterdir()}
-    arguments = [a.format(file=path, out=folder / "out", good=good) for a in COMMANDS[kind]]
+    places = {"file": path, "out": folder / "out", "good": good, "folder": folder}
+    arguments = [a.format(**places) for a in COMMANDS[kind]]
     ended = measured(folder, *arguments)
     left = {p.name for p in folder.iterdir()} - before
     if path.is_file() and not path.is_symlink():

@@ -113,7 +113,10 @@ PLACE_OF_LIBRARY = {
     "cadquery": "plantar.shoes",
     "OCP": "plantar.shoes",
     "trimesh": "plantar.shoes",
-    "mujoco": ("plantar.sim", "plantar.robots", "plantar.mujoco", "plantar.shoes.foot.model_source"),
+    "mujoco": (
+        *("plantar.sim", "plantar.robots", "plantar.mujoco"),
+        *("plantar.shoes.foot.model_source", "plantar.files.model_limits"),
+    ),
     "matplotlib": "plantar.plotting",
     "mpl_toolkits": "plantar.plotting",
     "mink": None,  # a reference in tests and benchmarks only

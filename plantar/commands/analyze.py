@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, cast
@@ -10,6 +9,7 @@ from typing import Annotated, Any, cast
 from typer import Argument, Option
 
 from plantar.console.command import Command, Json, Output, end_command, file_lines
+from plantar.console.ending import print_note
 from plantar.console.option_group import with_option_groups
 from plantar.console.progress import progress_bar
 from plantar.errors import InputError
@@ -231,7 +231,7 @@ def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
     end_command(result, as_json, text + file_lines(result["files"]))
     for name, metrics in () if as_json else parts.items():
         for warning in metrics["warnings"]:
-            print(f"  note{f' of {name}' if name else ''}: {warning}", file=sys.stderr)
+            print_note(f"note{f' of {name}' if name else ''}: {warning}")
 
 
 def _analyze_study(
@@ -253,7 +253,7 @@ def _analyze_study(
     text = f"{summary['measured']} of {summary['recordings']} recordings measured, {summary['steps']} steps"
     end_command(summary, as_json, text + file_lines(study.files))
     for name, why in () if as_json else summary["errors"].items():
-        print(f"  not measured: {name}: {why}", file=sys.stderr)
+        print_note(f"not measured: {name}: {why}")
 
 
 COMMAND = Command(analyze, "Measure the steps of a recording, or a study of many.", 20)

@@ -9,7 +9,7 @@ from typing import Annotated
 from typer import Argument, Option
 
 from plantar.console.command import Command, Json, Output, end_command
-from plantar.console.ending import Terminated, ignore_further_interrupts
+from plantar.console.ending import Terminated, ignore_further_interrupts, print_note
 from plantar.console.progress import progress_bar
 from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
@@ -40,7 +40,7 @@ def sweep(
         list[str] | None, Option("--set", metavar="KEY=VALUE", help="A setting of all runs; repeatable.")
     ] = None,
     workers: Annotated[int, Option(help="Processes on this machine. Default: one a core.", show_default=False)] = 0,
-    scheduler: Annotated[str | None, Option(help="Address of a Dask scheduler, tcp://host:8786.")] = None,
+    scheduler: Annotated[str | None, Option(help="Address of a Dask scheduler, tls://host:8786.")] = None,
     output: Output = Path("out/sweep"),
     as_json: Json = False,
 ) -> None:
@@ -61,11 +61,14 @@ def sweep(
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here; MuJoCo would look for a display
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.sweep import SweepStopped, plan_from_texts, run_sweep
+    from plantar.sim.sweep.scheduler_address import network_note
     from plantar.sim.sweep.sweep_text import sweep_errors, sweep_text
 
     wanted = plan_from_texts(
         scene, grid or [], seeds, robot, settings or [], first_seed, limit=limit, within=within, random=random or []
     )
+    if scheduler is not None and (note := network_note(scheduler)):
+        print_note(f"note: {note}")
     try:
         with progress_bar() as tell, ignore_further_interrupts():
             count = workers or os.cpu_count() or 1

@@ -11,7 +11,7 @@ from typing import Annotated, Any, NamedTuple, cast
 
 import typer
 
-from plantar.console.ending import BAD_INPUT
+from plantar.console.ending import BAD_INPUT, one_line, plain_lines
 from plantar.errors import InputError
 
 __all__ = ["Command", "Json", "Output", "end_command", "file_lines", "run_command"]
@@ -82,7 +82,7 @@ def run_command(app: typer.Typer) -> int:
     except usage_error as error:
         text = cast(Any, error).format_message()
         if "\n" in text:  # `plantar` alone: the help
-            print(text, file=sys.stderr)
+            print(plain_lines(text), file=sys.stderr)
             return BAD_INPUT
         place = getattr(getattr(error, "ctx", None), "command_path", None) or _command_path(command)
         raise InputError(f"{text.rstrip('.')}; see {place} --help") from None
@@ -113,9 +113,9 @@ def end_command(
         >>> end_command({"steps": 4}, True, "4 steps")
         {"steps": 4}
     """
-    print(json.dumps(result) if as_json else text)
+    print(json.dumps(result) if as_json else plain_lines(text))
     for line in failures:
-        print(f"plantar: {line}", file=sys.stderr)
+        print(f"plantar: {one_line(line)}", file=sys.stderr)
     if failed:
         raise typer.Exit(1)
 

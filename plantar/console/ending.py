@@ -15,13 +15,26 @@ import os
 import signal
 import sys
 import threading
+from _thread import interrupt_main
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
+from typing import Any
 
 from plantar.errors import PlantarError, WorkerError
 
-__all__ = ["BAD_INPUT", "FAILED", "INTERRUPTED", "Terminated", "ignore_further_interrupts", "one_line", "run"]
+__all__ = [
+    "BAD_INPUT",
+    "FAILED",
+    "INTERRUPTED",
+    "Terminated",
+    "ignore_further_interrupts",
+    "leave_at_interrupt",
+    "one_line",
+    "plain_lines",
+    "print_note",
+    "run",
+]
 
 FAILED = 1
 """Exit code where what was asked for is fine and could not be done."""
@@ -69,6 +82,65 @@ def one_line(text: object) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(text).strip())
 
 
+def plain_lines(text: object) -> str:
+    """A text of several lines that any terminal can show: no character of it moves the cursor or sets a colour.
+
+    Args:
+        text: The text, for example what a recording's metadata hold.
+
+    Returns:
+        The lines.
+
+    Example:
+        >>> plain_lines("name: \x1b[2Jred\\nsecond")
+        'name: \\\\x1b[2Jred\\nsecond'
+    """
+    return "\n".join(" " * (len(x) - len(x.lstrip(" "))) + one_line(x) for x in str(text).split("\n"))
+
+
+def print_note(text: object) -> None:
+    """Print one line on stderr, indented.
+
+    Args:
+        text: The line.
+    """
+    print(f"  {one_line(text)}", file=sys.stderr)
+
+
+def leave_at_interrupt() -> None:
+    """Let Ctrl-C end the process at once while it loads, when nothing is open yet; `run` takes over.
+
+    An interruption that Python raises within an import may be lost, in a callback that ignores exceptions.
+    """
+    with suppress(ValueError):  # not the main thread
+        if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            signal.signal(signal.SIGINT, _leave)
+
+
+def _leave(number: int, frame: FrameType | None) -> None:
+    os.write(2, b"plantar: interrupted\n")
+    os._exit(INTERRUPTED)
+
+
+@contextmanager
+def _interruptible() -> Iterator[None]:
+    """Raise KeyboardInterrupt at Ctrl-C, once more where Python had to ignore it."""
+
+    def again(lost: Any) -> None:
+        if issubclass(lost.exc_type, KeyboardInterrupt):
+            interrupt_main()
+        else:
+            before(lost)
+
+    before, sys.unraisablehook = sys.unraisablehook, again
+    if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is _leave:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
+
+
 def run(command: Callable[[], int | None]) -> int:
     """Run a command to its exit code.
 
@@ -83,7 +155,7 @@ def run(command: Callable[[], int | None]) -> int:
         1
     """
     _prepare_streams()
-    with _terminable():
+    with _interruptible(), _terminable():
         try:
             code = command() or 0
             if sys.stdout is not None:

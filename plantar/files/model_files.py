@@ -15,11 +15,15 @@ import os
 import re
 import tempfile
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from plantar.errors import PlantarError
-from plantar.files.input_file import read_input
+from plantar.files.confined import confined
+from plantar.files.image_size import stated_size
+from plantar.files.input_file import check_input, open_input, read_input
+from plantar.files.model_limits import MOST_PARTS, check_model_size
 from plantar.files.xml_file import XML_MOST, parse_xml
 
 __all__ = [
@@ -36,6 +40,9 @@ VARIABLE = "PLANTAR_MODEL_FOLDERS"
 """Environment variable with folders from which models may take files, too."""
 
 _MOST_INCLUDES = 100
+_LARGEST_PART = 100e6  # bytes of a mesh, or of a texture or height field once it is unpacked
+_PASSED: set[tuple[Path, int]] = set()
+_OWN = Path(__file__).resolve().parents[1]
 
 
 def named_file(path: Path, folders: tuple[Path, ...], error: type[PlantarError], where: str) -> Path:
@@ -196,7 +203,9 @@ def _included(file: Path, main: Path, seen: set[Path], error: type[PlantarError]
 
 
 def check_model(file: Path, error: type[PlantarError]) -> None:
-    """Refuse a model that names files where it may not; for a library that follows the names itself.
+    """Refuse a model that names files where it may not, or asks for more than a robot is; for a library that reads it.
+
+    A model that did not come with Plantar is read by MuJoCo in a process of its own first.
 
     Args:
         file: The model.
@@ -211,10 +220,25 @@ def check_model(file: Path, error: type[PlantarError]) -> None:
         plantar.errors.PlantarError: none.xml: cannot be read (No such file or directory)
     """
     _check_names(file, error, {Path(os.path.realpath(file))})
+    if not file.resolve().is_relative_to(_OWN) and find_spec("mujoco") is not None:
+        _tried(file, file.stat().st_mtime_ns, error)
+
+
+def _tried(file: Path, changed: int, error: type[PlantarError]) -> None:
+    """Let MuJoCo read a model in a process of its own; one that passed is not read there again."""
+    key = file.resolve(), changed
+    if key in _PASSED:
+        return
+    trial = "plantar.files.model_limits:parsed_in_trial"
+    bodies = int(confined(trial, file, error, "a robot's model", memory=1e9, seconds=10.0)["bodies"])
+    if bodies > MOST_PARTS:
+        raise error(f"{file}: has {bodies} bodies; allowed: up to {MOST_PARTS} of a robot's model")
+    _PASSED.add(key)
 
 
 def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None:
     root = parsed_model(file, error)
+    check_model_size(root, error, str(file))
     compiler = {k: v for element in root.iter("compiler") for k, v in element.attrib.items()}
     urdf = root.tag == "robot"
     strip = compiler.get("strippath", "true" if urdf else "false") == "true"  # MuJoCo's own defaults
@@ -230,6 +254,7 @@ def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None
                 path = file.parent / folder / (re.split(r"[/\\]", name)[-1] if strip else name)
                 if not urdf or strip:
                     named_file(path, folders, error, where)
+                    _check_size(path, element.tag, error, where)
             nested = Path(os.path.realpath(file.parent / name))
             if element.tag == "model" and nested not in seen and os.path.isfile(nested):
                 seen.add(nested)
@@ -237,6 +262,20 @@ def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None
                     raise error(f"{file}: names more than {_MOST_INCLUDES} models")
                 named_file(nested, folders, error, where)
                 _check_names(nested, error, seen)
+
+
+def _check_size(path: Path, tag: str, error: type[PlantarError], where: str) -> None:
+    """Refuse a mesh, height field or texture that is too large, or no file; one that is missing is the reader's."""
+    if tag not in ("mesh", "hfield", "texture", "skin") or not os.path.exists(path):
+        return
+    check_input(path, error, _LARGEST_PART, f"{where}: {path}")
+    if tag != "mesh":
+        with open_input(path, error) as stream:
+            size = stated_size(stream.read(1 << 16))
+        if size is not None and size.memory > _LARGEST_PART:
+            raise error(
+                f"{where}: {path} takes {size.memory / 1e6:.0f} MB; allowed: up to {_LARGEST_PART / 1e6:.0f} MB"
+            )
 
 
 def _asset_folders(compiler: dict[str, str]) -> Iterator[str]:

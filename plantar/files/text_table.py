@@ -6,6 +6,7 @@ import csv
 import io
 import os
 import re
+from itertools import chain
 from typing import NamedTuple
 
 from plantar.errors import PlantarError
@@ -64,14 +65,14 @@ def read_text_table(path: str | os.PathLike[str], error: type[PlantarError]) -> 
     rows: list[tuple[int, list[str]]] = []
     try:
         names = [name.strip().lower() for name in next(reader, [])]
-        for cells in reader:
-            if any(cell.strip() for cell in cells):
-                rows.append((reader.line_num, cells))
+        for cells in chain([names], reader):
             if len(rows) > _MOST_ROWS or len(cells) > _MOST_COLUMNS:
                 raise error(f"{path}: allowed: up to {_MOST_ROWS} rows and {_MOST_COLUMNS} columns")
+            if any(cell.strip() for cell in cells):
+                rows.append((reader.line_num, cells))
     except csv.Error as problem:
         raise error(f"{path}, line {reader.line_num}: not a table that can be read ({problem})") from None
-    return TextTable(names, rows)
+    return TextTable(names, rows[1:])
 
 
 def encoding_of(head: bytes) -> str:

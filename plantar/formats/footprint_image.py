@@ -14,16 +14,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError, InputError
+from plantar.files.confined import confined
+from plantar.files.image_size import stated_size
 from plantar.files.input_file import read_input
 from plantar.formats.format import Format
-from plantar.formats.image_size import stated_size
 from plantar.optional_library import optional_library
 
-__all__ = ["FORMAT", "FootprintImage", "Print", "read_footprints"]
+__all__ = ["FORMAT", "FootprintImage", "Print", "decoded_image", "read_footprints"]
 
 _MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"II*\0", b"MM\0*", b"BM")
 _LARGEST = 250e6
 """Most bytes of a file, and of an image once it is decoded: 83 million pixels in colour."""
+_IMAGE = "not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)"
+_LIMITS = {"memory": 1.5e9, "seconds": 20.0}
 _SCAN, _MOST_SCANNED = b"\xff\xda", 2e9
 """What begins each scan of a JPEG, and how many pixels all of them may go over."""
 _WORKING = 1600
@@ -87,7 +90,7 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
         import cv2  # 0.1 s: only where an image is read
     data = read_input(path, FormatError, _LARGEST)
     warnings: list[str] = []
-    image, factor = _decoded(cv2, path, data)
+    image, factor = _decoded(path, data)
     if mm_per_pixel is None:
         mm_per_pixel = _stated_resolution(data)
         if mm_per_pixel is None:
@@ -103,22 +106,32 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
     return FootprintImage(path, pixel, picture, tuple(prints), tuple(warnings))
 
 
-def _decoded(cv2: Any, path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
+def _decoded(path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
     """The image as BGR over white, upright whatever its bit depth, and how much it was reduced by."""
     _refuse_large(path, data)
-    previous = cv2.utils.logging.getLogLevel() if hasattr(cv2, "utils") else None
-    try:
-        if previous is not None:
-            cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
-        raw = cv2.imdecode(np.frombuffer(data, dtype=np.uint8), cv2.IMREAD_UNCHANGED)
-        raw, factor = (None, 1.0) if raw is None or min(raw.shape[:2]) < 16 else _reduced(cv2, raw)
-    except cv2.error:
-        raw = None
-    finally:
-        if previous is not None:
-            cv2.utils.logging.setLogLevel(previous)
+    held = confined("plantar.formats.footprint_image:decoded_image", path, FormatError, "an image", **_LIMITS)
+    image = np.asarray(held["image"])
+    if image.ndim != 3 or min(image.shape[:2]) < 16:
+        raise FormatError(f"{path}: {_IMAGE}")
+    return image, float(held["factor"])
+
+
+def decoded_image(path: Path) -> dict[str, Any]:
+    """An image of a size that is enough to outline a foot, for `confined`.
+
+    Args:
+        path: The image.
+
+    Returns:
+        "image": BGR over white (h, w, 3), of 8 bits, empty where OpenCV reads none; "factor": by how much it was
+        reduced.
+    """
+    import cv2
+
+    raw = cv2.imdecode(np.fromfile(path, dtype=np.uint8), cv2.IMREAD_UNCHANGED)
     if raw is None:
-        raise FormatError(f"{path}: not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)")
+        return {"image": np.zeros((0, 0, 3), dtype=np.uint8), "factor": 1.0}
+    raw, factor = _reduced(cv2, raw)
     if raw.dtype != np.uint8:
         raw = raw.astype(float)
         known = raw[np.isfinite(raw)]
@@ -126,18 +139,18 @@ def _decoded(cv2: Any, path: Path, data: bytes) -> tuple[NDArray[np.uint8], floa
         share = (np.nan_to_num(raw, nan=low, posinf=high, neginf=low) - low) / max(high - low, 1e-9)
         raw = (share * 255.0).clip(0, 255).astype(np.uint8)
     if raw.ndim == 2 or raw.shape[2] == 1:
-        return np.asarray(cv2.cvtColor(raw, cv2.COLOR_GRAY2BGR)), factor
+        return {"image": cv2.cvtColor(raw, cv2.COLOR_GRAY2BGR), "factor": factor}
     if raw.shape[2] == 4:
         alpha = raw[:, :, 3:].astype(float) / 255.0
-        return np.asarray((raw[:, :, :3] * alpha + 255.0 * (1.0 - alpha)).astype(np.uint8)), factor
-    return np.asarray(raw[:, :, :3]), factor
+        raw = (raw[:, :, :3] * alpha + 255.0 * (1.0 - alpha)).astype(np.uint8)
+    return {"image": raw[:, :, :3], "factor": factor}
 
 
 def _refuse_large(path: Path, data: bytes) -> None:
     """Refuse an image that takes more memory or time than it can mean, before it is decoded."""
     size = stated_size(data)
     if size is None or min(size.width, size.height) < 16:
-        raise FormatError(f"{path}: not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)")
+        raise FormatError(f"{path}: {_IMAGE}")
     if size.memory > _LARGEST:
         raise FormatError(
             f"{path}: an image of {size.width} x {size.height} pixels takes {size.memory / 1e6:.0f} MB; "

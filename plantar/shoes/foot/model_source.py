@@ -10,11 +10,9 @@ import math
 import re
 import warnings
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
-from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +20,7 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.files.input_file import check_input
 from plantar.files.model_files import check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
+from plantar.files.model_limits import check_model_size
 from plantar.files.xml_file import XML_MOST
 from plantar.optional_library import optional_library, unheard
 from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
@@ -30,7 +29,6 @@ from plantar.shoes.geometry.primitives import primitive
 
 __all__ = ["FARTHEST", "BodyPlace", "ModelSource", "read_model_source"]
 
-_MOST_PARTS = 2000  # shapes, or bodies: MuJoCo's reader takes a time that grows with their square
 _LARGEST = 100e6  # bytes of a mesh
 FARTHEST = 1e6
 """Distance in m beyond which no shape reaches."""
@@ -285,7 +283,7 @@ def read_model_source(file: Path) -> ModelSource:
         FootError: If it is neither, or names files that lie where they may not.
     """
     root = parsed_model(file, FootError)
-    _few_parts(file, root)
+    check_model_size(root, FootError, str(file))
     if root.tag == "robot":
         text, names = urdf_for_mujoco(root)
         if text is None:
@@ -302,24 +300,6 @@ def read_model_source(file: Path) -> ModelSource:
     for path in attached:
         check_input(path, FootError, XML_MOST)
     return ModelSource(file, None, folders=(file.parent, *(path.parent for path in attached)))
-
-
-def _few_parts(file: Path, root: Element) -> None:
-    """Refuse a model of more shapes or bodies than any robot has, replicas counted."""
-    counts = {"shapes": 0.0, "bodies": 0.0}
-    kinds = dict.fromkeys(("geom", "visual", "collision"), "shapes") | dict.fromkeys(("body", "link"), "bodies")
-    left = [(root, 1.0)]
-    while left:
-        element, times = left.pop()
-        if element.tag in kinds:
-            counts[kinds[element.tag]] += times
-        if element.tag == "replicate":
-            with suppress(ValueError):  # of what is no number MuJoCo tells
-                times *= max(0.0, float(element.get("count", "1")))
-        left += [(child, times) for child in element]
-    for what, count in counts.items():
-        if count > _MOST_PARTS:
-            raise FootError(f"{file}: has {count:.0f} {what}; allowed: up to {_MOST_PARTS} of a robot's model")
 
 
 def _compiler(spec: Spec, element: Any) -> Any:

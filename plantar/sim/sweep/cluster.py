@@ -14,6 +14,7 @@ from typing import Any
 
 from plantar.errors import InputError, PlantarError, WorkerError
 from plantar.optional_library import optional_library
+from plantar.sim.sweep.scheduler_address import check_address, tls_files
 from plantar.sim.sweep.task import Row, Task, failed, run_task
 
 __all__ = ["ClusterWorkers"]
@@ -30,21 +31,33 @@ class ClusterWorkers:
     Dask itself begins the run of a dead worker again on another one, as often as its setting `allowed-failures` says.
 
     Args:
-        address: Address of the scheduler, as tcp://host:8786.
+        address: Address of the scheduler, as tcp://host:8786 or tls://host:8786.
 
     Raises:
         DependencyError: If Dask's `distributed` is not installed.
-        InputError: If no scheduler answers there.
+        InputError: If the address is not one of a scheduler, certificates are missing, or no scheduler answers there.
     """
 
     def __init__(self, address: str) -> None:
         with optional_library("distributed", "cluster"):
-            from distributed import Client, KilledWorker
+            from distributed import Client, KilledWorker, Security
         for name in _LOGS:  # what they have to say of a scheduler that is gone, one line says
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+        address = check_address(address)
+        files = tls_files() if address.startswith("tls://") else {}
+        security = (
+            Security(
+                tls_ca_file=files["ca_file"],
+                tls_client_cert=files["client_cert"],
+                tls_client_key=files["client_key"],
+                require_encryption=True,
+            )
+            if files
+            else None
+        )
         try:
-            self._client = Client(address, timeout=_CONNECT, set_as_default=False)
-        except (OSError, ValueError) as error:
+            self._client = Client(address, timeout=_CONNECT, set_as_default=False, security=security)
+        except (OSError, ValueError, RuntimeError, TypeError) as error:  # ssl's errors are OSErrors
             raise InputError(f"no Dask scheduler answers at {address}: {error}") from None
         self._killed = KilledWorker
         self._scheduler = f"the Dask scheduler at {address}"

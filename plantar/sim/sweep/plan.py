@@ -6,6 +6,7 @@ import itertools
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from plantar.sim.companion.scene import CompanionScene
 
 __all__ = ["Plan", "Sweep", "point_told"]
+
+_MOST_SEEDS = 1_000_000
+_MOST_POINTS = 100_000
+_LAST_SEED = 2**62
 
 
 class Plan(Protocol):
@@ -74,10 +79,12 @@ class Sweep:
     first_seed: int = 0
 
     def __post_init__(self) -> None:
-        if self.seeds < 1:
-            raise InputError(f"number of seeds is {self.seeds}; allowed: 1 or more")
-        if self.first_seed < 0:
-            raise InputError(f"first seed is {self.first_seed}; allowed: 0 or more")
+        if not 1 <= self.seeds <= _MOST_SEEDS:
+            raise InputError(f"number of seeds is {self.seeds}; allowed: 1 to {_MOST_SEEDS}")
+        if not 0 <= self.first_seed <= _LAST_SEED:
+            raise InputError(f"first seed is {self.first_seed}; allowed: 0 to {_LAST_SEED}")
+        if prod(len(texts) for _, texts in self.grid) > _MOST_POINTS:
+            raise InputError(f"the grid has more than {_MOST_POINTS} points; allowed: fewer values")
         axes = []
         for name, texts in self.grid:
             values: dict[str, str] = {}

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import ast
 import errno
 import os
 import signal
+import subprocess
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from plantar.atomic import output_folder
-from plantar.console.ending import Terminated, one_line, run
+from plantar.console.ending import Terminated, one_line, plain_lines, run
 from plantar.errors import InputError
 
 
@@ -106,3 +110,47 @@ def test_a_closed_stderr_does_not_turn_into_stdout(
 def test_one_line_keeps_letters_of_any_language() -> None:
     assert one_line(" größe – 足\t\n") == "größe – 足"
     assert one_line("a\tb\r\n\u2028c") == "a\\tb\\r\\n\\u2028c"
+
+
+def test_an_interrupt_that_python_ignores_comes_once_more(capfd: pytest.CaptureFixture[str]) -> None:
+    class Closing:
+        def __del__(self) -> None:
+            raise KeyboardInterrupt
+
+    def command() -> int:
+        closing = Closing()
+        del closing  # Python ignores what it raises
+        time.sleep(5.0)
+        return 0
+
+    assert run(command) == 130
+    assert capfd.readouterr().err == "plantar: interrupted\n"
+
+
+def test_ctrl_c_at_any_moment_of_the_start_ends_the_command_in_one_line() -> None:
+    for wait in (0.03, 0.06, 0.1, 0.15, 0.2, 0.3):
+        command = [sys.executable, "-m", "plantar", "list", "papers"]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(wait)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=30.0)
+        if process.returncode not in (0, -signal.SIGINT):  # ended before, or Python itself had not begun
+            assert (process.returncode, err) == (130, "plantar: interrupted\n"), wait
+
+
+@given(st.text())
+def test_no_text_moves_the_cursor(text: str) -> None:
+    shown = plain_lines(text)
+    assert all(line.isprintable() for line in shown.split("\n"))
+    assert len(shown.split("\n")) == len(text.split("\n"))
+
+
+def test_no_module_prints_past_the_console() -> None:
+    source = Path(__file__).parents[3] / "plantar"
+    other = {
+        path.relative_to(source).as_posix()
+        for path in source.rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print"
+    }
+    assert other <= {"console/ending.py", "console/command.py", "files/confined.py", "cli.py"}

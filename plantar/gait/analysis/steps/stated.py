@@ -29,7 +29,7 @@ def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Con
         heel strike, and a heel strike without one, are of contacts that the recording cuts.
     """
     strikes, lifts = events.heel_strikes, events.toe_offs
-    ends = np.append(strikes[1:], np.inf)
+    ends = np.append(strikes[1:], np.inf)[: len(strikes)]
     pairs: list[tuple[float | None, float | None]] = []
     if len(strikes):
         early = lifts[lifts <= strikes[0]]

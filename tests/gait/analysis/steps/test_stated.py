@@ -51,6 +51,10 @@ def test_contacts_that_the_recording_cuts() -> None:
     assert contacts[-1].end == 500
 
 
+def test_toe_offs_without_heel_strikes_make_no_contact() -> None:
+    assert stated_contacts(np.arange(500) * 0.01, StatedEvents(np.zeros(0), np.array([0.4]))) == []
+
+
 def test_what_holds_no_events_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "events.csv"
     for content in (b"", b"PK\x03\x04nothing", b"a,b\n1,2\n", b"side,heel_strike_s,toe_off_s\nnone,1,2\n"):

@@ -1,0 +1,107 @@
+"""Limits of a robot's model (MJCF, URDF) that are read off its text, before MuJoCo makes what a few words ask for."""
+
+from __future__ import annotations
+
+import math
+import re
+from xml.etree.ElementTree import Element
+
+from plantar.errors import PlantarError
+
+__all__ = ["MOST_PARTS", "check_model_size", "parsed_in_trial"]
+
+MOST_PARTS = 2000
+"""Most shapes, and most bodies: MuJoCo's reader takes a time that grows with their square."""
+
+_KINDS = dict.fromkeys(("geom", "visual", "collision", "site"), "shapes") | dict.fromkeys(("body", "link"), "bodies")
+_MOST_OF = {
+    ("hfield", "nrow"): 2000,
+    ("hfield", "ncol"): 2000,
+    ("texture", "width"): 8192,
+    ("texture", "height"): 8192 * 6,
+    ("numeric", "size"): 10_000,
+    ("mesh", "params"): 256,
+    ("size", "nconmax"): 100_000,
+    ("size", "njmax"): 100_000,
+    ("size", "nkey"): 10_000,
+    ("size", "nstack"): 100_000_000,
+    ("composite", "count"): 200,
+    ("flexcomp", "count"): 100,
+    ("flexcomp", "cellcount"): 100,
+}
+"""Largest number in an attribute of an element; other attributes named n... of "size" may be as large as _MOST_USER."""
+_MOST_USER = 1000
+_MOST_MEMORY = 1e9
+_UNITS = {"": 1.0, "K": 2.0**10, "M": 2.0**20, "G": 2.0**30}
+
+
+def check_model_size(root: Element, error: type[PlantarError], where: str) -> None:
+    """Refuse a model of more parts than any robot has, replicas counted, or of tables that take any memory.
+
+    Args:
+        root: Its outermost element, includes in their place.
+        error: What is raised.
+        where: Beginning of the message.
+
+    Raises:
+        PlantarError: If it passes a limit; of the class `error`.
+
+    Example:
+        >>> from plantar.files.xml_file import parse_xml
+        >>> text = b"<mujoco><asset><hfield nrow='60000' ncol='60000'/></asset></mujoco>"
+        >>> check_model_size(parse_xml(text, PlantarError, "a.xml"), PlantarError, "a.xml")
+        Traceback (most recent call last):
+        plantar.errors.PlantarError: a.xml: <hfield>: nrow is '60000'; allowed: up to 2000
+    """
+    counts = dict.fromkeys(("shapes", "bodies"), 0.0)
+    left = [(root, 1.0)]
+    while left:
+        element, times = left.pop()
+        for key, text in element.attrib.items():
+            _check_number(str(element.tag), key, text, error, where)
+        if element.tag in _KINDS:
+            counts[_KINDS[str(element.tag)]] += times
+        if element.tag == "replicate":
+            times *= max(0.0, _numbers(element.get("count", "1"))[0])
+        left += [(child, times) for child in element]
+    for what, count in counts.items():
+        if count > MOST_PARTS:
+            raise error(f"{where}: has {count:.0f} {what}; allowed: up to {MOST_PARTS} of a robot's model")
+
+
+def _check_number(tag: str, key: str, text: str, error: type[PlantarError], where: str) -> None:
+    most = _MOST_OF.get((tag, key), _MOST_USER if tag == "size" and key.startswith("n") else None)
+    if tag == "size" and key == "memory":
+        match = re.fullmatch(r"\s*(\d+)\s*([A-Za-z]?)\s*", text)
+        if match and float(match[1]) * _UNITS.get(match[2].upper(), math.inf) > _MOST_MEMORY:
+            raise error(f"{where}: <size>: memory is '{text[:40]}'; allowed: up to {_MOST_MEMORY / 1e9:g} GB")
+    elif most is not None and max(_numbers(text)) > most:
+        raise error(f"{where}: <{tag}>: {key} is '{text[:40]}'; allowed: up to {most}")
+
+
+def _numbers(text: str) -> list[float]:
+    """The numbers of an attribute; 0 for what is none, which MuJoCo reports."""
+    out = [0.0]
+    for word in text.split():
+        try:
+            out.append(float(word))
+        except ValueError:
+            continue
+    return out[1:] or out
+
+
+def parsed_in_trial(path: str) -> dict[str, int]:
+    """Let MuJoCo read a model, for `confined`: only a crash, or memory or time beyond its limits, counts.
+
+    Args:
+        path: The model.
+
+    Returns:
+        The number of its bodies; 0 where MuJoCo refuses it, as it will again.
+    """
+    import mujoco
+
+    try:
+        return {"bodies": len(mujoco.MjSpec.from_file(str(path)).bodies)}
+    except Exception:  # MuJoCo raises ValueError, OSError and its own
+        return {"bodies": 0}

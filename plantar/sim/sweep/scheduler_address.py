@@ -1,0 +1,90 @@
+"""The address of a Dask scheduler: which are taken, and what is needed to trust what answers there."""
+
+from __future__ import annotations
+
+import ipaddress
+import os
+import re
+from collections.abc import Mapping
+
+from plantar.errors import InputError
+
+__all__ = ["check_address", "network_note", "tls_files"]
+
+_ADDRESS = re.compile(r"(?:(?P<scheme>[a-z]+)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[A-Za-z0-9_.-]+):(?P<port>\d{1,5})/?")
+_ALLOWED = "allowed: tcp://HOST:PORT, or tls://HOST:PORT with certificates"
+_FILES = {"ca_file": "CA_FILE", "client_cert": "CLIENT__CERT", "client_key": "CLIENT__KEY"}
+_VARIABLE = "DASK_DISTRIBUTED__COMM__TLS__"
+
+
+def check_address(address: str) -> str:
+    """The address of a scheduler as Dask takes it.
+
+    Args:
+        address: "tcp://host:port", "tls://host:port" or "host:port".
+
+    Returns:
+        The address with its scheme.
+
+    Raises:
+        InputError: If it is another one.
+
+    Example:
+        >>> check_address("192.0.2.1:8786")
+        'tcp://192.0.2.1:8786'
+        >>> check_address("ucx://192.0.2.1:8786")
+        Traceback (most recent call last):
+        plantar.errors.InputError: scheduler 'ucx://192.0.2.1:8786': allowed: tcp://HOST:PORT, or tls://HOST:PORT ...
+    """
+    match = _ADDRESS.fullmatch(address)
+    if match is None or match["scheme"] not in (None, "tcp", "tls") or not 0 < int(match["port"]) < 65536:
+        raise InputError(f"scheduler {address[:200]!r}: {_ALLOWED}")
+    return f"{match['scheme'] or 'tcp'}://{match['host']}:{match['port']}"
+
+
+def tls_files(environment: Mapping[str, str] = os.environ) -> dict[str, str]:
+    """The files by which scheduler and client prove to each other who they are.
+
+    Args:
+        environment: Variables that name them, as Dask reads them.
+
+    Returns:
+        Paths of the authority's certificate, the client's certificate and its key.
+
+    Raises:
+        InputError: If one is not named, or is no file.
+    """
+    found = {}
+    for key, name in _FILES.items():
+        path = environment.get(_VARIABLE + name, "")
+        if not os.path.isfile(path):
+            what = f"{path[:200]!r} is no file" if path else "it is not set"
+            raise InputError(f"tls:// needs certificates: {_VARIABLE}{name} has to name a PEM file ({what})")
+        found[key] = path
+    return found
+
+
+def network_note(address: str) -> str:
+    """What to know of a scheduler that is reached over a network without proof of who is there.
+
+    Args:
+        address: Address of the scheduler.
+
+    Returns:
+        A line; empty where the scheduler is on this machine or proves who it is.
+
+    Example:
+        >>> network_note("tcp://127.0.0.1:8786")
+        ''
+    """
+    host = address.rpartition("://")[2].rpartition(":")[0].strip("[]")
+    try:
+        alone = ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        alone = host == "localhost"
+    if alone or address.startswith("tls://"):
+        return ""
+    return (
+        f"{address} is neither encrypted nor authenticated: all who reach it can run code on its workers and here; "
+        "use tls:// where the network is not your own"
+    )
