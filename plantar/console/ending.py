@@ -45,6 +45,7 @@ BAD_INPUT = 2
 INTERRUPTED = 128 + signal.SIGINT
 """Exit code after Ctrl-C."""
 
+_AGAIN = 0.01  # s until an interruption that Python ignored comes once more
 _NOBODY_READS = 128 + 13  # SIGPIPE, which Windows has not
 _ENDED_BY = {"SIGTERM": "told to end (SIGTERM)", "SIGHUP": "ended: its terminal was closed (SIGHUP)"}
 
@@ -128,7 +129,7 @@ def _interruptible() -> Iterator[None]:
 
     def again(lost: Any) -> None:
         if issubclass(lost.exc_type, KeyboardInterrupt):
-            interrupt_main()
+            threading.Timer(_AGAIN, interrupt_main).start()  # at once, it would be ignored in here, too
         else:
             before(lost)
 
