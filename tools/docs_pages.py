@@ -19,8 +19,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ROOT / "out" / "pages"
-PACKAGES = ("plantar", "plantar.shoes", "plantar.gait", "plantar.wholebody", "plantar.sim")
-HIDDEN = {"plantar.bench", "plantar.kernels", "plantar.cli", *PACKAGES[1:]}
+PACKAGES = ("plantar", "plantar.shoes", "plantar.gait", "plantar.robots", "plantar.wholebody", "plantar.sim")
+DOORS = ("read", "analyse", "view", "load_robot", "load_controller", "load_scene", "run")
+"""The functions of the root that the API begins with."""
+
+HIDDEN = {"plantar.bench", "plantar.kernels", "plantar.cli", "plantar.commands", *PACKAGES[1:]}
 """Rooms without a page: measurements, what is called through `plantar.geometry` and `plantar.percepts`, the command
 line, and packages, which have a list of their own."""
 
@@ -156,7 +159,16 @@ def errors_page() -> str:
 def write_api() -> None:
     """A page for each room of each package, one for each folder inside of it, and their list."""
     (PAGES / "api").mkdir()
-    index = ["# API", "", "A package is laid out by question, one folder (a room) or one file each.", ""]
+    index = ["# API", "", "::: plantar", "    options:", "      members: false", "      show_root_heading: false", ""]
+    index += ["## Doors", ""]
+    tree = ast.parse((ROOT / "plantar" / "__init__.py").read_text(encoding="utf-8"))
+    found = [
+        node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module not in (None, "plantar")
+    ]
+    doors = {alias.asname or alias.name: f"{n.module}.{alias.name}" for n in found for alias in n.names}
+    for door in DOORS:
+        index += [f"### plantar.{door}", "", f"::: {doors[door]}", "    options:", "      show_root_heading: false", ""]
+    index += ["## Packages", "", "A package is laid out by question, one folder (a room) or one file each.", ""]
     for package in PACKAGES:
         index += [f"## {package}", "", "| room | what it is |", "|---|---|"]
         for room, path in _rooms(ROOT.joinpath(*package.split(".")), package):

@@ -1,0 +1,100 @@
+"""Parts of a user's own package, found by entry points from outside the checkout: one new file each."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+TERRAIN = """
+from plantar.settings.schema import number
+from plantar.sim.terrain import Ground, Solid, Terrain
+
+class Ditch(Terrain):
+    '''A ditch across the way.
+
+    Attributes:
+        depth: Depth in m.
+    '''
+
+    depth: float = number(0.1, "m", 0.01, 1)
+
+    def _laid_out(self, feet, rng):
+        return Ground((), self.height, self.friction, {"ditch_m": self.depth})
+"""
+
+COMMAND = """
+import json
+from plantar.console.command import Command
+
+def hello(name: str = "you") -> None:
+    '''Greet.'''
+    print(json.dumps({"hello": name}))
+
+COMMAND = Command(hello, "Greet.")
+"""
+
+
+@pytest.fixture
+def plugin(tmp_path: Path) -> Path:
+    """A folder on the path with a package of a user's own, as pip would install it."""
+    package, info = tmp_path / "mine", tmp_path / "mine-1.0.dist-info"
+    package.mkdir()
+    info.mkdir()
+    (package / "__init__.py").write_text("")
+    (package / "ditch.py").write_text(TERRAIN)
+    (package / "hello.py").write_text(COMMAND)
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text(
+        "[plantar.terrain]\nditch = mine.ditch:Ditch\n[plantar.commands]\nhello = mine.hello:COMMAND\n"
+    )
+    return tmp_path
+
+
+def plantar(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """The command line with a folder on the path."""
+    path = os.pathsep.join([str(folder), str(ROOT)])
+    command = [sys.executable, "-m", "plantar", *words]
+    return subprocess.run(command, cwd=folder, env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True)
+
+
+def test_a_command_of_a_users_package_runs(plugin: Path) -> None:
+    assert json.loads(plantar(plugin, "hello", "--name", "Ada").stdout) == {"hello": "Ada"}
+    assert "hello" in plantar(plugin, "--help").stdout
+
+
+def test_a_kind_of_ground_of_a_users_package_has_settings(plugin: Path) -> None:
+    pytest.importorskip("mujoco")
+    done = plantar(plugin, "list", "settings", "terrain.ditch", "--json")
+    assert done.returncode == 0, done.stderr
+    assert "terrain.ditch.depth" in {row["name"] for row in json.loads(done.stdout)["settings"]}
+
+
+def test_a_scene_stands_on_a_users_ground(plugin: Path) -> None:
+    pytest.importorskip("mujoco")
+    code = (
+        "import plantar; from plantar.sim.run.runner import Simulation; "
+        "run = Simulation(plantar.load_scene('flat', ['terrain.kind=ditch', 'terrain.depth=0.2', 'steps=0'])); "
+        "print(run.ground.facts if hasattr(run.ground, 'facts') else type(run.scene.terrain).__name__)"
+    )
+    path = os.pathsep.join([str(plugin), str(ROOT)])
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert "ditch" in done.stdout.lower()
+
+
+def test_a_part_of_another_kind_is_named(plugin: Path) -> None:
+    (plugin / "mine-1.0.dist-info" / "entry_points.txt").write_text("[plantar.terrain]\nditch = mine.hello:hello\n")
+    done = plantar(plugin, "list", "settings", "terrain")
+    assert done.returncode == 2
+    assert "mine.hello:hello" in done.stderr
+    assert "Terrain" in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1
