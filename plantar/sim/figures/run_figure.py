@@ -20,6 +20,8 @@ from plantar.sim.figures.zmp_figure import draw_zmp_plane, draw_zmps
 
 __all__ = ["plot_landing_forces", "plot_run"]
 
+_PAD = 0.03  # m: what is shown around the walk
+
 
 def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path]:
     """Draw a run's figures.
@@ -109,27 +111,46 @@ def _balance(run: Recording) -> Any:
 
 
 def _plane(run: Recording) -> Any:
-    figure, axis = new_figure(11.0, 4.0)
-    for side in SIDES:
-        layout = run.layouts[side]
-        position = _field(run, f"/truth/{side}", "position")
-        rotation = _field(run, f"/truth/{side}", "rotation").reshape(-1, 3, 3)
-        force = _field(run, f"/truth/{side}", "normal_force")[:, 0]
-        loaded = (force > 0.4 * force.max()).astype(int)
-        starts = np.flatnonzero(np.diff(np.concatenate([[0], loaded])) == 1)
-        for n, i in enumerate(starts):
-            ring = layout.outline @ rotation[i, :2, :2].T + position[i, :2]
-            ring = np.vstack([ring, ring[:1]])
-            axis.plot(*ring.T, color=COLOURS[side], lw=0.8, label=f"{side} foothold" if n == 0 else None)
-    axis.plot(*_field(run, "/truth/body", "zmp").T, color=COLOURS["truth"], lw=0.7, label="ZMP true")
-    axis.plot(*_field(run, "/estimate", "dcm").T, color=COLOURS["active"], lw=1.0, label="DCM estimated")
-    axis.plot(*_field(run, "/truth/body", "com")[:, :2].T, color=COLOURS["polygon"], lw=1.4, label="CoM true")
+    """The walk from above, its longer direction to the right: a walk along y is drawn with y to the right, x down."""
+    rings = [(side, ring) for side in SIDES for ring in _footholds(run, side)]
+    lines = (
+        ("/truth/body", "zmp", "truth", 0.7, "ZMP true"),
+        ("/estimate", "dcm", "active", 1.0, "DCM estimated"),
+        ("/truth/body", "com", "polygon", 1.4, "CoM true"),
+    )
+    paths = [_field(run, topic, name)[:, :2] for topic, name, *_ in lines]
+    points = np.vstack([*(ring for _, ring in rings), *paths])
+    low, high = np.nanmin(points, axis=0) - _PAD, np.nanmax(points, axis=0) + _PAD
+    span = high - low
+    turn = [1, 0] if span[1] > span[0] else [0, 1]
+    figure, axis = new_figure(11.0, float(np.clip(1.2 + 9.5 * span[turn[1]] / span[turn[0]], 2.2, 9.0)))
+    labelled = set()
+    for side, ring in rings:
+        label = None if side in labelled else f"{side} foothold"
+        labelled.add(side)
+        axis.plot(*np.vstack([ring, ring[:1]])[:, turn].T, color=COLOURS[side], lw=0.8, label=label)
+    for path, (_, _, colour, width, label) in zip(paths, lines, strict=True):
+        axis.plot(*path[:, turn].T, color=COLOURS[colour], lw=width, label=label)
+    axis.set_xlim(low[turn[0]], high[turn[0]])
+    axis.set_ylim(*((high[0], low[0]) if turn[0] else (low[1], high[1])))
     axis.set_aspect("equal")
-    axis.set_xlabel("x [m]")
-    axis.set_ylabel("y [m]")
-    axis.legend(ncol=5, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, 1.25))
+    names = ("x forward [m]", "y left [m]")
+    axis.set_xlabel(names[turn[0]])
+    axis.set_ylabel(names[turn[1]])
+    axis.legend(ncol=5, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.01), frameon=False)
     axis.grid(alpha=0.3)
     return figure
+
+
+def _footholds(run: Recording, side: str) -> list[NDArray[np.float64]]:
+    """Outlines (k, 2) in m of a sole in the world, at the start of each of its stances."""
+    position = _field(run, f"/truth/{side}", "position")
+    rotation = _field(run, f"/truth/{side}", "rotation").reshape(-1, 3, 3)
+    force = _field(run, f"/truth/{side}", "normal_force")[:, 0]
+    loaded = (force > 0.4 * force.max()).astype(int)
+    starts = np.flatnonzero(np.diff(np.concatenate([[0], loaded])) == 1)
+    outline = run.layouts[side].outline
+    return [outline @ rotation[i, :2, :2].T + position[i, :2] for i in starts]
 
 
 def _feet(run: Recording) -> Any:
