@@ -66,3 +66,19 @@ def test_no_step_time_holds_a_pause() -> None:
         for gait in analyse_feet(replace(recording, time=time, feet=feet)).values():
             times = [step["step_time_s"] for step in gait.steps]
             assert np.nanmax(times) < 0.6
+
+
+def test_what_both_feet_carry_and_one_alone_make_up_the_stance() -> None:
+    seen = 0
+    for side in ("left", "right"):
+        for step in analyse_feet(made_walk(strides=9).recording)[side].steps:
+            both, alone = step["double_support_percent"], step["single_support_percent"]
+            if math.isnan(both):
+                continue
+            seen += 1
+            assert both > 0.0
+            assert alone > 0.0
+            assert both + alone == pytest.approx(step["stance_percent"])
+            assert step["stance_percent"] == pytest.approx(100.0 * step["contact_time_s"] / step["stride_time_s"])
+            assert step["swing_time_s"] == pytest.approx(step["stride_time_s"] - step["contact_time_s"])
+    assert seen >= 8
