@@ -11,7 +11,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import Benchmark, Case, count, latest, origin, rows_of, write_table
+from resumable import HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = ("fell", "recovered", "zmp_off_max_m", "slowest_recovery_s", "rms_m", "max_m", "zmp_margin_min_m")
@@ -41,14 +41,15 @@ def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
 
 def report() -> None:
     """Write the table between its markers in balance.md."""
-    rows = latest(rows_of(BENCHMARK.path))
+    rows = rows_of(BENCHMARK.path)
     lines = [
-        "| robot | feedback | completed | on fresh seeds | recovered | ZMP off, most | slowest recovery "
+        f"| robot | feedback | {HEADS} | recovered | ZMP off, most | slowest recovery "
         "| RMS difference | largest difference |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for case in CASES:
-        runs = [r for r in rows if r["robot"] == case.robot and r["case"] == case.name]
+        mine = [r for r in rows if r["robot"] == case.robot and r["case"] == case.name]
+        runs = of_now(mine)
 
         def of(column: str, scale: float, digits: int, runs: list[dict[str, str]] = runs) -> str:
             values = [scale * float(r[column]) for r in runs if r[column]]
@@ -56,7 +57,7 @@ def report() -> None:
 
         recovered = sum(int(r["recovered"]) for r in runs)
         lines.append(
-            f"| `{case.robot}` | {case.name} | {count(runs, False)} | {count(runs, True)} | {recovered} of "
+            f"| `{case.robot}` | {case.name} | {counted(mine)} | {recovered} of "
             f"{6 * len(runs)} | {of('zmp_off_max_m', 1e3, 0)} mm | {of('slowest_recovery_s', 1.0, 2)} s "
             f"| {of('rms_m', 1e3, 2)} mm | {of('max_m', 1e3, 1)} mm |"
         )

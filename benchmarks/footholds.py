@@ -10,7 +10,7 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from resumable import Benchmark, Case, count, latest, origin, rows_of, write_table
+from resumable import HEADS, Benchmark, Case, counted, latest, of_now, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = (
@@ -96,7 +96,7 @@ def report() -> None:
     """Write the table between its markers, and draw the map."""
     rows = latest(rows_of(BENCHMARK.path))
     lines = [
-        "| scene | robot | with | with, fresh seeds | without | without, fresh seeds | smallest true share of the sole "
+        f"| scene | robot | soles' view | {HEADS} | smallest true share of the sole "
         "| true ZMP margin of a step, median [mm] | centroid error, 95 % of a run [mm] |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
@@ -107,17 +107,20 @@ def report() -> None:
             )
             if not mine:
                 continue
+            seen, mine = counted(mine), of_now(mine)
             good = [r for r in mine if r["completed"] == "True"]
             shares = [min(map(float, r["area_ratios"].split())) for r in good if r["area_ratios"]]
             margins = [float(v) for r in good for v in r["zmp_margins_mm"].split() if v != "-"]
             errors = [1e3 * float(r["foothold_error_p95_m"]) for r in mine if r["foothold_error_p95_m"]]
             cells = (
-                *(count(found, fresh) for found in (mine, blind) for fresh in (False, True)),
+                "used",
+                seen,
                 f"{min(shares):.2f}" if shares else "",
                 f"{round(median(margins))}" if margins else "",
                 f"{median(errors):.1f}" if errors else "",
             )
             lines.append(f"| {name} | {robot} | " + " | ".join(cells) + " |")
+            lines.append(f"| {name} | {robot} | off | {counted(blind)} | | | |")
     write_table(FOLDER / "footholds.md", [*lines, "", origin(BENCHMARK)])
     _draw_map(rows)
 

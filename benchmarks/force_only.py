@@ -11,7 +11,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import FEW, Benchmark, Case, latest, origin, rows_of, write_table
+from resumable import FEW, HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = ("steps_taken", "sim_time_s", "tilt_max_deg", "replans", "foothold_error_median_m", "foothold_error_p95_m")
@@ -39,7 +39,7 @@ VARIANTS: list[tuple[str, tuple[str, ...], bool, tuple[str, ...]]] = [
 ]
 ROBOTS = ("h1", "hrp2kai")
 CASES = [
-    Case(f"{name}{what}", scene, robot, (*settings, *more), 0, aside, fresh=FEW if aside else SEEDS)
+    Case(f"{name}{what}", scene, robot, (*settings, *more), FEW if aside else SEEDS, aside)
     for name, scene, settings in WALKS
     for what, more, aside, walks in VARIANTS
     if name in walks
@@ -62,18 +62,18 @@ BENCHMARK = Benchmark(FOLDER / "force_only.csv", COLUMNS, CASES, figures)
 
 def report() -> None:
     """Write the table between its markers in force_only.md."""
-    rows = latest(rows_of(BENCHMARK.path))
+    rows = rows_of(BENCHMARK.path)
     lines = [
-        "| walk | robot | completed | steps of those that were not | centroid error, median of a run [mm] |",
-        "|---|---|---|---|---|",
+        f"| walk | robot | {HEADS} | steps of those that were not | centroid error, median of a run [mm] |",
+        "|---|---|---|---|---|---|---|",
     ]
     for case in CASES:
         mine = [r for r in rows if r["case"] == case.name and r["robot"] == case.robot]
         if not mine:
             continue
-        good = sum(r["completed"] == "True" for r in mine)
+        cells, mine = counted(mine), of_now(mine)
         short = ", ".join(sorted((r["steps_taken"] for r in mine if r["completed"] != "True"), key=int))
         errors = [1e3 * float(r["foothold_error_median_m"]) for r in mine if r["foothold_error_median_m"]]
         middle = f"{median(errors):.1f}" if errors else "-"
-        lines.append(f"| {case.name} | {case.robot} | {good}/{len(mine)} | {short or '-'} | {middle} |")
+        lines.append(f"| {case.name} | {case.robot} | {cells} | {short or '-'} | {middle} |")
     write_table(FOLDER / "force_only.md", [*lines, "", origin(BENCHMARK)])

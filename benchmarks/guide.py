@@ -1,6 +1,6 @@
 """Count the scene in which a hand leads h1 by its arm: `python benchmarks/outcomes.py MINUTES guide`.
 
-Fresh seeds only, from 1000 on, which nothing was tuned on; each ablation gets the first four of them.
+Each ablation gets the first four of the seeds.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import Benchmark, Case, latest, origin, rows_of, write_table
+from resumable import HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 FIGURES = ("moved_m", "arm_yielded_m", "arm_turned_deg", "feet_followed_m", "feet_astray_m", "largest_force_N")
@@ -22,9 +22,7 @@ LINES: list[tuple[str, tuple[str, ...], bool]] = [
     ("nobody feels the hand", ("sensing.body_skin=false",), True),
     ("felt, but the steps stay", ("confidence=1", "yielding=0"), True),
 ]
-CASES = [
-    Case(name, "guide", "h1", settings, 0, aside, fresh=FEW if aside else SEEDS) for name, settings, aside in LINES
-]
+CASES = [Case(name, "guide", "h1", settings, FEW if aside else SEEDS, aside) for name, settings, aside in LINES]
 
 
 def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
@@ -44,23 +42,24 @@ BENCHMARK = Benchmark(FOLDER / "guide.csv", COLUMNS, CASES, figures)
 
 def report() -> None:
     """Write the table between its markers in guide.md."""
-    rows = latest(rows_of(BENCHMARK.path))
+    rows = rows_of(BENCHMARK.path)
     lines = [
-        "| what | completed | fell | failed criteria | hand went [m] | arm gave way [m] | joint turned [deg] | "
+        f"| what | robot | {HEADS} | fell | failed criteria | hand went [m] | arm gave way [m] | joint turned [deg] | "
         "feet followed [m] | to a side [m] | largest force [N] |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for case in CASES:
         mine = [r for r in rows if r["case"] == case.name]
         if not mine:
             continue
-        good, fell = (sum(r[name] == "True" for r in mine) for name in ("completed", "fell"))
+        cells, mine = counted(mine), of_now(mine)
+        fell = sum(r["fell"] == "True" for r in mine)
         failed: dict[str, int] = {}
         for name in " ".join(r["failed"] for r in mine).split():
             failed[name] = failed.get(name, 0) + 1
         told = ", ".join(f"{name} {n}" for name, n in sorted(failed.items(), key=lambda f: -f[1])) or "-"
         numbers = " | ".join(spread([float(r[name]) for r in mine]) for name in FIGURES)
-        lines.append(f"| {case.name} | {good}/{len(mine)} | {fell} | {told} | {numbers} |")
+        lines.append(f"| {case.name} | {case.robot} | {cells} | {fell} | {told} | {numbers} |")
     backward = sum(r["toward"] == "backward" for r in rows)
     text = f"{backward} of {len(rows)} runs are backward. {origin(BENCHMARK)}"
     write_table(FOLDER / "guide.md", [*lines, "", f"Medians, with the least and the most. {text}"])

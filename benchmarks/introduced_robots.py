@@ -1,7 +1,7 @@
 """Count how robots walk of which `plantar robot` had the model and nothing else: the table of introduced_robots.md.
 
 `python benchmarks/outcomes.py MINUTES introduced_robots` introduces the robots of `PLANTAR_REAL_DATA` and runs what is
-missing. Fresh seeds only, from 1000 on, which nothing was tuned on.
+missing.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import Benchmark, Case, latest, origin, rows_of, write_table
+from resumable import HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 MADE = FOLDER.parent / "out" / "introduced"
@@ -58,7 +58,7 @@ BENCHMARK = Benchmark(
     FOLDER / "introduced_robots.csv",
     COLUMNS,
     [
-        Case(scene, scene, name, settings, 0, file=str(robot_file(name)), fresh=SEEDS)
+        Case(scene, scene, name, settings, SEEDS, file=str(robot_file(name)))
         for (scene, settings), name in product(SCENES.items(), MODELS)
     ],
     figures,
@@ -78,16 +78,16 @@ def introduce(data: Path) -> None:
 
 def report() -> None:
     """Write the table between its markers in introduced_robots.md."""
-    rows = latest(rows_of(BENCHMARK.path))
+    rows = rows_of(BENCHMARK.path)
     lines = [
-        "| robot | scene | completed | final tilt, most | impacts, median and most | at a torque limit |",
-        "|---|---|---|---|---|---|",
+        f"| robot | scene | {HEADS} | final tilt, most | impacts, median and most | at a torque limit |",
+        "|---|---|---|---|---|---|---|---|",
     ]
     for name, scene in product(MODELS, SCENES):
         mine = [r for r in rows if r["robot"] == name and r["case"] == scene]
         if not mine:
             continue
-        good = sum(r["completed"] == "True" for r in mine)
+        cells, mine = counted(mine), of_now(mine)
         upright = [r for r in mine if r["fell"] == "False"]
 
         tilt = f"{max(float(r['tilt_final_deg']) for r in upright):.2f} deg" if upright else "all fell"
@@ -96,7 +96,7 @@ def report() -> None:
             return max(float(r[column]) for r in of)
 
         lines.append(
-            f"| {name} | `{scene}` | {good}/{len(mine)} | {tilt} | "
+            f"| {name} | `{scene}` | {cells} | {tilt} | "
             f"{median(float(r['impact_median']) for r in mine):.2f}, {most('impact_max'):.2f} | "
             f"{100.0 * most('torque_limit_share', mine):.1f} % |"
         )

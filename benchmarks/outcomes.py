@@ -28,7 +28,7 @@ TABLES = ("push_steps", "push", "footholds", "stones", "unknown_ground", "force_
 TABLES += ("guide", "balance", "reactive_options", "survival_map", "plant")
 
 
-def missing(script: ModuleType) -> Iterator[tuple[int, Case, int]]:
+def missing(script: ModuleType) -> Iterator[tuple[int, Case, tuple[str, int]]]:
     """Runs that a table lacks, each with its rank; those of robots without a file are left out."""
     lacks = script.missing() if hasattr(script, "missing") else wanted(script.BENCHMARK)
     return (job for job in lacks if not job[1].file or Path(job[1].file).exists())
@@ -54,15 +54,19 @@ def run(scripts: Sequence[ModuleType], minutes: float) -> None:
         jobs = sorted(((job, s) for s in scripts for job in missing(s)), key=lambda found: found[0][0])
         if not jobs:
             return
-        for i, ((_, case, seed), script) in enumerate(jobs[:50]):
+        for i, ((_, case, job), script) in enumerate(jobs[:50]):
             if time.monotonic() > began + 60.0 * minutes:
                 return
-            row = add_row(script.BENCHMARK, case, seed, made)
+            row = add_row(script.BENCHMARK, case, job, made)
             done += 1
             hours = (len(jobs) - i - 1) * (time.monotonic() - began) / done / 3600.0
             told = f"{row['completed']} {row['failed']}".strip()
             place = f"[{len(jobs) - i - 1} to come, {hours:.1f} h]"
-            print(f"{place} {script.__name__}: {case.name} {case.robot} {seed}: {told}", file=sys.stderr, flush=True)
+            print(
+                f"{place} {script.__name__}: {case.name} {case.robot} {job[0]} {job[1]}: {told}",
+                file=sys.stderr,
+                flush=True,
+            )
 
 
 def again(scripts: Sequence[ModuleType], count: int) -> bool:
@@ -84,7 +88,8 @@ def again(scripts: Sequence[ModuleType], count: int) -> bool:
     held = same = 0
     for i, key in enumerate(drawn):
         benchmark, case, row = known[key]
-        other = differences(row, run_row(benchmark, case, int(row["seed"]), row["commit"]))
+        job = (row.get("plant") or "exact", int(row["seed"]))
+        other = differences(row, run_row(benchmark, case, job, row["commit"]) | {"plant": row.get("plant", "")})
         held += not {"completed", "failed"} & set(other)
         same += not other
         told = f"differs in {', '.join(other)}" if other else "the same"

@@ -12,7 +12,7 @@ from statistics import mean, median
 from typing import Any
 
 import numpy as np
-from resumable import Benchmark, Case, latest, origin, rows_of, write_table
+from resumable import HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
 
 from plantar.recordings.recording import read_mcap
 
@@ -29,7 +29,7 @@ OPTIONS = {
     "Kalman filter": ("control.dcm_estimate=kalman",),
 }
 CASES = [
-    Case(f"{scene}, {option}", scene, "h1", (*settings, *chosen), SEEDS, fresh=SEEDS)
+    Case(f"{scene}, {option}", scene, "h1", (*settings, *chosen), SEEDS)
     for scene, settings in SCENES.items()
     for option, chosen in OPTIONS.items()
 ]
@@ -65,23 +65,23 @@ BENCHMARK = Benchmark(FOLDER / "reactive_options.csv", COLUMNS, CASES, figures, 
 
 def report() -> None:
     """Write the table between its markers in reactive_options.md."""
-    rows = latest(rows_of(BENCHMARK.path))
+    rows = rows_of(BENCHMARK.path)
     lines = [
-        "| what | completed | CoM velocity off, rms, most [mm/s] | DCM off, rms, most [mm] | "
+        f"| what | robot | {HEADS} | CoM velocity off, rms, most [mm/s] | DCM off, rms, most [mm] | "
         "impact, median, most [N] | tilt [deg] | slip [mm] | torque at its limit [%] | farthest step or end [m] |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|",
     ]
     for case in CASES:
         mine = [r for r in rows if r["case"] == case.name]
         if not mine:
             continue
-        good = sum(r["completed"] == "True" for r in mine)
+        cells, mine = counted(mine), of_now(mine)
 
         def of(name: str, pick: Any = mean, scale: float = 1.0, mine: list[dict[str, str]] = mine) -> str:
             return f"{scale * pick(float(r[name]) for r in mine):.3g}"
 
         lines.append(
-            f"| {case.name} | {good}/{len(mine)} | {of('velocity_rms_mm_s')}, {of('velocity_most_mm_s', max)} | "
+            f"| {case.name} | {case.robot} | {cells} | {of('velocity_rms_mm_s')}, {of('velocity_most_mm_s', max)} | "
             f"{of('dcm_rms_mm')}, {of('dcm_most_mm', max)} | {of('impact_N')}, {of('largest_impact_N', max)} | "
             f"{of('tilt_deg', max)} | {of('slip_mm', max)} | {of('torque_share', mean, 100.0)} | {of('steps_off_m')} |"
         )

@@ -1,13 +1,16 @@
 """Outcomes of scenes over seeds, by runs that may be stopped: a row a run, appended as it ends, never changed.
 
-A case is counted on two sets of seeds: those from 0 on, which gains and thresholds were chosen by, and fresh ones from
-1000 on, which nothing was ever tuned on. Every row names the commit that it was made at. Where a seed has more rows
-than one, the last one counts.
+A case is counted on two plants: one that the seed draws within what a robot has that was built with care
+(`plant=random`, `level=1`), and one that is exactly the controller's model. Seeds are drawn from the commit, so that no
+version of the code has seen them before, and the first draw is what is published. Rows without a plant are of the
+older ground and judge, on an exact plant and on seeds that were the same at every commit; they have a column of their
+own until they are counted again.
 """
 
 from __future__ import annotations
 
 import csv
+import hashlib
 import os
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -15,16 +18,21 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
+from plantar.sim.sweep.intervals import wilson_interval
+
 __all__ = [
     "FEW",
-    "FRESH",
+    "HEADS",
+    "PLANTS",
     "Benchmark",
     "Case",
     "add_row",
     "commit",
-    "count",
+    "counted",
     "differences",
+    "drawn_seeds",
     "latest",
+    "of_now",
     "origin",
     "rows_of",
     "run_row",
@@ -32,11 +40,14 @@ __all__ = [
     "write_table",
 ]
 
-FRESH = 1000
-"""The first of the seeds that nothing was tuned on."""
-
 FEW = 4
-"""So many seeds of either set come early of a case that is there for comparison only."""
+"""So many seeds of each case come first."""
+
+PLANTS: dict[str, tuple[str, ...]] = {"drawn": ("plant=random", "plant.level=1"), "exact": (), "own": ()}
+"""Settings of each plant that a case is counted on; "own" is for cases that are about the plant."""
+
+HEADS = "plant drawn | exact plant | older ground, exact plant"
+"""Heads of the columns that `counted` fills."""
 
 
 class Case(NamedTuple):
@@ -47,10 +58,10 @@ class Case(NamedTuple):
         scene: Scene.
         robot: Robot.
         settings: Settings of the scene.
-        seeds: How many seeds from 0 on.
+        seeds: How many seeds are drawn from the commit, for each plant.
         aside: Whether it is there for comparison only, as the walk without the feature; its runs come last.
         file: File of a robot that is not built in; empty for one that is.
-        fresh: How many seeds from 1000 on.
+        plants: Names of the plants that it is counted on.
     """
 
     name: str
@@ -60,7 +71,7 @@ class Case(NamedTuple):
     seeds: int
     aside: bool = False
     file: str = ""
-    fresh: int = 10
+    plants: tuple[str, ...] = ("drawn", "exact")
 
 
 class Benchmark(NamedTuple):
@@ -98,36 +109,48 @@ def rows_of(path: Path) -> list[dict[str, str]]:
 
 def latest(rows: Iterable[dict[str, str]]) -> list[dict[str, str]]:
     """The row that counts of each run."""
-    return list({(r["case"], r["robot"], r["seed"]): r for r in rows}.values())
+    return list({(r["case"], r["robot"], r.get("plant", ""), r["seed"]): r for r in rows}.values())
 
 
-def wanted(benchmark: Benchmark) -> Iterator[tuple[int, Case, int]]:
-    """Runs that are missing, each with its rank: the lower, the more it tells.
+def drawn_seeds(made: str, count: int) -> list[int]:
+    """The first seeds that a commit draws: the same for all cases, so that those that are compared share them.
 
-    Ten fresh seeds of all cases come first, then all the others, then cases for comparison.
+    Args:
+        made: Name of the commit.
+        count: How many.
     """
-    done = {(r["case"], r["robot"], int(r["seed"])) for r in rows_of(benchmark.path)}
+    digests = (hashlib.sha256(f"{made} {i}".encode()).digest() for i in range(count))
+    return [int.from_bytes(digest[:4], "big") for digest in digests]
+
+
+def wanted(benchmark: Benchmark, made: str | None = None) -> Iterator[tuple[int, Case, tuple[str, int]]]:
+    """Runs that are missing at a commit, each with its rank, the lower the sooner, and its plant and seed.
+
+    Args:
+        benchmark: What is counted.
+        made: Name of the commit; the one that is checked out where None.
+    """
+    done = {(r["case"], r["robot"], r.get("plant", ""), int(r["seed"])) for r in rows_of(benchmark.path)}
+    seeds = drawn_seeds(made or commit(), max((case.seeds for case in benchmark.cases), default=0))
     for case in benchmark.cases:
-        for first, seeds in ((FRESH, case.fresh), (0, case.seeds)):
-            for i in range(seeds):
-                if (case.name, case.robot, first + i) not in done:
-                    yield rank(case, first, i), case, first + i
+        for plant in case.plants:
+            for i, seed in enumerate(seeds[: case.seeds]):
+                if (case.name, case.robot, plant, seed) not in done:
+                    yield rank(case, plant, i), case, (plant, seed)
 
 
-def rank(case: Case, first: int, i: int) -> int:
-    """Place in the order of runs of a case's i-th seed, counted from `first`."""
-    if case.aside:
-        return (60 if i < FEW else 80) + i
-    return i if first == FRESH else 10 + i
+def rank(case: Case, plant: str, i: int) -> int:
+    """Place in the order of runs of a case's i-th seed: a few of all first, comparisons last, drawn plants sooner."""
+    return 2 * i + (plant == "exact") + 100 * case.aside + (1000 if i >= FEW else 0)
 
 
-def run_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str, Any]:
-    """Run a case with one seed.
+def run_row(benchmark: Benchmark, case: Case, run: tuple[str, int], made: str) -> dict[str, Any]:
+    """Run a case once.
 
     Args:
         benchmark: What it belongs to.
         case: The case.
-        seed: The seed.
+        run: Plant and seed.
         made: Name of the commit.
 
     Returns:
@@ -136,7 +159,9 @@ def run_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
     from plantar.sim.run.runner import Simulation
     from plantar.sim.run.scene import load_scene
 
-    simulation = Simulation(load_scene(case.scene, case.settings, case.file or case.robot), seed)
+    plant, seed = run
+    settings = (*case.settings, *PLANTS[plant])
+    simulation = Simulation(load_scene(case.scene, settings, case.file or case.robot), seed)
     with TemporaryDirectory() as folder:
         recording = Path(folder, "run.mcap") if benchmark.recorded else None
         summary = simulation.run(record=recording)
@@ -144,6 +169,7 @@ def run_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
     return {
         "case": case.name,
         "robot": case.robot,
+        "plant": plant,
         "seed": seed,
         "completed": summary["completed"],
         "failed": " ".join(r["criterion"] for r in summary["reasons"]),
@@ -152,10 +178,16 @@ def run_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
     }
 
 
-def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str, Any]:
+def add_row(benchmark: Benchmark, case: Case, run: tuple[str, int], made: str) -> dict[str, Any]:
     """`run_row`, appended to the benchmark's file."""
-    row = run_row(benchmark, case, seed, made)
-    columns = ("case", "robot", "seed", "completed", "failed", "commit", *benchmark.columns)
+    row = run_row(benchmark, case, run, made)
+    columns = ("case", "robot", "plant", "seed", "completed", "failed", "commit", *benchmark.columns)
+    older = rows_of(benchmark.path)
+    if older and tuple(older[0]) != columns:
+        with benchmark.path.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, columns, restval="", extrasaction="ignore", lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(older)
     new = not benchmark.path.exists()
     with benchmark.path.open("a", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns, lineterminator="\n")
@@ -175,10 +207,21 @@ def differences(row: dict[str, str], again: dict[str, Any]) -> list[str]:
     return [k for k in row if row[k] != texts[k] and not k.endswith(timed)]
 
 
-def count(rows: Sequence[dict[str, str]], fresh: bool) -> str:
-    """How many runs were completed of those on fresh seeds, or on the others, for a table."""
-    mine = [r for r in latest(rows) if (int(r["seed"]) >= FRESH) == fresh]
-    return f"{sum(r['completed'] == 'True' for r in mine)}/{len(mine)}" if mine else "-"
+def counted(rows: Sequence[dict[str, str]]) -> str:
+    """Completed runs on a drawn plant, on an exact one, and of older rows, for the columns `HEADS` of a table; with
+    Wilson's interval at 95 %, in percent."""
+    cells = []
+    for plants in (("drawn", "own"), ("exact",), ("",)):
+        mine = [r["completed"] == "True" for r in latest(rows) if r.get("plant", "") in plants]
+        low, high = wilson_interval(sum(mine), len(mine))
+        cells.append(f"{sum(mine)}/{len(mine)} ({100 * low:.0f}-{100 * high:.0f})" if mine else "-")
+    return " | ".join(cells)
+
+
+def of_now(rows: Sequence[dict[str, str]]) -> list[dict[str, str]]:
+    """The rows that a table's other columns sum up: those on drawn plants; where there are none, the older ones."""
+    mine = latest(rows)
+    return [r for r in mine if r.get("plant", "") in ("drawn", "own")] or mine
 
 
 def origin(benchmark: Benchmark, missing: int | None = None) -> str:
@@ -188,12 +231,13 @@ def origin(benchmark: Benchmark, missing: int | None = None) -> str:
         benchmark: What is counted.
         missing: How many runs are missing, where the benchmark's cases do not tell.
     """
-    rows = latest(rows_of(benchmark.path))
     made: dict[str, int] = {}
-    for r in rows:
-        made[r["commit"]] = made.get(r["commit"], 0) + 1
+    for r in latest(rows_of(benchmark.path)):
+        name = r["commit"] if r.get("plant", "") else f"{r['commit']} (older ground)"
+        made[name] = made.get(name, 0) + 1
     text = ", ".join(f"{n} of {c}" for c, n in sorted(made.items(), key=lambda m: -m[1]))
-    left = sum(1 for _ in wanted(benchmark)) if missing is None else missing
+    newest = next((r["commit"] for r in reversed(rows_of(benchmark.path)) if r.get("plant", "")), None)
+    left = sum(1 for _ in wanted(benchmark, newest)) if missing is None else missing
     return f"Runs by commit: {text or 'none'}. Still to be run: {left or 'none'}."
 
 

@@ -200,14 +200,14 @@ def stronger(joint: str) -> Path:
     return folder / "robot.toml"
 
 
-def missing() -> Iterator[tuple[int, Case, int]]:
+def missing() -> Iterator[tuple[int, Case, tuple[str, int]]]:
     """The next run of each cell, cells of the same rank in turn: goals first, the comparisons last."""
     known = outcomes(rows_of(BENCHMARK.path))
     for i, cell in enumerate(CELLS):
         case = following(cell, known)
         if case is not None:
             begun = sum(cell.name(v) in known for v in IMPULSES)
-            yield 10000 * (list(VARIANTS).index(cell.variant) > 0) + 1000 * begun + i * 37 % 128, case, SEED
+            yield 10000 * (list(VARIANTS).index(cell.variant) > 0) + 1000 * begun + i * 37 % 128, case, ("exact", SEED)
 
 
 def report() -> None:

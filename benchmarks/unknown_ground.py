@@ -11,7 +11,7 @@ from statistics import median
 from typing import Any
 
 import numpy as np
-from resumable import Benchmark, Case, count, latest, origin, rows_of, write_table
+from resumable import HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
 
 from plantar.mechanics.lip import GRAVITY
 
@@ -89,17 +89,18 @@ def report() -> None:
     """Write the table between its markers in unknown_ground.md, and the bars."""
     from plantar.plotting import COLOURS, new_figure, save_figure
 
-    rows = latest(rows_of(BENCHMARK.path))
+    rows = rows_of(BENCHMARK.path)
     lines = [
-        "| case | robot | walked on | on fresh seeds | mean impact [BW] | largest impact [BW] | fifth landing [BW] "
+        f"| case | robot | {HEADS} | mean impact [BW] | largest impact [BW] | fifth landing [BW] "
         "| angle [deg] | stepped on |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     bars: dict[str, tuple[float, float, float]] = {}
     for case in CASES:
         mine = [r for r in rows if r["case"] == case.name and r["robot"] == case.robot]
         if not mine:
             continue
+        cells, mine = counted(mine), of_now(mine)
         mean, top = ([float(r[k]) for r in mine] for k in ("impact_mean", "impact_max"))
         here = [float(r["here"]) for r in mine if r["here"]]
         angle = [float(r["angle_deg"]) for r in mine if r["angle_deg"]]
@@ -107,7 +108,7 @@ def report() -> None:
         checked = f"{sum(stepped)}/{len(stepped)}" if stepped else ""
         bars[f"{case.name}, {case.robot}"] = (min(mean), float(np.mean(mean)), max(top))
         lines.append(
-            f"| {case.name} | {case.robot} | {count(mine, False)} | {count(mine, True)} | {_range(mean)} "
+            f"| {case.name} | {case.robot} | {cells} | {_range(mean)} "
             f"| {_range(top)} | {_range(here)} | {_range(angle)} | {checked} |"
         )
     write_table(FOLDER / "unknown_ground.md", [*lines, "", origin(BENCHMARK)])

@@ -9,7 +9,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import Benchmark, Case, count, latest, origin, rows_of, write_table
+from resumable import HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = ("speed_ratio", "turn_ratio", "walked_m", "turned_deg", "steps", "steps_after_stop", "tilt_deg", "wall_s")
@@ -32,21 +32,19 @@ BENCHMARK = Benchmark(FOLDER / "velocity.csv", COLUMNS, CASES, figures)
 
 def report() -> None:
     """Write the table between its markers in velocity.md."""
-    rows = latest(rows_of(BENCHMARK.path))
+    rows = rows_of(BENCHMARK.path)
     lines = [
-        "| robot | completed | on fresh seeds | speed / command | turn / command | steps after the stop | tilt [deg] |",
-        "|---|---|---|---|---|---|---|",
+        f"| robot | {HEADS} | speed / command | turn / command | steps after the stop | tilt [deg] |",
+        "|---|---|---|---|---|---|---|---|",
     ]
     for case in CASES:
         mine = [r for r in rows if r["case"] == case.name and r["robot"] == case.robot]
         if not mine:
             continue
+        cells, mine = counted(mine), of_now(mine)
         ranges = [_range([float(r[name]) for r in mine]) for name in ("speed_ratio", "turn_ratio")]
         most, tilt = max(int(r["steps_after_stop"]) for r in mine), max(float(r["tilt_deg"]) for r in mine)
-        lines.append(
-            f"| {case.robot} | {count(mine, False)} | {count(mine, True)} | {ranges[0]} | {ranges[1]} "
-            f"| at most {most} | at most {tilt:.2f} |"
-        )
+        lines.append(f"| {case.robot} | {cells} | {ranges[0]} | {ranges[1]} | at most {most} | at most {tilt:.2f} |")
     write_table(FOLDER / "velocity.md", [*lines, "", origin(BENCHMARK)])
 
 

@@ -25,44 +25,68 @@ def resumable(monkeypatch: pytest.MonkeyPatch) -> Any:
     return module
 
 
-def row(seed: int, completed: bool, commit: str = "made", case: str = "a") -> dict[str, Any]:
-    return {"case": case, "robot": "h1", "seed": seed, "completed": completed, "failed": "", "commit": commit}
+def row(seed: int, completed: bool, plant: str = "drawn", commit: str = "made") -> dict[str, Any]:
+    named = {"case": "a", "robot": "h1", "plant": plant, "seed": seed}
+    return {**named, "completed": completed, "failed": "", "commit": commit}
 
 
 def benchmark(resumable: Any, path: Path, rows: list[dict[str, Any]], aside: bool = False) -> Any:
     with path.open("w", newline="") as file:
-        writer = csv.DictWriter(file, ("case", "robot", "seed", "completed", "failed", "commit"))
+        writer = csv.DictWriter(file, ("case", "robot", "plant", "seed", "completed", "failed", "commit"))
         writer.writeheader()
         writer.writerows(rows)
     case = resumable.Case("a", "flat", "h1", (), 6, aside)
     return resumable.Benchmark(path, (), [case], lambda *_: {})
 
 
-def test_what_is_missing_is_asked_for_and_fresh_seeds_come_first(resumable: Any, tmp_path: Path) -> None:
-    runs = list(resumable.wanted(benchmark(resumable, tmp_path / "a.csv", [])))
-    assert [seed for _, _, seed in sorted(runs, key=lambda r: r[0])] == [*range(1000, 1010), *range(6)]
-    some = [row(k, True) for k in (0, 3, 1001)]
-    left = [seed for _, _, seed in resumable.wanted(benchmark(resumable, tmp_path / "a.csv", some))]
-    assert sorted(left) == sorted({*range(1000, 1010), *range(6)} - {0, 3, 1001})
+def test_seeds_are_drawn_from_the_commit_the_same_for_all_cases(resumable: Any) -> None:
+    first, other = resumable.drawn_seeds("1234567", 8), resumable.drawn_seeds("1234568", 8)
+    assert first == resumable.drawn_seeds("1234567", 10)[:8]
+    assert len({*first, *other}) == 16
+    assert all(0 <= seed < 2**32 for seed in first)
 
 
-def test_comparisons_come_last_a_few_of_each_first(resumable: Any, tmp_path: Path) -> None:
-    aside = benchmark(resumable, tmp_path / "a.csv", [], aside=True)
-    ranks = {seed: rank for rank, _, seed in resumable.wanted(aside)}
-    whole = max(rank for rank, *_ in resumable.wanted(benchmark(resumable, tmp_path / "b.csv", [])))
-    assert min(ranks.values()) > whole
-    few = {*range(resumable.FEW), *range(1000, 1000 + resumable.FEW)}
-    assert max(ranks[s] for s in few) < min(ranks[s] for s in set(ranks) - few)
+def test_what_is_missing_is_asked_for_on_both_plants_drawn_ones_first(resumable: Any, tmp_path: Path) -> None:
+    seeds = resumable.drawn_seeds("made", 6)
+    runs = sorted(resumable.wanted(benchmark(resumable, tmp_path / "a.csv", []), "made"), key=lambda r: r[0])
+    assert [run for _, _, run in runs][:4] == [(p, s) for s in seeds[:2] for p in ("drawn", "exact")]
+    assert {run for _, _, run in runs} == {(p, s) for s in seeds for p in ("drawn", "exact")}
+    some = [row(seeds[0], True), row(seeds[3], False, "exact"), row(seeds[1], True, "")]
+    left = {run for _, _, run in resumable.wanted(benchmark(resumable, tmp_path / "a.csv", some), "made")}
+    assert len(left) == 10
+    assert ("drawn", seeds[1]) in left  # a row of the older ground is none of this plant
+    other = {run for _, _, run in resumable.wanted(benchmark(resumable, tmp_path / "a.csv", some), "later")}
+    assert len(other) == 12  # another commit draws others
 
 
-def test_the_last_row_of_a_seed_counts(resumable: Any, tmp_path: Path) -> None:
-    rows = [row(0, True), row(1, True), row(1, False, "new"), row(1000, True, "new")]
+def test_comparisons_come_later_a_few_of_each_first(resumable: Any, tmp_path: Path) -> None:
+    aside = {run: rank for rank, _, run in resumable.wanted(benchmark(resumable, tmp_path / "a.csv", [], True), "made")}
+    plain = {run: rank for rank, _, run in resumable.wanted(benchmark(resumable, tmp_path / "b.csv", []), "made")}
+    seeds = resumable.drawn_seeds("made", 6)
+    few, rest = seeds[: resumable.FEW], seeds[resumable.FEW :]
+    assert max(plain["drawn", s] for s in few) < min(aside["drawn", s] for s in few)
+    assert max(aside["exact", s] for s in few) < min(plain["drawn", s] for s in rest)
+
+
+def test_completed_runs_are_counted_by_plant_with_their_interval(resumable: Any, tmp_path: Path) -> None:
+    rows = [row(0, True), row(1, True), row(1, False, commit="new"), row(1, True, "exact"), row(7, True, "")]
     told = [{k: str(v) for k, v in r.items()} for r in rows]
-    assert resumable.count(told, fresh=False) == "1/2"
-    assert resumable.count(told, fresh=True) == "1/1"
-    assert resumable.count(told[:2], fresh=True) == "-"
-    made = resumable.origin(benchmark(resumable, tmp_path / "a.csv", rows))
-    assert made == "Runs by commit: 2 of new, 1 of made. Still to be run: 13."
+    assert resumable.counted(told) == "1/2 (9-91) | 1/1 (21-100) | 1/1 (21-100)"
+    assert resumable.counted(told[:2]) == "2/2 (34-100) | - | -"
+    assert {r["seed"] for r in resumable.of_now(told)} == {"0", "1"}
+    assert resumable.of_now(told[4:]) == told[4:]
+    assert "1 of made (older ground)" in resumable.origin(benchmark(resumable, tmp_path / "a.csv", rows))
+
+
+def test_a_row_is_added_to_a_file_of_older_rows(resumable: Any, tmp_path: Path, monkeypatch: Any) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("case,robot,seed,completed,failed,commit\na,h1,3,True,,old\n")
+    monkeypatch.setattr(resumable, "run_row", lambda *_: row(5, False))
+    case = resumable.Case("a", "flat", "h1", (), 6)
+    resumable.add_row(resumable.Benchmark(path, (), [case], lambda *_: {}), case, ("drawn", 5), "made")
+    older, newer = resumable.rows_of(path)
+    assert (older["plant"], older["seed"], older["commit"]) == ("", "3", "old")
+    assert (newer["plant"], newer["seed"], newer["completed"]) == ("drawn", "5", "False")
 
 
 def test_the_index_names_every_page_and_every_page_its_command() -> None:
@@ -78,13 +102,23 @@ def test_every_case_of_the_tables_is_a_scene_that_loads(resumable: Any, monkeypa
     monkeypatch.syspath_prepend(str(FOLDER))
     from plantar.sim.run.scene import load_scene
 
-    for name in ("balance", "footholds", "push", "unknown_ground", "velocity", "stones", "guide", "force_only"):
+    for name in (
+        "balance",
+        "footholds",
+        "push",
+        "unknown_ground",
+        "velocity",
+        "stones",
+        "guide",
+        "force_only",
+        "push_steps",
+    ):
         monkeypatch.delitem(sys.modules, name, raising=False)
         script = __import__(name)
         names = [(case.name, case.robot) for case in script.BENCHMARK.cases]
         assert len(set(names)) == len(names)
         for case in script.BENCHMARK.cases:
             load_scene(case.scene, case.settings, case.robot)
-        made = {(r["case"], r["robot"]) for r in resumable.rows_of(script.BENCHMARK.path)}
+        made = {(r["case"], r["robot"]) for r in resumable.rows_of(script.BENCHMARK.path) if r.get("plant")}
         assert made <= set(names)
         monkeypatch.delitem(sys.modules, name)

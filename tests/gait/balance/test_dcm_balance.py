@@ -5,7 +5,13 @@ import pytest
 
 from plantar.errors import InputError
 from plantar.gait.balance.dcm_balance import BalanceGains, DcmBalance
+from plantar.gait.balance.law import Feet, FootState
+from plantar.gait.estimate.command_frame import CommandFrame
 from plantar.gait.plan.vrp_plan import VrpPlan
+from plantar.gravity import GRAVITY
+from plantar.mechanics.contact import Contact
+from plantar.mechanics.rotation import level_rotation
+from plantar.mechanics.wrench_cone import Rectangle
 
 OMEGA, MASS, PERIOD = 3.5, 95.0, 0.005
 BOX = np.array([[-0.1, -0.06], [0.1, -0.06], [0.1, 0.06], [-0.1, 0.06]])
@@ -45,6 +51,32 @@ def test_the_com_yields_to_a_push_and_returns() -> None:
 def test_no_zmp_is_no_error() -> None:
     state = DcmBalance(BalanceGains(), OMEGA, MASS, PERIOD).update(STILL, np.zeros(2), None, BOX)
     assert np.array_equal(state.com, STILL.com)
+
+
+@pytest.mark.parametrize("off", [0.0, 0.02])
+def test_feet_at_rest_give_way_to_what_they_press_against_each_other_alone(off: float) -> None:
+    """Away from the origin, and turned: each foot carries what the load transfer asks for, but for an opposite roll."""
+    turn = level_rotation(0.4)
+    balance, states = DcmBalance(BalanceGains(), OMEGA, MASS, PERIOD), {}
+    middle = np.array([2.0, -1.0])
+    places = {side: np.append(middle + turn[:2, 1] * y, 0.0) for side, y in (("left", 0.1), ("right", -0.1))}
+    for side, place in places.items():
+        moment = 0.5 * MASS * GRAVITY * (off if side == "left" else -off)
+        wrench = np.array([0.0, 0.0, 0.5 * MASS * GRAVITY, moment, 0.0, 0.0])
+        foot = FootState(place, turn, turn, np.zeros(2))
+        states[side] = foot.changed(contact=Contact(place, turn, Rectangle(-0.1, 0.1, -0.05, 0.05)), wrench=wrench)
+    feet = Feet(states, None, CommandFrame(np.zeros(3), PERIOD, 0.3)).changed(rests=True)
+    still = VrpPlan([0.0, 1.0], [middle, middle], OMEGA).at(0.5)
+    for _ in range(50):
+        balanced = balance.update(still, middle, middle, np.empty((0, 2)))
+        actions = balance.act(balanced, feet)
+    rolls = [actions[side].roll for side in ("left", "right")]
+    if off:
+        assert rolls[0] == pytest.approx(-rolls[1])
+        assert abs(rolls[0]) > 1e-4
+    else:
+        assert rolls == pytest.approx([0.0, 0.0], abs=1e-9)
+        assert [actions[side].pitch for side in ("left", "right")] == pytest.approx([0.0, 0.0], abs=1e-9)
 
 
 def test_gains_are_checked() -> None:
