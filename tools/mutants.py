@@ -29,7 +29,12 @@ MODULE, SOURCE = "PLANTAR_MUTANT_MODULE", "PLANTAR_MUTANT_SOURCE"
 _JUDGED = ("verdict", "step_count", "joint_limits", "push_truth", "recovery", "summary_truth")
 ROOMS: dict[str, tuple[str, ...]] = {
     "plantar/sim/judging": tuple(f"tests/sim/judging/test_{name}.py" for name in _JUDGED),
-    "plantar/gait/controller.py": ("tests/gait/test_controller.py", "tests/sim/judging/test_summary_truth.py"),
+    "plantar/gait/controller.py": (
+        "tests/gait/test_controller.py",
+        "tests/sim/judging/test_summary_truth.py",
+        "tests/sim/run/test_identified.py",
+        "tests/sim/run/test_runner.py",
+    ),
     "plantar/gait/balance": ("tests/gait/balance", "tests/gait/test_controller.py"),
     "plantar/gait/plan": ("tests/gait/plan", "tests/gait/test_owner.py"),
     "plantar/wholebody/tasks": ("tests/wholebody/tasks", "tests/wholebody/test_properties.py"),
@@ -104,7 +109,8 @@ def mutant_at(path: str, source: str, site: tuple[int, int]) -> Mutant:
 
 
 def _left_alone(tree: ast.AST) -> Iterator[ast.AST]:
-    """Nodes that are no logic: docstrings, annotations, messages of errors, imports, what only types need."""
+    """Nodes that are no logic: docstrings, annotations, messages of errors, imports, what only types need; and tuned
+    values, which are constants of a module and defaults of settings: a test of one would only repeat it."""
     for node in ast.walk(tree):
         roots: list[ast.AST | None] = []
         if isinstance(node, ast.Raise | ast.Import | ast.ImportFrom | ast.JoinedStr | ast.Assert):
@@ -114,6 +120,8 @@ def _left_alone(tree: ast.AST) -> Iterator[ast.AST]:
             roots = [node.returns, *node.decorator_list, *(a.annotation for a in arguments if a is not None)]
         elif isinstance(node, ast.AnnAssign):
             roots = [node.annotation]
+        elif isinstance(node, ast.Module | ast.ClassDef):
+            roots = [line.value for line in node.body if isinstance(line, ast.Assign | ast.AnnAssign)]
         elif isinstance(node, ast.Expr | ast.If | ast.Assign) and _is_no_logic(node):
             roots = [node]
         for root in roots:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from plantar.gait.command import FootTarget
+from plantar.gait.command import Command, FootTarget
 from plantar.gait.controller import WalkingController
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import level_rotation
@@ -74,3 +74,57 @@ def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(
     assert np.linalg.norm(target.position - place) > 0.01  # it is no small thing
     sole = rolled(lean) @ target.rotation
     assert sole == pytest.approx(np.eye(3), abs=5e-3)
+
+
+def first_tick(robot: str = "h1", settings: tuple[str, ...] = (), body: Any = None) -> tuple[Simulation, Command]:
+    """A robot that stands, and the first command that it is given."""
+    run = Simulation(load_scene("flat", ["steps=2", *settings], robot))
+    run.controller.body = body
+    for _ in range(20):
+        run.step_physics()
+    run.sensors.read_skins()
+    return run, run.controller.step(run.sensors.read_body())
+
+
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+def test_the_feet_carry_the_weight_within_their_soles(robot: str) -> None:
+    run, command = first_tick(robot)
+    forces = {side: foot.force for side, foot in command.feet.items()}
+    assert sum(force[2] for force in forces.values()) == pytest.approx(run.body.weight, rel=0.02)
+    for side, foot in command.feet.items():
+        off = foot.center_of_pressure - foot.position[:2]
+        low, high = run.robot.layouts[side].outline.min(axis=0), run.robot.layouts[side].outline.max(axis=0)
+        assert (low <= off).all()
+        assert (off <= high).all()
+        assert foot.rotation == pytest.approx(np.eye(3), abs=1e-6)
+    height = command.com[2] - 0.5 * sum(foot.position[2] for foot in command.feet.values())
+    assert height == pytest.approx(run.settings.com_height, abs=1e-6)
+    assert command.com[:2] == pytest.approx(command.state.com[:2], abs=0.02)
+
+
+@pytest.mark.parametrize("source", ["skin", "force_torque"])
+def test_loads_of_the_ankles_are_those_of_the_soles(source: str) -> None:
+    run, command = first_tick(settings=("sensing.force_torque=true", f"zmp_source={source}"))
+    assert sum(load.vertical_force for load in command.ankle_loads.values()) == pytest.approx(run.body.weight, rel=0.1)
+    for side, load in command.ankle_loads.items():
+        skin = command.percepts[side]
+        assert load.vertical_force == pytest.approx(skin.vertical_force, rel=0.1)
+        assert load.position_cop_in_sole == pytest.approx(skin.position_cop_in_sole, abs=0.01)
+
+
+def test_a_body_whose_com_is_elsewhere_is_commanded_so() -> None:
+    shift = np.array([0.012, -0.007, 0.003])
+    body: Any = SimpleNamespace(com_shift=shift, lean=0.0, joint_offsets=None, stand=lambda *_: None)
+    (_, plain), (_, shifted) = first_tick(settings=("identify=false",)), first_tick(body=body)
+    assert plain.com - shifted.com == pytest.approx(shifted.rotation_torso @ shift, abs=1e-6)
+
+
+def test_where_the_feet_level_themselves_each_tick_teaches_the_slope(controller: WalkingController) -> None:
+    seen: list[tuple[Any, ...]] = []
+    slope: Any = SimpleNamespace(update=lambda *given: seen.append(given), slope=lambda side: np.zeros(2))
+    state: Any = SimpleNamespace(rotations_sole={"left": np.eye(3)}, loads={"left": 400.0, "right": 400.0})
+    phases = controller.schedule.phases
+    for phase in (phases[0], next(p for p in phases if p.swing)):
+        controller._level(slope, phase, state)
+    assert [given[2] for given in seen] == [True, False]
+    assert all(given[:2] == (state.rotations_sole, state.loads) for given in seen)

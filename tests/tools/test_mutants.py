@@ -38,7 +38,7 @@ def test_every_kind_of_change_is_made_and_nothing_that_is_no_logic() -> None:
         "x > LIMIT and side == 'left'  ->  x > LIMIT or side == 'left'",
         "side == 'left'  ->  side != 'left'",
         "'left'  ->  'right'",
-        "2.0  ->  3.0",
+        "1  ->  2",
         "math.atan2(x, -1.0)  ->  math.atan2(-1.0, x)",
         "-1.0  ->  1.0",
         "math.atan2(x, -1.0) * x  ->  math.atan2(x, -1.0) / x",
@@ -48,7 +48,10 @@ def test_every_kind_of_change_is_made_and_nothing_that_is_no_logic() -> None:
         "total - x  ->  total + x",
     ):
         assert change in changes
-    assert not any("too large" in m.change or "x + 1" in m.change or "Docs" in m.change for m in found)
+    assert not any(
+        m.change.startswith("2.0") or "too large" in m.change or "x + 1" in m.change or "Docs" in m.change
+        for m in found
+    )
     plain = ast.unparse(ast.parse(SOURCE))
     assert all(m.source != plain for m in found)
     assert len({m.source for m in found}) == len(found)
