@@ -25,7 +25,7 @@ def told(summary):
     )
 
 
-# A scene says what differs: everything that a robot has that was built with care, and how much of it.
+# A scene shows what differs: everything that a robot has that was built with care, and how much of it.
 for level in (0, 0.2, 0.5):
     scene = load_scene("flat", [*SHORT, "plant=random", f"plant.level={level}"])
     summary = Simulation(scene, seed).run()
@@ -33,7 +33,7 @@ for level in (0, 0.2, 0.5):
     for name, value in summary.get("plant", {}).items():
         print(f"    {name}: {np.round(value, 4).tolist()}")
 
-# One thing alone, as a number: the walk's own model says 86 kg, and so does the controller's.
+# One thing alone, as a number: the walk's own model states 86 kg, and so does the controller's.
 simulation = Simulation(load_scene("flat", [*SHORT, "mass_ratio=1.05"]), seed)
 true_mass = float(simulation.world.model.body_subtreemass[simulation.world.torso])
 print(f"the controller takes it for {simulation.legs.mass:.1f} kg, the ground carries {true_mass:.1f} kg")

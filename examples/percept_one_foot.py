@@ -1,4 +1,4 @@
-"""What one sole feels on a stone under its inner half: nothing is computed before it is asked for.
+"""What one sole measures on a stone under its inner half: nothing is computed before it is asked for.
 
 python examples/percept_one_foot.py
 """

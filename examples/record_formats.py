@@ -1,4 +1,4 @@
-"""One walk in four files of four makers: each is told by its content and becomes the same recording.
+"""One walk in four files of four makers: each is recognised by its content and becomes the same recording.
 
 python examples/record_formats.py
 """
@@ -25,7 +25,7 @@ with TemporaryDirectory() as name:
     heads = ["time [s]", *(f"left {k} [N]" for k in range(99)), *(f"right {k} [N]" for k in range(99))]
     table = np.column_stack([walk.time, left, right])
     np.savetxt(folder / "table.csv", table, delimiter=",", header=",".join(heads), comments="")
-    np.savez(folder / "bare.npz", time=walk.time, values=left)  # says neither foot nor unit: the user does
+    np.savez(folder / "bare.npz", time=walk.time, values=left)  # states neither foot nor unit: the user does
 
     for file in sorted(folder.iterdir()):
         options = ReadOptions(unit="N", side="left") if file.stem == "bare" else None

@@ -1,4 +1,4 @@
-"""A mask and a measure of one's own over every step that the analysis finds.
+"""A mask and your own measure over every step that the analysis finds.
 
 python examples/record_own_metric.py [RECORDING]
 """

@@ -1,4 +1,4 @@
-"""Record a sensor of one's own: an MCAP file that Foxglove opens and `plantar analyze` reads.
+"""Record your own sensor: an MCAP file that Foxglove opens and `plantar analyze` reads.
 
 python examples/record_own_sensor.py [RUN.mcap]
 """
@@ -19,7 +19,7 @@ path = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(mkdtemp()) / "run.mcap"
 
 with Recorder(path, {"robot": "mine"}, soles) as recorder:
     skins = {side: recorder.channel(f"/skin/{side}", [("force", len(sole))]) for side, sole in soles.items()}
-    motors = recorder.channel("/motors", [("current", 2), ("voltage", 1)])  # whatever else there is
+    motors = recorder.channel("/motors", [("current", 2), ("voltage", 1)])  # any else there is
     for k in range(1000):
         time = 0.01 * k
         for side, shift in (("left", 0.0), ("right", 0.55)):

@@ -3,7 +3,7 @@
     python examples/skin_arm.py
 
 Plain MuJoCo, no runner: what a robot's own computer would do at each tick. The tip's task stands above the skin's, so
-what touches the arm moves it in the null space of the tip alone, which does not feel a force that the skin tells of.
+what touches the arm moves it in the null space of the tip alone, which does not feel a force that the skin shows.
 """
 
 import mujoco

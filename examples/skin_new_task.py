@@ -1,9 +1,9 @@
-"""A task of one's own is one class: here a link that keeps its heading, like a tray that must not turn.
+"""A task of your own is one class: here a link that keeps its heading, like a tray that must not turn.
 
     python examples/skin_new_task.py
 
-It says its Jacobian and the acceleration that it asks for; in which order it stands to others is decided by the stack.
-The same stack is run with the task and without it, while the tip is sent to a place.
+It states its Jacobian and the acceleration that it asks for; in which order it stands to others is decided by the
+stack. The same stack is run with the task and without it, while the tip is sent to a place.
 """
 
 import mujoco

@@ -1,4 +1,4 @@
-"""Squares, round FSRs and a sheet on one sole: fitted, laid out in a file, read back, and what each tells of a load.
+"""Squares, round FSRs and a sheet on one sole: fitted, laid out in a file, read back, and what each shows a load.
 
     python examples/sole_other_cells.py [PICTURE.png]
 

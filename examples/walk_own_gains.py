@@ -1,4 +1,4 @@
-"""Balance gains of one's own: a sweep over a gain while the robot is pushed, and the one that ends nearest upright.
+"""Balance gains of your own: a sweep over a gain while the robot is pushed, and the one that ends nearest upright.
 
 python examples/walk_own_gains.py [FOLDER]
 """

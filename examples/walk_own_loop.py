@@ -1,4 +1,4 @@
-"""The walking controller in a loop of one's own: what a robot's computer does 200 times a second.
+"""The walking controller in your own loop: what a robot's computer does 200 times a second.
 
     python examples/walk_own_loop.py
 

@@ -1,4 +1,4 @@
-"""A proposer of one's own: a reason to move a footstep, in one class, without touching the controller.
+"""A proposer of your own: a reason to move a footstep, in one class, without touching the controller.
 
     python examples/walk_own_proposer.py
 

@@ -1,4 +1,4 @@
-"""A terrain of one's own: solids in a scene file, walked over by feet that see the ground come.
+"""A terrain of your own: solids in a scene file, walked over by feet that see the ground come.
 
 python examples/walk_own_terrain.py
 """

@@ -1,11 +1,11 @@
-"""Open every page of the built site in Chromium, and say what a reader could not read or what would leave the machine.
+"""Open every page of the built site in Chromium, and show what a reader could not read or what would leave the machine.
 
     make docs && python tools/check_site.py            (options: FOLDER, --only REGEX, --axe FILE)
 
 Each page is opened light and dark, at the width of a desk and of a telephone. Findings, one a line: of axe-core where
 `sh tools/fetch-axe .venv/axe` fetched it, requests to other servers, errors of scripts, links to what is not there, and
 text that makes the page wider than the window. Exit code 1 where there is one, 2 without Chromium or site. Pages
-without findings are noted beside the site (FOLDER.checked.json), and opened again when they or what they share change.
+without findings are noted next to the site (FOLDER.checked.json), and opened again when they or what they share change.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Check that a change leaves walks the same to the last bit: `python tools/same_motion.py record|check FILE [--short]`.
 
 `record` walks the scenes below with both robots and keeps a digest of every topic of their recordings, one for each
-second of a walk; `check` walks them again and says which topic differs from when on. A commit that only moves code must
-not change one bit; one that mends a fault names it and shows here which walks it changes.
+second of a walk; `check` walks them again and names which topic differs from when on. A commit that only moves code
+must not change one bit; one that mends a fault names it and shows here which walks it changes.
 """
 
 from __future__ import annotations

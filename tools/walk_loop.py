@@ -31,7 +31,7 @@ def main(path: str) -> None:
     """Walk, film, and keep one cycle.
 
     Args:
-        path: File to write; its suffix says which format (.webp, .gif, .png).
+        path: File to write; its suffix names which format (.webp, .gif, .png).
     """
     with tempfile.TemporaryDirectory() as folder:
         video = Path(folder) / "walk.mp4"

@@ -49,7 +49,7 @@ class Result:
         median_us: Median time of a call in microseconds.
         spread: Interquartile range of the rounds, as a share of the median.
         ratio: Its time over that of our first route in the same run.
-        error: Largest relative error over the cases; None where there is nothing to compare.
+        error: Largest relative error over the cases; None without a reference.
     """
 
     kernel: str
@@ -85,7 +85,7 @@ def compare(
         kernel: What is computed.
         size: What size it has.
         routes: The routes, our own first.
-        reference: What is right; None where there is nothing to compare.
+        reference: What is right; None without a reference.
         rounds: Rounds to take the median over.
         most: Time in s to spend on a route.
 

@@ -242,7 +242,7 @@ def _readings_alone(readings: list[Reading]) -> None:
 
 
 def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
-    """Compare wrenches and support polygons of a whole recording, beside a copy of its memory.
+    """Compare wrenches and support polygons of a whole recording, next to a copy of its memory.
 
     Args:
         frames: Frames of the recording.

@@ -138,7 +138,7 @@ def _is_rival(result: Result) -> bool:
 
 
 def targets(results: Sequence[Result]) -> list[Target]:
-    """What is wanted of the kernels beside what a run gave.
+    """What is wanted of the kernels next to what a run gave.
 
     Args:
         results: Results of `compare_kernels`.

@@ -23,7 +23,7 @@ def _option(default: Any, text: str, *names: str, metavar: str | None = None) ->
 
 @dataclass(frozen=True)
 class FileOrder:
-    """What is known of a file beside what it holds.
+    """What is known of a file next to what it holds.
 
     Example:
         >>> FileOrder(side="left").unit is None

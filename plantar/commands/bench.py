@@ -31,15 +31,15 @@ def bench(
 ) -> None:
     """Measure run time against error, and write tables, figures and bench.json.
 
-    kernels: the perception's kernels beside scipy, shapely, cv2 and approximations, with the error against exact
+    kernels: the perception's kernels next to scipy, shapely, cv2 and approximations, with the error against exact
     references; under 2 minutes.
 
     contact: ways to simulate a sole's contact and its taxels, against MuJoCo's exact contact wrench. Exit code 1 if the
     chosen model is not as right as it must be (centre of pressure within 2 mm, tip-over edge within 1 mm).
 
     scenes: short walks over the settings that trade run time against error (physics step, contact, solver, skin and
-    control rate, taxel size), beside a fine reference of the same walk: half an hour; --quick 3 minutes. scene_runs.csv
-    goes on where it was left.
+    control rate, taxel size), next to a fine reference of the same walk: half an hour; --quick 3 minutes.
+    scene_runs.csv goes on where it was left.
 
     skip: short walks with what a scene needs and with everything, to the same last bit: what was skipped, the time it
     saves, the time by room, and everything but the physics over the physics alone; 5 minutes. Exit code 1 if a motion

@@ -8,7 +8,7 @@ __all__ = ["COMMAND", "doctor"]
 
 
 def doctor(as_json: Json = False) -> None:
-    """Say what is installed of what Plantar can use, what is missing or broken, and how to get it.
+    """State what is installed of what Plantar can use, what is missing or broken, and how to get it.
 
     Exit code 1 if something that is always needed is missing, or something that is installed cannot be loaded.
 

@@ -31,9 +31,9 @@ def robot(
     """Make a robot that walks of its model: robot.toml, a copy of the model, layouts of its shoes and a picture.
 
     Finds legs (two chains of five hinges or more), soles, IMU and limits, and fits height, stance, pace and servo gains
-    to them. Each value in robot.toml says how it was found.
+    to them. Each value in robot.toml describes how it was found.
 
-    With check, measures what would go wrong in a scene, and says which value works; exit code 1 if something would.
+    With check, measures what would go wrong in a scene, and names which value works; exit code 1 if something would.
 
     Example: plantar robot my_robot.urdf -o out/mine && plantar sim flat --robot out/mine/robot.toml
 

@@ -46,7 +46,7 @@ class Command(NamedTuple):
 def run_command(app: typer.Typer) -> int:
     """Run the command that the process's arguments name.
 
-    Typer's own way to run it would print several lines for a wrong argument, and end with 1 where nobody reads stdout.
+    Typer's own way to run it would print several lines for a wrong argument, and end with 1 where no one reads stdout.
 
     Args:
         app: The commands.
@@ -55,7 +55,7 @@ def run_command(app: typer.Typer) -> int:
         The exit code.
 
     Raises:
-        InputError: If an argument is wrong; the message says which help tells more.
+        InputError: If an argument is wrong; the message names which help shows more.
         KeyboardInterrupt: If the user stopped it.
 
     Example:
@@ -67,7 +67,7 @@ def run_command(app: typer.Typer) -> int:
         0
         >>> sys.argv = arguments
     """
-    usage_error = cast(type[Exception], typer.BadParameter.__base__)  # typer exports it under no name of its own
+    usage_error = cast(type[Exception], typer.BadParameter.__base__)  # typer exports it under no public name
     command = typer.main.get_command(app)
     if "_PLANTAR_COMPLETE" in os.environ:  # a shell asks how a word goes on; click answers it and ends
         command.main(prog_name="plantar")
@@ -97,7 +97,7 @@ def _command_path(command: Any) -> str:
 def end_command(
     result: Mapping[str, Any], as_json: bool, text: str, failures: Iterable[str] = (), failed: bool = False
 ) -> None:
-    """Tell what a command found: one JSON object or words on stdout, what failed on stderr.
+    """Show what a command found: one JSON object or words on stdout, what failed on stderr.
 
     Args:
         result: What was found.
@@ -121,7 +121,7 @@ def end_command(
 
 
 def file_lines(names: Iterable[str]) -> str:
-    """Names of files, each in a line of its own below what was found.
+    """Names of files, each in its own line below what was found.
 
     Args:
         names: The names.

@@ -5,8 +5,8 @@
 | 0, 1 | what the command returns; 1 also where a sweep's workers went away |
 | 2 | bad input, a file that cannot be read or written, or not enough memory |
 | 130 | interrupted (Ctrl-C) |
-| 129, 143 | the terminal was closed (SIGHUP), the process was told to end (SIGTERM) |
-| 141 | nobody reads stdout any more, as behind `| head`; told by the code alone |
+| 129, 143 | the terminal was closed (SIGHUP), the process was asked to end (SIGTERM) |
+| 141 | no one reads stdout any more, as behind `| head`; recognised by the code alone |
 """
 
 from __future__ import annotations
@@ -51,11 +51,11 @@ _ENDED_BY = {"SIGTERM": "told to end (SIGTERM)", "SIGHUP": "ended: its terminal 
 
 
 class Terminated(SystemExit):
-    """The process was told to end; raised where it is, so that what is open is closed and temporaries are removed.
+    """The process was asked to end; raised where it is, so that what is open is closed and temporaries are removed.
 
     Args:
         number: The signal.
-        text: What to tell; None for what the signal means.
+        text: What to show; None for what the signal means.
 
     Example:
         >>> Terminated(signal.SIGTERM).code

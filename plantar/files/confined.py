@@ -1,7 +1,7 @@
-"""Calling a library on a stranger's file in a process of its own, whose memory, time and output have limits.
+"""Calling a library on a stranger's file in its own process, whose memory, time and output have limits.
 
 Libraries of native code may crash on a damaged file, and none of them asks how much of it there is before it takes
-memory for what the file says.
+memory for what the file states.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _STARTING = 10.0  # s that starting the process may take on a busy machine
 def confined(
     function: str, path: str | os.PathLike[str], error: type[PlantarError], what: str, memory: float, seconds: float
 ) -> dict[str, NDArray[Any]]:
-    """Call a function on a file in a process of its own.
+    """Call a function on a file in its own process.
 
     Args:
         function: Its module and name, as "package.module:name"; it takes the file's path and returns arrays by name.
@@ -108,7 +108,7 @@ def _called_on_file() -> None:
     _limit(*map(int, limits))
     try:
         arrays = call(Path(path))
-    except Exception as error:  # of every kind: one line of it is told
+    except Exception as error:  # of every kind: one line of it is given
         print(f"{type(error).__name__}: {one_line(error)}", file=sys.stderr)
         sys.exit(1)
     buffer = io.BytesIO()

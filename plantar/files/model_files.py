@@ -4,7 +4,7 @@
 - A model (MJCF, URDF) names files in its own folder and below, and in the folder above it, where packages keep their
   meshes; but not where that folder is the home folder, the one of temporary files, or one that holds either.
 - `package://name/...` is looked for in the folders above the model that are called so.
-- Folders that the environment variable PLANTAR_MODEL_FOLDERS names (separated as PATH is) are allowed besides.
+- Folders that the environment variable PLANTAR_MODEL_FOLDERS names (separated as PATH is) are allowed in addition.
 
 Links are followed before a place is judged.
 """
@@ -107,7 +107,7 @@ def folders_of_model(file: Path) -> tuple[Path, ...]:
 
 
 def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -> Path:
-    """Where a URDF's mesh lies: `package://` is looked for beside the file and in the folders above it.
+    """Where a URDF's mesh lies: `package://` is looked for next to the file and in the folders above it.
 
     Args:
         file: The URDF.
@@ -205,7 +205,7 @@ def _included(file: Path, main: Path, seen: set[Path], error: type[PlantarError]
 def check_model(file: Path, error: type[PlantarError]) -> None:
     """Refuse a model that names files where it may not, or asks for more than a robot is; for a library that reads it.
 
-    A model that did not come with Plantar is read by MuJoCo in a process of its own first.
+    A model that did not come with Plantar is read by MuJoCo in its own process first.
 
     Args:
         file: The model.

@@ -30,7 +30,7 @@ def is_bomb(size: float, unpacked: float) -> bool:
 
     Args:
         size: Bytes of the file.
-        unpacked: Bytes that it says it unpacks to.
+        unpacked: Bytes that it states it unpacks to.
 
     Returns:
         Whether it is.

@@ -1,4 +1,4 @@
-"""A robot's walking controller with the kinematics of its legs, for a control loop of one's own.
+"""A robot's walking controller with the kinematics of its legs, for your own control loop.
 
 No simulator is needed: what comes in are readings of the robot's sensors, what goes out are targets of its joints.
 """
@@ -75,7 +75,7 @@ class RobotController:
     Example:
         >>> walker = load_controller("h1", {"walk": {"steps": 4}})
         >>> walker.period, len(walker.joints), round(walker.controller.end, 1)
-        (0.005, 12, 8.8)
+        (0.005, 12, 9.7)
     """
 
     robot: Robot

@@ -2,7 +2,7 @@
 
 What walks is the same for every robot: a free base, six or more leg joints a side with position servos, a shoe on each
 foot whose contact box is the sole layout's rectangle, and an IMU. Everything else of the file (other joints, actuators,
-sensors, keyframes, contacts, gravity and switches of its own simulation) does not take part.
+sensors, keyframes, contacts, gravity and switches for its own simulation) does not take part.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def spec_from_file(robot: Robot) -> Any:
 def _parsed(robot: Robot) -> Any:
     """The model file as an editable `mujoco.MjSpec`."""
     assert robot.model_file is not None
-    check_model(robot.model_file, RobotError)  # MuJoCo would follow whatever it names
+    check_model(robot.model_file, RobotError)  # MuJoCo would follow no matter what it names
     try:
         spec = mujoco.MjSpec.from_file(str(robot.model_file))
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors

@@ -79,7 +79,7 @@ class Robot:
         foot: Shape of the bare foot, where the file gives it.
         shoe_thickness: Outer contact face below the bare sole in m.
         shoe_mass: Mass of one shoe in kg.
-        rim_stiffness: Stiffness of the shoe beside its taxels over theirs (`plantar.sim.sensing.blind_rim`); 0 where
+        rim_stiffness: Stiffness of the shoe next to its taxels over theirs (`plantar.sim.sensing.blind_rim`); 0 where
             its pad is relieved.
         contact_damping: Damping ratio of the shoe on the ground; 1 is critical for a sole that carries itself alone.
         sole_origins: Sole frame's origin (3,) of each foot in the frame of its body in m.
@@ -99,15 +99,15 @@ class Robot:
         largest_crouch_partial: The same for a walk that stands on parts of its soles (`control.footholds`,
             `control.conform`), where a centre of pressure at the heel loads the knee more.
         trunk_lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
-        single_support: t_ss in s of a walk whose scene does not say; 0 takes the same number of beats of
+        single_support: t_ss in s of a walk whose scene does not state; 0 takes the same number of beats of
             the leg as for every robot (`plantar.robots.controller_settings`).
         double_support: t_ds likewise.
         approach_support: Least t_ss in s of a walk whose swing comes down slowly (`walk.approach_height`) and so has to
             reach its place in three fifths of it: for motors that are weak; 0 for those that are not.
         ankle_reach: How far in m from the sole frame's origin, which is below the ankle, along the sole, the ankle's
             motor bears the robot; nothing farther off is loaded.
-        rocks: Whether it takes its steps in its own time and without a slow approach, whatever a scene asks for: legs
-            without ankle roll rock from foot to foot and cannot wait on one of them.
+        rocks: Whether it takes its steps in its own time and without a slow approach, regardless of what a scene asks
+            for: legs without ankle roll rock from foot to foot and cannot wait on one of them.
         pace: Beats of the leg that a pace lasts, the unit of time of scenes that ask for quick steps
             (`plantar.settings.body_scale`).
         stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.

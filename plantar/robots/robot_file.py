@@ -224,7 +224,7 @@ class _RobotFile(RobotTables):
 
     def _sole_frames(self, kind: str) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:
         """Origin (3,) in m and rotation (3, 3) of each sole frame in its foot's body; the right mirrors the left where
-        the file does not say otherwise."""
+        the file does not state otherwise."""
         if kind == "biped":
             return {side: (np.zeros(3), np.eye(3)) for side in SIDES}
         given = self.table("shoe")
@@ -332,8 +332,8 @@ class _RobotFile(RobotTables):
 
 
 def _exported_shoe(layout: Path) -> dict[str, Any]:
-    """What `plantar shoe` wrote of a shoe beside its layout: mass in kg, thickness in m and the stiffness of the
-    rim beside its taxels; a robot's file may say otherwise."""
+    """What `plantar shoe` wrote of a shoe next to its layout: mass in kg, thickness in m and the stiffness of the
+    rim next to its taxels; a robot's file may state otherwise."""
     found = read_json(layout, RobotError, str(layout)).get("shoe", {})
     names = ("mass", "thickness", "rim_stiffness")
     return {k: found[k] for k in names if k in found} if isinstance(found, dict) else {}

@@ -59,7 +59,7 @@ class Walk(Settings):
         wander: Largest velocity [forward, left, turn], either way, of those that the seed draws, a new one each
             `change_every`.
         change_every: Time from one such velocity to the next.
-        until: Time after which a walk at a velocity is told to stop.
+        until: Time after which a walk at a velocity is asked to stop.
     """
 
     steps: int = whole(20, "steps", 0, 100000)
@@ -133,12 +133,12 @@ class Control(Settings):
     Attributes:
         feedback: False walks the plan in open loop.
         zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
-        footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole; "force" goes by the
+        footholds: What shows what a foot stands on: "off" takes every foothold for a whole sole; "force" uses the
             taxels' forces, "skin" by what they see before they touch, too.
         pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
         feasibility: Rule by which a foothold is refused that is higher than expected: "off", "skin" (supported area) or
             "force_torque" (moment at the ankle). Needs pfc.
-        conform: Feet take the ground's shape: standing soles turn until the ground carries them where they shall be
+        conform: Feet take the ground's shape: standing soles turn until the ground carries them where they should be
             loaded. For bumps; needs pfc.
         identify: The controller identifies how robot and sensors differ from its model, such as the gyro's bias.
         step_timing: The controller ends a single support sooner or later than planned where the DCM asks for it; not of
@@ -146,12 +146,12 @@ class Control(Settings):
         step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks. For ground where a
             foot may stand anywhere.
         learn_strides: Strides become longer by what pushed steps went farther; needs `step_adjustment`.
-        push_estimate: What tells of a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
-            "skin" on the upper body, and the soles where that feels nothing.
+        push_estimate: What shows a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
+            "skin" on the upper body, and the soles where that measures nothing.
         dcm_estimate: What estimates the CoM's velocity, and so the DCM: "observer", or "kalman", a Kalman filter that
-            takes what neither ZMP nor push explain for a push that nothing feels.
+            takes what neither ZMP nor push explain for a push that nothing measures.
         swing_shape: Path of the swing foot: "polynomial" changes only with the plan; "fit" is fitted at every tick to
-            where and when the foot shall land.
+            where and when the foot should land.
         period: Control period in s.
         physics_period: Time step of the simulated physics in s; a contact takes five of them.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.

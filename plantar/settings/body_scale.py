@@ -3,7 +3,7 @@
 Two robots of one shape and one distribution of mass walk alike when every length is the same share of the leg, every
 force the same share of the weight and every time the same number of beats sqrt(leg / g) (dynamic similarity: Alexander,
 "The gaits of bipedal and quadrupedal animals", Int. J. Robotics Research 3(2), 1984). A quantity that is stated in
-these units therefore holds for a robot of 3 kg as for one of 95 kg; `BodyScale` says what it is in SI for one of them.
+these units therefore holds for a robot of 3 kg as for one of 95 kg; `BodyScale` shows what it is in SI for one of them.
 
 Motors are not similar: a small robot's geared servos are slow for its beat. A time in paces is as many beats as a
 robot's motors need for what others do in one.

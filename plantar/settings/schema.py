@@ -1,4 +1,4 @@
-"""The schema of settings: a frozen dataclass whose fields say their default, unit, range or choices, and are checked.
+"""The schema of settings: a frozen dataclass whose fields state their default, unit, range or choices, and are checked.
 
 A class of settings derives from `Settings`, which makes it a frozen dataclass, and makes its fields with `number`,
 `share`, `whole`, `choice`, `switch`, `text` or `tables`; what each means stands under "Attributes" in its docstring. An
@@ -50,8 +50,8 @@ def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -
     Args:
         default: Its default as a share.
         unit: What of the body it is a share of, such as "weight", "leg" or "leg/beat".
-        low: Smallest allowed value, whatever the robot, in SI.
-        high: Largest allowed value, whatever the robot, in SI.
+        low: Smallest allowed value, regardless of the robot, in SI.
+        high: Largest allowed value, regardless of the robot, in SI.
 
     Returns:
         The field of a dataclass.
@@ -94,7 +94,7 @@ def switch(default: bool) -> Any:
 
 
 def tables(allowed: str = "a list of tables", words: tuple[str, ...] = ()) -> Any:
-    """A field for a list of tables, or of what else `allowed` says, which its class checks itself; empty by default.
+    """A field for a list of tables, or of what else `allowed` states, which its class checks itself; empty by default.
 
     Args:
         allowed: What it takes, in words.
@@ -112,7 +112,7 @@ def text(default: str) -> Any:
 
 
 class Setting(NamedTuple):
-    """What there is to say of one setting.
+    """What there is to state of one setting.
 
     Attributes:
         name: Name of the field.
@@ -137,10 +137,10 @@ class Settings:
     """Base of a class of settings; fields made by the functions of this module are checked when it is made.
 
     Deriving from it makes a frozen dataclass, so that no class of settings can forget to be frozen, or to be checked. A
-    decorator of its own, which could undo that, is a TypeError.
+    decorator, which could undo that, is a TypeError.
 
     Raises:
-        InputError: If a value is not allowed; the message names it and says what is.
+        InputError: If a value is not allowed; the message names it and shows what is.
 
     Example:
         >>> class Spring(Settings):
@@ -210,11 +210,11 @@ class Settings:
 
         Args:
             value: The member: a number, or a text with a unit such as "0.03 leg".
-            unit: The unit of SI that it is told in.
+            unit: The unit of SI that it is given in.
             owner: What holds the member, for messages.
 
         Returns:
-            What the text comes to for the body that these settings count for; whatever else was given as it is.
+            What the text comes to for the body that these settings count for; any else was given as it is.
 
         Raises:
             InputError: If the text has a unit of another kind.
@@ -258,10 +258,10 @@ class Settings:
 
     @classmethod
     def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
-        """What there is to say of each setting, in their order.
+        """What there is to state of each setting, in their order.
 
         Args:
-            body: The body for which defaults that are shares are told in SI.
+            body: The body for which defaults that are shares are given in SI.
 
         Returns:
             The settings.

@@ -37,7 +37,7 @@ def setting_text(found: Mapping[str, Setting]) -> str:
 
 
 def setting_rows(found: Mapping[str, Setting]) -> list[dict[str, Any]]:
-    """What there is to say of each setting as plain JSON values; `name` is the dotted one.
+    """What there is to state of each setting as plain JSON values; `name` is the dotted one.
 
     Args:
         found: Settings by their dotted names.

@@ -13,7 +13,7 @@ __all__ = ["refuse_unknown_keys"]
 def refuse_unknown_keys(
     given: Iterable[str], allowed: Iterable[str], where: str, error: type[PlantarError] = InputError, note: str = ""
 ) -> None:
-    """Refuse keys of a table that nobody reads: one that is misspelt would be ignored.
+    """Refuse keys of a table that no one reads: one that is misspelt would be ignored.
 
     Args:
         given: The table's keys.

@@ -1,7 +1,7 @@
 """The page itself: HTML, style, script, three.js and the walks in one file that asks for no other.
 
-three.js lies beside this file as its npm package has it (three 0.170.0, `build/three.module.min.js`, 692 kB, MIT
-licence). A page that loaded it from a server would be dead without a network, and would tell that server who looks at
+three.js lies next to this file as its npm package has it (three 0.170.0, `build/three.module.min.js`, 692 kB, MIT
+licence). A page that loaded it from a server would be dead without a network, and would show that server who looks at
 which recording.
 """
 
@@ -56,7 +56,7 @@ def write_page(
     if not 1 <= len(recordings) <= _MOST:
         raise InputError(f"{len(recordings)} recordings to show; allowed: 1, or {_MOST} side by side")
     walks = [read_walk(recording) for recording in recordings]
-    if len({walk.name for walk in walks}) < len(walks):  # the same scene twice: files tell them apart
+    if len({walk.name for walk in walks}) < len(walks):  # the same scene twice: files show them apart
         files = [Path(recording) for recording in recordings]
         known = [file.stem if len({f.stem for f in files}) == len(files) else str(file) for file in files]
         walks = [replace(walk, name=f"{walk.name} ({name})") for walk, name in zip(walks, known, strict=True)]

@@ -1,7 +1,7 @@
 """What a page shows of a recording: frames that move, shapes in them, and the force on the soles, at common times.
 
 A recording of `plantar sim` brings frames and shapes with it (topics "/tf" and "/scene/..."). Of an older one, or one
-of another robot, the soles are shown by themselves: where "/truth/left" says they are, or side by side.
+of another robot, the soles are shown by themselves: where "/truth/left" states they are, or side by side.
 """
 
 from __future__ import annotations

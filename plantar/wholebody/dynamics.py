@@ -13,7 +13,7 @@ __all__ = ["RobotDynamics"]
 class RobotDynamics(Protocol):
     """The equations of motion M q'' + bias = S^T tau + J^T f (T 3.1, 3.12, A 1) and the kinematics of links.
 
-    All Jacobians map the generalized velocity (n,) to velocities in the world frame. What nobody asks for need not be
+    All Jacobians map the generalized velocity (n,) to velocities in the world frame. What no one asks for need not be
     computed. Joints are the actuated velocity coordinates, in the model's order.
 
     Attributes:

@@ -33,12 +33,12 @@ class TaskStack:
     """Tasks by priority.
 
     Args:
-        levels: Tasks of each level, the highest priority first. May be assigned anew at any time.
+        levels: Tasks of each level, the highest priority first. May be assigned again at any time.
         support: Task above all levels on whose rows the robot stands; None for a fixed base.
         fusion: How demands are fused.
 
     Attributes:
-        silent: How many tasks had nothing to say, and were skipped, so far.
+        silent: How many tasks had nothing to state, and were skipped, so far.
     """
 
     def __init__(self, levels: Sequence[Sequence[Task]], support: Task | None = None, fusion: Fusion = fuse) -> None:

@@ -1,7 +1,7 @@
 """Torques for robots that take velocities or positions: a virtual admittance between (A 26, T 3.2.3).
 
 The torques of a stack drive a virtual robot, M_v q'' + D_v q' = tau - bias, and its motion is what the servos of the
-real one are told. Its mass may be the real one, so that priorities stay strict in what moves, or another.
+real one are given. Its mass may be the real one, so that priorities stay strict in what moves, or another.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class ResolverSettings(Settings):
 
 
 class SetPoint(NamedTuple):
-    """What servos are told.
+    """What servos are given.
 
     Attributes:
         position: Positions (k,) in rad or m.

@@ -46,7 +46,7 @@ def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
     its last joint.
 
     Args:
-        robot: The robot, which says which joints the legs have, and how it stands.
+        robot: The robot, which names which joints the legs have, and how it stands.
         model: A model with the robot in it.
 
     Returns:

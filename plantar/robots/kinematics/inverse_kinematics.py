@@ -5,7 +5,7 @@ as it is where the equations are well conditioned, no joint leaves its limits an
 so do almost all steps of a walk. Otherwise these rules hold:
 
 - **Levels.** The tasks of a level are solved in the null space of those of the levels before (Siciliano and Slotine
-  1991): a foot that shall carry nothing misses its target rather than move the foot that carries the robot.
+  1991): a foot that should carry nothing misses its target rather than move the foot that carries the robot.
 - **Damping.** With the singular values s of a level and near = max(0, 1 - (s / EPSILON)^2), each direction takes the
   step s r / (s^2 + d) for the residual r along it, with
 
@@ -19,7 +19,7 @@ so do almost all steps of a walk. Otherwise these rules hold:
   Take a limb bent by x near straight, whose reach falls by c x^2 / 2: s = c x, so out of reach by R the step is
   -c R x / (c^2 x^2 + d), and x goes to 0 where d >= c R / 2. S is the largest singular value of the level, which holds
   the levers of its joints: of a limb of n equal links with parallel axes c is 0.7 sqrt(n) S or less, 2 S up to n = 8.
-- The residual of a level counts with a length of 1 (m and rad) at most: from farther away a target only says where to.
+- The residual of a level counts with a length of 1 (m and rad) at most: from farther away a target only shows where to.
 - The largest step L has to be small enough not to carry a limb over the zone x < EPSILON / c in which damping sets in,
   from one side to the other: c L / 2 <= EPSILON. A leg with thigh and shank of 0.4 m has c = 0.13 m, so L up to 0.15.
 - **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture: a knee that is

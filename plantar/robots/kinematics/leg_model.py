@@ -29,8 +29,8 @@ _FULL_LEG = 6  # joints of a leg that can give its sole any pose
 
 
 class LegModel:
-    """Kinematics of a free-floating robot that moves its legs; other joints that it may have are where they are said to
-    be.
+    """Kinematics of a free-floating robot that moves its legs; other joints that it may have are where they are stated
+    to be.
 
     Args:
         model: The robot alone, first joint free, one hinge a leg joint.
@@ -132,7 +132,7 @@ class LegModel:
         self._reference.target = np.array(joints, dtype=float)
 
     def hold_others(self, joints: NDArray[np.float64]) -> None:
-        """Say where the joints are that are of no leg, for all that is computed from now on.
+        """State where the joints are that are of no leg, for all that is computed from now on.
 
         Args:
             joints: Their positions (o,) in the model's order in rad or m.

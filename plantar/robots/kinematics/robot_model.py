@@ -83,7 +83,7 @@ def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
 
     Args:
         robot: The robot.
-        worn: What it wears beside its file's model, such as an arm that moves.
+        worn: What it wears next to its file's model, such as an arm that moves.
 
     Returns:
         The model.

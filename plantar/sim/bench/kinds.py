@@ -30,7 +30,7 @@ class BenchOptions:
         first: Number of the first one.
         scene: Walks to run; all where empty.
         robot: Robots to run them with; all where empty.
-        quick: Run what tells most, once.
+        quick: Run what shows most, once.
     """
 
     layout: Path | None = None

@@ -55,7 +55,7 @@ def room_of(path: str) -> str | None:
 class RoomTimes:
     """Counts which room the program is in; a context manager for the main thread.
 
-    Each time the clock rings, the innermost function that belongs to a room is counted. The bell is heard when a
+    Each time the clock rings, the innermost function that belongs to a room is counted. The bell is received when a
     function of another language returns, so a long one is not interrupted and its caller is counted for it.
 
     Raises:

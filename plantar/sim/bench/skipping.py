@@ -42,7 +42,7 @@ def compare_skipping(
     """Run a scene with what it needs, with everything, and its physics alone.
 
     Args:
-        scene: Name of the scene; one in which nobody pushes and no ground moves.
+        scene: Name of the scene; one in which no one pushes and no ground moves.
         robot: Name of the robot.
         settings: What to change of it, as `key=value`.
         rounds: Rounds to take the medians over; 1 or more.

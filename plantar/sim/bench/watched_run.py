@@ -18,7 +18,7 @@ __all__ = ["WatchedSimulation", "replay_physics"]
 
 
 class WatchedSimulation(Simulation):
-    """A simulation that keeps what its physics was given and tells its motion in one number.
+    """A simulation that keeps what its physics was given and shows its motion in one number.
 
     Attributes:
         controls: Set-points of the servos at each physics step.

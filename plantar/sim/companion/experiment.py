@@ -1,7 +1,7 @@
 """What an experiment of the companion is: what surrounds a machine, who acts on it, and what counts as done.
 
 An experiment is one file in `sim/companion/experiments` with one class. Its controller gets what the machine's sensors
-say; what it is judged by is the true state, which the controller never sees.
+state; what it is judged by is the true state, which the controller never sees.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class CompanionControl(Settings):
 
     Attributes:
         period: Control period.
-        servo: What the drives take; "machine" for what the machine's file says.
+        servo: What the drives take; "machine" for what the machine's file states.
         encoder_noise: Standard deviation of joint positions, in rad or m.
         velocity_noise: Standard deviation of joint speeds, in rad/s or m/s.
         attitude_noise: Standard deviation of a floating base's orientation.
@@ -72,7 +72,7 @@ class Controller(Protocol):
 
         Args:
             robot: Kinematics and dynamics at the measured state.
-            reading: What the skin says.
+            reading: What the skin states.
 
         Returns:
             Torques or forces, gravity included, in the order of `robot.joints`.
@@ -165,7 +165,7 @@ class Experiment:
     Attributes:
         duration: Simulated time in s.
         fell: Whether the machine fell; the run ends then.
-        done: Whether there is nothing left to see; the run ends then.
+        done: Whether all has been seen; the run ends then.
         rng: Random numbers of the seed, for what the experiment leaves to chance.
     """
 

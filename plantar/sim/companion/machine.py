@@ -1,6 +1,6 @@
-"""Machines with skin: an arm, an arm on wheels or a whole body, from an MJCF and a TOML beside it.
+"""Machines with skin: an arm, an arm on wheels or a whole body, from an MJCF and a TOML next to it.
 
-The TOML says what the MJCF does not: which kind of base carries the joints, what each joint can do, the posture, how
+The TOML shows what the MJCF does not: which kind of base carries the joints, what each joint can do, the posture, how
 the joints are commanded, and where the skin is. Any MJCF arm becomes a machine by such a file alone.
 """
 
@@ -233,7 +233,7 @@ def _parsed(file: Path, where: str) -> Any:
     """A model file as an editable `mujoco.MjSpec`."""
     if not is_file(file):
         raise RobotError(f"{where}: model file {file} does not exist")
-    check_model(file, RobotError)  # MuJoCo would follow whatever it names
+    check_model(file, RobotError)  # MuJoCo would follow no matter what it names
     try:
         spec = mujoco.MjSpec.from_file(str(file))
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors

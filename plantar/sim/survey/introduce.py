@@ -145,7 +145,7 @@ def introduce(
         The robot, and what it rests on.
 
     Raises:
-        RobotError: If the file holds no robot that can walk on two legs; the message says why.
+        RobotError: If the file holds no robot that can walk on two legs; the message explains why.
         FootError: If a foot cannot carry taxels.
     """
     tell = progress or (lambda fraction, text: None)

@@ -23,7 +23,7 @@ _NEAR_FLOOR = 0.15  # of the height of its joint: how far a part of the foot may
 _FLAT = 0.25  # share of its silhouette that the plane has that a foot rests on
 _AS_LOW = 0.1  # of the robot's height: how far two feet of a pair may differ
 _AXES_APART = math.cos(math.radians(20.0))  # how far the line between the feet may be off an axis
-_AHEAD = 0.03  # of the foot's length: what tells toes from heel
+_AHEAD = 0.03  # of the foot's length: what shows toes from heel
 
 Array = NDArray[np.float64]
 
@@ -76,7 +76,7 @@ def find_legs(model: Any, data: Any, where: str) -> Legs:
         The legs.
 
     Raises:
-        RobotError: If there are not just two legs of five hinges or more; the message says what there is.
+        RobotError: If there are not just two legs of five hinges or more; the message shows what there is.
     """
     tree = _Tree(model, data)
     up, how = _upwards(tree, where)

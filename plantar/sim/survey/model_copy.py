@@ -1,7 +1,7 @@
 """A copy of a robot's model as it walks: one floating base that stands upright, the legs' joints, all else held.
 
-The copy is an MJCF that stands by itself in its folder, whatever the model was and wherever its meshes lay: inertias as
-MuJoCo compiled them, feet as they are, other meshes drawn in fewer triangles.
+The copy is an MJCF that stands by itself in its folder, whatever format the model had
+and wherever its meshes were: inertias as MuJoCo compiled them, feet as they are, other meshes drawn in fewer triangles.
 """
 
 from __future__ import annotations

@@ -125,7 +125,7 @@ def plan_reach(
         legs: Its kinematics.
         walked: The walk.
         bears: Asked after each instant, of `missed`, `knee` and `spare` so far, which only get worse; the rest of a
-            walk for which it says no is not looked at.
+            walk for which it states no is not looked at.
 
     Returns:
         What it asks of them. The torques of a walk that was not looked at to its end are infinite.

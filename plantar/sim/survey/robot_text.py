@@ -43,7 +43,7 @@ def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], we
     Args:
         survey: What was found in the model.
         fitted: The robot with the numbers of its walk.
-        shoe_notes: What is to be said of the shoes.
+        shoe_notes: What is to be stated of the shoes.
         weighed: Whether they were built, and their mass is known.
 
     Returns:

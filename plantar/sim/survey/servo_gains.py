@@ -30,7 +30,7 @@ def servo_gains(
     A joint is as stiff as the walk needs it, 12 m g h, as the robot h1 is; a light one only so far that the foot's own
     swing, of frequency sqrt(k / I), moves by 1.5 rad in a control period: what is commanded there comes in steps, and a
     stiffer servo would answer each with a blow. It is damped critically for what it swings, or as h1 is where that is
-    more, less what the joint has of its own.
+    more, less what the joint has.
 
     Args:
         inertia: Inertia about each joint of a leg.

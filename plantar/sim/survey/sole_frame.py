@@ -23,7 +23,7 @@ _BAND = 0.005  # m: the lowest part of a foot, which is its sole
 _COVERED = 0.4  # of the silhouette by the lowest band; less are balls, bars or a rounded sole
 _MARKER = 0.02  # of the largest shape's size: smaller ones mark a place
 _TOED_OUT = math.radians(8.0)  # between the foot's long side and the robot's forward direction
-_SLENDER = 1.3  # length over width of a foot whose long side is told
+_SLENDER = 1.3  # length over width of a foot whose long side is given
 
 Array = NDArray[np.float64]
 

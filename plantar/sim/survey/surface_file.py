@@ -114,7 +114,7 @@ def _text_stl(data: bytes) -> Triangles:
 def _collada(path: Path) -> Triangles:
     """Triangles of a Collada file in m, its nodes put where they are.
 
-    Which of its axes the file says is up is passed over: RViz and Gazebo do, so that authors of URDFs have set their
+    Which of its axes the file states is up is passed over: RViz and Gazebo do, so that authors of URDFs have set their
     meshes by what they saw there (github.com/ros-visualization/rviz/issues/1045).
     """
     root = parse_xml(read_input(path, RobotError, _MOST_BYTES), RobotError, str(path))

@@ -19,7 +19,7 @@ from plantar.sim.survey.sole_frame import Sole, find_sole
 
 __all__ = ["Survey", "survey_model"]
 
-_SPEEDS = (0.5, 100.0)  # rad/s: what a model says outside of them is a placeholder
+_SPEEDS = (0.5, 100.0)  # rad/s: what a model states outside of them is a placeholder
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Survey:
         held: Angles in rad by name at which other joints are held.
         imu: What the IMU is, "site" or "body", and its name; None where the model has none on the body.
         efforts: Largest torque in N m of each joint of a leg, the lesser one of both; None where the model has none.
-        speeds: Largest speed in rad/s of each joint of a leg; empty where the model does not say of every one.
+        speeds: Largest speed in rad/s of each joint of a leg; empty where the model does not state of every one.
         notes: What a user should know, each a sentence.
     """
 

@@ -1,6 +1,6 @@
 """How long a step takes whose swinging leg does not turn the standing sole on the ground.
 
-A leg that is thrown forward beside the standing one pushes the rest of the robot back, about the vertical through the
+A leg that is thrown forward next to the standing one pushes the rest of the robot back, about the vertical through the
 standing sole, and friction has to hold that. Unitree's G1, whose legs are a fifth of its mass each, turns its sole by
 one or two degrees a step where the leg takes a sixth of what friction holds, and by seven once it has stepped down.
 """

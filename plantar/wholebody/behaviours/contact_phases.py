@@ -22,7 +22,7 @@ class PhaseSettings(Settings):
 
 
 class ContactPhases:
-    """Precontact and contact: an arrangement of tasks each, entered when the user says so.
+    """Precontact and contact: an arrangement of tasks each, entered when the user reports it.
 
     Args:
         precontact: Levels before contact: distance, compliant wrist, tactile guidance, base avoidance and posture.

@@ -49,7 +49,7 @@ class ContactSigns(NamedTuple):
     Attributes:
         speed: Speed ||x'|| of the end effector in m/s.
         near: ||f_p||: virtual force of what the skin sees in its whole range in N.
-        contact: ||f_c||: largest contact force that the skin feels in N.
+        contact: ||f_c||: largest contact force that the skin measures in N.
         arrived: Whether the goal is reached, where the end effector may rest.
     """
 
@@ -70,7 +70,7 @@ class IntentionalContact:
 
     Attributes:
         arrangement: Which one counts.
-        range_share: Share of the sensing range that avoidance shall use, 0 to 1.
+        range_share: Share of the sensing range that avoidance should use, 0 to 1.
         levels: The levels that count, the highest first.
     """
 
@@ -97,10 +97,10 @@ class IntentionalContact:
         return self._levels[self.arrangement]
 
     def update(self, signs: ContactSigns, time: float) -> bool:
-        """Take note of what skin and end effector say; a force over the limit counts at once.
+        """Take note of what skin and end effector state; a force over the limit counts at once.
 
         Args:
-            signs: What they say.
+            signs: What they state.
             time: Time in s.
 
         Returns:

@@ -28,7 +28,7 @@ class ContactForces:
         weights: What counts how much where there is a choice.
 
     Attributes:
-        shares: Share of the load that each contact shall take by its name; equal ones where None.
+        shares: Share of the load that each contact should take by its name; equal ones where None.
         last: What each contact was given at last, in its own frame.
     """
 

@@ -74,8 +74,8 @@ def fuse(
         levels: What the tasks ask for, the highest priority first. None stands for a task that is silent; it and a
             level without any other cost nothing.
         support: Rows on which the robot stands, above all levels; a robot whose base is not driven needs them.
-        external: Generalized force (n,) that is known to act, such as J^T w of what the skin feels; taken out of what
-            the joints and the support have to do.
+        external: Generalized force (n,) that is known to act, such as J^T w of what the skin measures; taken out of
+            what the joints and the support have to do.
         split: How joints and support share what is to be done; `joint_torques` where None.
 
     Returns:

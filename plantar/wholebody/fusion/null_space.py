@@ -1,7 +1,7 @@
 """Torques of tasks as T prints them: added (T 3.6), or each in the null space of those above it (T 3.3-3.4, 3.7-3.13).
 
 For comparison and for tasks that are forces: without the correction by the accelerations that higher tasks cause
-(A 21), and each projector a matrix of its own. `fusion.hierarchy` is what to use.
+(A 21), and each projector its own matrix. `fusion.hierarchy` is what to use.
 """
 
 from __future__ import annotations

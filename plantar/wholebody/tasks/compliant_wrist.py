@@ -40,7 +40,7 @@ class CompliantWrist(Task):
         gains: Gains.
 
     Attributes:
-        weight: w of A 6: 0 goes by proximity, 1 by force.
+        weight: w of A 6: 0 uses proximity, 1 by force.
         moment: Gamma (3,) in the link's frame in N m as of the last demand.
 
     Raises:

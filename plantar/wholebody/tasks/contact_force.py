@@ -21,13 +21,13 @@ class ContactGains(Settings):
     sqrt(gain k_c / inertia) and is critically damped by damping = 2 sqrt(gain k_c inertia).
 
     Attributes:
-        inertia: Lambda_1: mass that the hand shall seem to have along the normal.
+        inertia: Lambda_1: mass that the hand should seem to have along the normal.
         damping: D_1.
         gain: K_1 on the error of the force.
         integral: Rate at which a lasting error is taken back; 0 leaves it.
         distance_stiffness: Force that counts for a metre of distance too much, in place of the error of the force.
-        free_damping: Damping while the patch feels nothing, where it is more than D_1: all gains grow with it, so that
-            speeds stay as they are but what is misjudged of the robot's mass slows them less.
+        free_damping: Damping while the patch measures nothing, where it is more than D_1: all gains grow with it, so
+            that speeds stay as they are but what is misjudged of the robot's mass slows them less.
     """
 
     inertia: float = number(2.0, "kg", 1e-3, 1e3)
@@ -52,7 +52,7 @@ class ContactForce(Task):
         weight: w of A 6: 0 holds the distance, 1 the force.
         target_force: f_d in N.
         target_distance: d_d in m.
-        approach_speed: Speed in m/s at which the patch comes nearer while it feels nothing: the error is bounded by
+        approach_speed: Speed in m/s at which the patch comes nearer while it measures nothing: the error is bounded by
             what the damping balances at that speed, D v / K. Infinite at first.
         force: f_c in N as of the last demand.
         distance: Mean distance in m of the taxels that see something, as of the last demand; inf where none does.

@@ -16,11 +16,11 @@ __all__ = ["DirectInteraction"]
 
 
 class DirectInteraction(SkinInteraction):
-    """Yields to gain times the force on every taxel that feels its threshold or more (T 3.23).
+    """Yields to gain times the force on every taxel that measures its threshold or more (T 3.23).
 
     Args:
         skin: The skin.
-        gain: Factor on what is felt; 1 lets it act as it would on a robot without friction or gears.
+        gain: Factor on what is measured; 1 lets it act as it would on a robot without friction or gears.
         patches: Names of the patches that count; all where None.
     """
 

@@ -26,7 +26,7 @@ class Standing:
 
     Attributes:
         link: The link.
-        point: Point (3,) in the link's frame in m, best where the force shall be.
+        point: Point (3,) in the link's frame in m, best where the force should be.
         flat: Whether it keeps the link from turning too; a point contact does not.
         area: What of the contact can carry, about the point, in m; counts where forces are distributed over contacts.
         rotation: Rotation (3, 3) from the contact's frame, whose z points into the body, to the link's; None for none.
@@ -50,7 +50,7 @@ class Support(Task):
     """Keeps contacts where they are: J_s q'' + J_s' q' = 0, above all other tasks (T 3.13).
 
     Args:
-        contacts: Contacts by name, such as the feet; may be assigned anew as contacts come and go.
+        contacts: Contacts by name, such as the feet; may be assigned again as contacts come and go.
 
     Raises:
         InputError: If there is none.

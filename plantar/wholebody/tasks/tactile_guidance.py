@@ -27,11 +27,11 @@ class GuidanceGains(Settings):
     """How the hand follows (A 12), and how it rests.
 
     Attributes:
-        inertia: Lambda_3: mass that the hand shall seem to have.
+        inertia: Lambda_3: mass that the hand should seem to have.
         damping: D_3.
         gain: K_3 on the forces on the arm.
-        stiffness: Stiffness with which the hand keeps its place while nothing is felt; 0 as in A, where it drifts with
-            what is misjudged of the arm's weight. Critical is D_3^2 / (4 Lambda_3).
+        stiffness: Stiffness with which the hand keeps its place while nothing is measured; 0 as in A, where it drifts
+            with what is misjudged of the arm's weight. Critical is D_3^2 / (4 Lambda_3).
         slack: Length beyond which that spring is not stretched, but slips.
     """
 
@@ -43,7 +43,7 @@ class GuidanceGains(Settings):
 
 
 class TactileGuidance(Task):
-    """x''* = (K F_arm + k s - D x') / Lambda of the hand, F_arm what is felt on the arm (A 11, A 12 corrected).
+    """x''* = (K F_arm + k s - D x') / Lambda of the hand, F_arm what is measured on the arm (A 11, A 12 corrected).
 
     The spring k is stretched by s, from the hand to the place that it keeps. A touch carries that place along as it is,
     so that the pull, which by then balances what is misjudged of the weight, is there while the hand is guided too.

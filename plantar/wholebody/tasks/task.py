@@ -34,7 +34,7 @@ class Task(Protocol):
     """A task. A new one is one new file with one class."""
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
-        """What it asks for now; None while it has nothing to say, and then nothing is computed for it (T 3.24).
+        """What it asks for now; None while it has nothing to state, and then nothing is computed for it (T 3.24).
 
         Args:
             robot: Kinematics and dynamics of this instant.

@@ -14,7 +14,7 @@ __all__ = ["ComTask"]
 
 
 class ComTask(Task):
-    """The CoM of a body and all that hangs on it shall be at a point of the world.
+    """The CoM of a body and all that hangs on it should be at a point of the world.
 
     Attributes:
         target: The point (3,) in m, copied where it is set.

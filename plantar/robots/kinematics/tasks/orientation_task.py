@@ -16,7 +16,7 @@ __all__ = ["OrientationTask"]
 
 
 class OrientationTask(Task):
-    """A body shall have an orientation in the world.
+    """A body should have an orientation in the world.
 
     Attributes:
         target: Rotation (3, 3) from the body to the world frame, copied where it is set.

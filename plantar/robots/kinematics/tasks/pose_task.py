@@ -16,7 +16,7 @@ __all__ = ["PoseTask"]
 
 
 class PoseTask(Task):
-    """A site shall be at a position and an orientation of the world.
+    """A site should be at a position and an orientation of the world.
 
     Attributes:
         position: Its origin (3,) in m, copied where it is set.

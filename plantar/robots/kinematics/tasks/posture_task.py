@@ -14,7 +14,7 @@ __all__ = ["PostureTask"]
 
 
 class PostureTask(Task):
-    """Hinge and slide joints shall have given positions.
+    """Hinge and slide joints should have given positions.
 
     Attributes:
         target: Their positions (k,) in rad or m.

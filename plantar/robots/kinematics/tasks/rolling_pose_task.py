@@ -13,9 +13,9 @@ __all__ = ["RollingPoseTask"]
 
 
 class RollingPoseTask(PoseTask):
-    """A site shall be at a position and an orientation of the world, but may roll about its own x axis.
+    """A site should be at a position and an orientation of the world, but may roll about its own x axis.
 
-    A leg without ankle roll puts its sole wherever it shall be, with pitch and heading; the roll is what hip and shank
+    A leg without ankle roll puts its sole wherever it should be, with pitch and heading; the roll is what hip and shank
     make of it, and is left to the ground. See `PoseTask` for attributes and arguments.
     """
 

@@ -33,7 +33,7 @@ class Target:
 
 
 class Task(ABC):
-    """Something that a configuration shall fulfil, bound to a model and its data.
+    """Something that a configuration should fulfil, bound to a model and its data.
 
     The error is the displacement that is missing, in the coordinates of the Jacobian's rows: a small step dq with
     J dq = error removes it. Both are read from the data after `mj_kinematics` and `mj_comPos`.
@@ -61,7 +61,7 @@ class Task(ABC):
 
         Args:
             error: Receives the error (rows,), but for a turn of more than a quarter: then `error` is asked as well.
-            jacobian: Receives the Jacobian (rows, nv); an array of zeros that nobody else writes to.
+            jacobian: Receives the Jacobian (rows, nv); an array of zeros that no one else writes to.
 
         Returns:
             The kernel, or None.

@@ -16,10 +16,10 @@ class Point(NamedTuple):
     Attributes:
         x: Abscissa, above 0.
         y: Ordinate, above 0.
-        group: What it belongs to, by which it is coloured and told in the legend.
+        group: What it belongs to, by which it is coloured and given in the legend.
         name: What it is.
         ours: Whether it is of this project, and so filled.
-        shown: What stands beside it; empty for nothing.
+        shown: What stands next to it; empty for nothing.
     """
 
     x: float
@@ -43,7 +43,7 @@ def bar(share: float, kind: str = "ours") -> str:
         kind: "ours" or "other".
 
     Returns:
-        HTML, hidden from screen readers: the number stands beside it.
+        HTML, hidden from screen readers: the number stands next to it.
     """
     return f'<span class="bar {kind}" style="width:{100 * min(max(share, 0.005), 1.0):.1f}%" aria-hidden="true"></span>'
 

@@ -19,7 +19,7 @@ _SEED = 1000  # a fresh one: nothing was ever tuned on it
 
 @dataclass(frozen=True)
 class Experiment:
-    """A run of a scene, and what a paper says of the same on a real robot.
+    """A run of a scene, and what a paper states of the same on a real robot.
 
     Attributes:
         what: What is done.

@@ -178,7 +178,7 @@ class TracedRun(ChangedRun):
             self._wrench, self._force, self._looks = np.zeros(6), np.zeros(2), 0
 
     def keep_landings(self, summary: Mapping[str, Any]) -> None:
-        """Keep the landings that the summary of the run tells.
+        """Keep the landings that the summary of the run shows.
 
         Args:
             summary: What `run` gave.

@@ -37,14 +37,14 @@ def measure_scenes(
     robots: Sequence[str] = (),
     quick: bool = False,
 ) -> dict[str, Any]:
-    """Run what is missing in the folder's scene_runs.csv, and write scenes.md, scenes.csv and scenes.png anew.
+    """Run what is missing in the folder's scene_runs.csv, and write scenes.md, scenes.csv and scenes.png again.
 
     Args:
         folder: Where the table is; made where it is not there.
         progress: Called with the fraction done and a text.
         scenes: Names of the scenes to run; all of `CASES` where empty.
         robots: Names of the robots to run them with; likewise.
-        quick: Run the settings that tell most, with one seed, and of the walks H1's on flat ground unless others are
+        quick: Run the settings that show most, with one seed, and of the walks H1's on flat ground unless others are
             named.
 
     Returns:

@@ -20,7 +20,7 @@ Runs = Sequence[dict[str, str]]
 
 @dataclass(frozen=True)
 class SceneRow:
-    """A setting of a scene beside its reference. Medians; NaN for what was not measured.
+    """A setting of a scene next to its reference. Medians; NaN for what was not measured.
 
     Attributes:
         scene: Name of the scene.

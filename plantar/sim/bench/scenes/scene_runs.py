@@ -24,7 +24,7 @@ COLUMNS = (
     *("com_mm", "zmp_mm", "force", "impact", "together_s"),
 )
 """Kind is "traced" (without the sensors' noise, beside the run that it is compared with), "noise" (the scene's own run
-with noise beside itself without), or "seeded" (with noise, for the statistics)."""
+with noise next to itself without), or "seeded" (with noise, for the statistics)."""
 
 
 class SceneCase(NamedTuple):

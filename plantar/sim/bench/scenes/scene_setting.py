@@ -127,7 +127,7 @@ def setting_named(name: str) -> SceneSetting:
     """The setting of a name.
 
     Args:
-        name: As `SceneSetting.name` tells it.
+        name: As `SceneSetting.name` shows it.
 
     Raises:
         KeyError: If there is none.

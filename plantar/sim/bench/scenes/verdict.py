@@ -14,7 +14,7 @@ _WORTH = 0.95  # of the time: a setting that saves less than a twentieth is no r
 
 
 class KnobVerdict(NamedTuple):
-    """What the rows of one knob say.
+    """What the rows of one knob state.
 
     Attributes:
         scene: Name of the scene.
@@ -36,7 +36,7 @@ def knob_verdicts(rows: Sequence[SceneRow]) -> list[KnobVerdict]:
 
     A value is good enough where it walks and is no farther from its reference than noise moves the walk (centre of
     mass, ZMP and forces). The scene's own is confirmed where it is good enough and no such value saves a twentieth of
-    the time. Knobs of the machine are the papers', and only told by how much the finest differs.
+    the time. Knobs of the machine are the papers', and only recognised by how much the finest differs.
 
     Args:
         rows: What `scene_rows` gave.

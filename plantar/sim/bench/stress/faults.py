@@ -22,7 +22,7 @@ class Faults:
 
     Attributes:
         dropped: Share of the ticks at which a sole's packet is lost, and the one before stands.
-        jitter: Standard deviation in s of the time that a reading says, about the true one.
+        jitter: Standard deviation in s of the time that a reading states, about the true one.
         stuck: Share of each sole's taxels that hold the first value they had.
         silent: Share of the ticks at which all taxels of a sole read NaN.
         missing: Share of the ticks at which encoders and IMU read NaN.
@@ -63,7 +63,7 @@ _SHARES = ("dropped", "stuck", "silent", "missing", "saturated")
 
 
 class FaultySensors:
-    """Makes of what the sensors say what arrives of it.
+    """Makes of what the sensors show what arrives of it.
 
     Args:
         faults: The faults.
@@ -83,7 +83,7 @@ class FaultySensors:
         """What arrives of the readings of one tick.
 
         Args:
-            sensors: What the sensors said.
+            sensors: What the sensors stated.
 
         Returns:
             What the controller gets.

@@ -35,8 +35,8 @@ class Outcome(NamedTuple):
     """What came of a run.
 
     Attributes:
-        kind: "ended", "fell", "stopped" (the controller is in a safe state, whose name is told), "refused" (the scene
-            does not take the settings), "unstable" (the physics says so), or one of `FAILURES`.
+        kind: "ended", "fell", "stopped" (the controller is in a safe state, whose name is given), "refused" (the scene
+            does not take the settings), "unstable" (the physics reports it), or one of `FAILURES`.
         detail: In words what it was.
         time: Simulated time in s.
     """

@@ -61,7 +61,7 @@ class ForceTrackingSettings(Settings):
         largest_free: Limit of the RMS error of the force without interactions; 0 for none.
         largest_disturbed: Limit of it with interactions; 0 for none.
         tolerance: Limit of the distance's error where the hand stays without contact.
-        guided: Least distance by which touches before contact shall guide the hand.
+        guided: Least distance by which touches before contact should guide the hand.
     """
 
     duration: float = number(30.0, "s", 0.5, 600)

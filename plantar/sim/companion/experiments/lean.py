@@ -1,7 +1,8 @@
 """A robot leans on a table with one forearm and reaches out farther than its feet can hold, one of them on an edge.
 
-The forearm is lowered until its skin feels the table. Then it is a contact as the feet are: what the skin says of where
-it touches goes into the support and into how the load is shared. What of a sole stands on the ground its taxels see.
+The forearm is lowered until its skin measures the table. Then it is a contact as the feet are: what the skin states of
+where it touches goes into the support and into how the load is shared. What of a sole stands on the ground its taxels
+see.
 """
 
 from __future__ import annotations

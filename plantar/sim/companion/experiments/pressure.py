@@ -56,9 +56,9 @@ class PressureControl(StandingControl):
     Attributes:
         by_pressure: Whether the area counts; otherwise the force alone, as if it were on `sensitivity_taxels`.
         sensitivity_taxels: xi of T 3.27 in areas of a taxel: over so many a force counts as it is.
-        yield_damping: Damping of the torso while it yields. With the sensitivity it says how fast 1 N moves the torso;
-            both larger, what is wrong with 97 taxels' calibration and noise of the gyro count for less, until the
-            force that is fed back through the skin's delay lets the probe chatter (from 16 taxels on).
+        yield_damping: Damping of the torso while it yields. With the sensitivity it describes how fast 1 N moves the
+            torso; both larger, what is wrong with 97 taxels' calibration and noise of the gyro count for less, until
+            the force that is fed back through the skin's delay lets the probe chatter (from 16 taxels on).
     """
 
     by_pressure: bool = switch(True)

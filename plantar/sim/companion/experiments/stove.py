@@ -2,7 +2,7 @@
 
 The order is T's: support; temperature-driven compliance; the right hand's pose; posture. A hand that heat repels has no
 row left for its pose, and skin cools slowly: with nothing else to hold it the hand would drift as far as it can. So the
-posture acts beside heat, and draws the hand back to where it came from.
+posture acts next to heat, and draws the hand back to where it came from.
 """
 
 from __future__ import annotations

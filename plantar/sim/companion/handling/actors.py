@@ -97,7 +97,7 @@ class Fist:
         Args:
             world: The world.
             time: Time in s.
-            felt: Force in N that it feels itself.
+            felt: Force in N that it measures itself.
         """
         push = next((p for p in self.pushes if p.start <= time < p.end), None)
         place = world.model.body("fist").mocapid[0]

@@ -42,9 +42,9 @@ class HandControl(CompanionControl):
     Attributes:
         force_gain: K_1 / Lambda_1 of A 9: acceleration for a newton that is missing.
         approach_speed: Speed at which the hand comes near to the surface.
-        landing_speed: Speed at which it comes to the surface in the contact phase, until it feels it.
+        landing_speed: Speed at which it comes to the surface in the contact phase, until it measures it.
         force_damping: D_1 / Lambda_1.
-        free_damping: D_1 / Lambda_1 while the hand feels nothing.
+        free_damping: D_1 / Lambda_1 while the hand measures nothing.
         force_integral: Rate at which a lasting error is taken back, as a share of the proportional part.
         distance_rate: Rate at which an error of the distance decays.
         wrist_gain: K_2 / Lambda_2 of A 10: angular acceleration for a newton metre.
@@ -53,7 +53,7 @@ class HandControl(CompanionControl):
         hand_stiffness: Stiffness with which the hand keeps its place in contact, for a unit mass.
         guidance_mass: Lambda_3 of A 12.
         guidance_damping: D_3.
-        guidance_stiffness: Stiffness with which the hand keeps its place before contact while the arm feels nothing:
+        guidance_stiffness: Stiffness with which the hand keeps its place before contact while the arm measures nothing:
             critical, D_3^2 / (4 Lambda_3); 0 lets it drift with what is misjudged of the arm's weight.
         guidance_ends: Whether guidance ends where the arm becomes straight (ablation).
         arm_stiffness: K_c of A 18 of each joint of the arm.
@@ -69,8 +69,8 @@ class HandControl(CompanionControl):
         sigmoid: Time in which w of A 6 goes from distance to force.
         wrist: Whether the wrist complies (ablation).
         avoidance: Whether the base avoids obstacles (ablation).
-        feed_forward: Whether the wanted force and what the arm's skin feels are taken over into the joints (ablation);
-            never where drives take no torques.
+        feed_forward: Whether the wanted force and what the arm's skin measures are taken over into the joints
+            (ablation); never where drives take no torques.
         priority: "strict", or "sum": torques of all tasks added (ablation).
     """
 
@@ -190,7 +190,7 @@ class HandController:
 
         Args:
             robot: The machine as measured.
-            reading: What its skin says.
+            reading: What its skin states.
 
         Returns:
             Torques in N m and forces in N.
@@ -247,7 +247,7 @@ class _Still(Task):
     """A wrist that only keeps its orientation: what a robot without the compliant task would do.
 
     Args:
-        wrist: The compliant task, which goes on telling the moment.
+        wrist: The compliant task, which goes on showing the moment.
     """
 
     def __init__(self, wrist: CompliantWrist) -> None:

@@ -43,7 +43,7 @@ class Post:
         Args:
             spec: The specification.
             height: Height in m.
-            half: Half of its own height in m.
+            half: Half height in m.
         """
         body = spec.worldbody.add_body(name=self.name, pos=[*self.place, height])
         size = [self.radius, half, 0.0]

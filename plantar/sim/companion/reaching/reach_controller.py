@@ -130,7 +130,7 @@ class ReachController:
 
         Args:
             robot: Kinematics and dynamics at the measured state.
-            reading: What the skin says.
+            reading: What the skin states.
 
         Returns:
             Torques or forces (k,), gravity included.
@@ -146,7 +146,7 @@ class ReachController:
         return self._blend.blend(self._stack.step(robot, reading).torque, robot.time)
 
     def _look(self, robot: RobotDynamics, reading: SkinReading) -> ContactSigns:
-        """What skin and tip say (T Table 1).
+        """What skin and tip state (T Table 1).
 
         Speed and nearness are smoothed: at the end of its range the tip trembles, and what it sees comes and goes.
         """

@@ -39,7 +39,7 @@ class ReachRecord:
         self._posts: list[NDArray[np.float64]] = []
 
     def add(self, world: World, time: float, tip: NDArray[np.float64], force: float, hand: ReachController) -> None:
-        """Note the true state and what the controller makes of its own.
+        """Note the true state and what the controller makes.
 
         Args:
             world: The world.

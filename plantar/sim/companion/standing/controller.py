@@ -96,8 +96,8 @@ class StandingController:
         """Torques for the next period.
 
         Args:
-            robot: The machine as measured; its base is put where the feet say.
-            reading: What the skin says.
+            robot: The machine as measured; its base is put where the feet state.
+            reading: What the skin states.
 
         Returns:
             Torque (k,) of each joint in N m.
@@ -135,7 +135,7 @@ class StandingController:
     def _external(
         self, robot: MujocoDynamics, felt: SkinReading
     ) -> tuple[NDArray[np.float64] | None, NDArray[np.float64]]:
-        """Generalized force (n,) of what the skin feels, None for nothing, and its moments (2,) about x and y at
+        """Generalized force (n,) of what the skin measures, None for nothing, and its moments (2,) about x and y at
         the feet."""
         wrenches = link_wrenches(self.skin, felt.force, felt.force >= self.skin.thresholds)
         self.active.append(len(wrenches))

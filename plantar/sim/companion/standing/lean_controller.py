@@ -51,7 +51,7 @@ class LeanControl(StandingControl):
         lowering: Speed in m/s of the forearm while it looks for the table.
         pitch: Angle by which the trunk bends forward.
         posture_rate: Stiffness of the posture.
-        press_gain: Gain on what the forearm presses less than it shall.
+        press_gain: Gain on what the forearm presses less than it should.
     """
 
     touch: float = number(0.01, "1", 1e-3, 0.2)
@@ -64,7 +64,7 @@ class LeanControl(StandingControl):
 class Aim:
     """Aims beyond a target by what a soft task falls short of it.
 
-    What is felt and what is planned differ by some 20 N, to which a centre of mass yields by a centimetre.
+    What is measured and what is planned differ by some 20 N, to which a centre of mass yields by a centimetre.
 
     Args:
         axes: Factor (3,) of each axis; 0 for one that is aimed at as it is.
@@ -96,12 +96,12 @@ class Aim:
 class LeanController:
     """Settle, bring the forearm over the table, lower it until it touches, lean, reach.
 
-    How the load shall be shared among feet and forearm is planned in their cones; the forearm presses with its share,
-    by what its skin feels, and the feet carry what is left. Without skin it can only hold the forearm where it expects
-    the table.
+    How the load should be shared among feet and forearm is planned in their cones; the forearm presses with its share,
+    by what its skin measures, and the feet carry what is left. Without skin it can only hold the forearm where it
+    expects the table.
 
     Args:
-        experiment: The experiment, for its stance and first posture; nothing of what is true of the table.
+        experiment: The experiment, for its stance and first posture; not for what is true of the table.
         skin: The skin.
 
     Attributes:
@@ -121,12 +121,13 @@ class LeanController:
         feet = DistributionWeights(ankle=0.1, pressure=1.0, friction=1.0)
         self._carried = ContactForces(self._feet, base, self._weight, weights=feet)
         self._carried.shares = {link: SHARES[link] for link in self.stance.feet}
-        # The forearm shall help by its share, not carry until each sole's centre of pressure is in its middle: it would
+        # The forearm should help by its share, not carry until each sole's centre of pressure is in its middle: it
+        # would
         # relieve the foot on an edge, which then tilts.
         leaning = DistributionWeights(ankle=0.03, pressure=3.0, friction=1.0)
         self._planned = ContactForces(self._all, base, self._weight, weights=leaning)
         self._com = CenterOfMass(experiment.com, self.control.balance)
-        # A forearm has five joints of its own: its orientation must not ask the trunk for a sixth.
+        # A forearm has five joints: its orientation must not ask the trunk for a sixth.
         self._arm = CartesianPose(ARM, UNDERSIDE, PoseGains(stiffness=80.0, damping=18.0), "position")
         self._trunk = CartesianPose(base, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
         self._turn = CartesianPose(ARM, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
@@ -144,7 +145,7 @@ class LeanController:
 
         Args:
             robot: The machine at its measured state.
-            reading: What its skin says.
+            reading: What its skin states.
 
         Returns:
             Torques (k,) for the next period in N m.

@@ -32,7 +32,7 @@ class Pad:
         stiffness: Stiffness in N/m of the skin under its face, about.
 
     Attributes:
-        wanted: Force in N that it shall press with; 0 or less lifts it off.
+        wanted: Force in N that it should press with; 0 or less lifts it off.
         parked: Whether it is out of everybody's way.
         middle: Where (3,) the middle of its face touches the link, in the link's frame in m.
     """

@@ -134,7 +134,7 @@ class StandingExperiment(Experiment):
 
         Args:
             share: Of the settings' stiffness and damping.
-            stiffness: Share of the stiffness besides.
+            stiffness: Share of the stiffness in addition.
 
         Returns:
             The task.
