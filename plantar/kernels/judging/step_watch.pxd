@@ -3,6 +3,7 @@ cimport cython
 from libc cimport math
 from ..contacts.ground_reaction cimport GroundReaction
 from .joint_extremes cimport JointExtremes
+from .stance_force cimport StanceForce
 from .stand_watch cimport StandWatch
 
 cdef double _INFINITE
@@ -14,6 +15,7 @@ cdef class StepWatch:
     cdef GroundReaction reaction
     cdef StandWatch stands
     cdef JointExtremes joints
+    cdef StanceForce stance
     cdef const double[::1] upright
     cdef const double[::1] center
     cdef const double[::1] left

@@ -28,6 +28,7 @@ class StepWatch:
         reaction: `GroundReaction` of both feet.
         stands: `StandWatch` of both feet.
         joints: `JointExtremes` of the legs.
+        stance: `StanceForce` of both feet.
         upright: Rotation (9,) of the torso, row by row, where the simulator writes it.
         center: CoM (3,) in m, likewise.
         places: Origins of the left and the right sole (3,) each in m, likewise.
@@ -50,6 +51,7 @@ class StepWatch:
         reaction,
         stands,
         joints,
+        stance,
         upright,
         center,
         places,
@@ -64,6 +66,7 @@ class StepWatch:
         self.reaction = reaction
         self.stands = stands
         self.joints = joints
+        self.stance = stance
         self.upright = upright
         self.center = center
         self.left, self.right = places
@@ -155,6 +158,7 @@ class StepWatch:
         self._stand(0, self.left, self.left_turn)
         self._stand(1, self.right, self.right_turn)
         self.up = min(self.up, self.upright[8])
+        self.stance.step(self.now - max(self.landed[0], self.landed[1]))
 
     def _look(self):
         """What there is to look at but for landings."""

@@ -22,6 +22,7 @@ from plantar.sides import SIDES, other_side
 from plantar.sim.judging.joint_limits import JointLimits
 from plantar.sim.judging.leg_contact import LegContact
 from plantar.sim.judging.plain_ground import PlainGround
+from plantar.sim.judging.stance_ripple import StanceRipple
 from plantar.sim.judging.step_count import Stand, StepCount
 from plantar.sim.judging.walk_goal import WalkGoal, Way
 from plantar.sim.model.contact_truth import ContactReader, GroundTruth, foot_contacts
@@ -94,12 +95,14 @@ class Judge:
         self.joints = JointLimits(world)
         ground = is_ground(world).astype(np.uint8)
         self._reaction = GroundReaction(math.nan, _LEAST * body.weight, world.reach, ground)
+        self.ripple = StanceRipple(world, self._reaction, _TOUCH * body.weight)
         self._estimates = EstimateError(self._center, self._reaction)
         windows = [round(beats * body.beat / world.period) for beats in (_AIRBORNE, _IMPACT_WINDOW, _SETTLED)]
         self._watch = StepWatch(
             self._reaction,
             self.steps.watch,
             self.joints.extremes,
+            self.ripple.watch,
             self._torso,
             self._center,
             self._places,

@@ -109,6 +109,8 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
         overrun=result.overrun,
     )
     why = reasons(ending, judge.legs, judge.joints)
+    if judge.fall is None:  # a robot that falls rattles on any ground
+        why += judge.ripple.reasons()
     landed = judge.landings
     landings = [x.time for x in landed]
     if run.speeds is not None:
@@ -163,6 +165,7 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
         if count.taken
         else None,
         "slip_max_m": round(judge.steps.slip, 4),
+        **judge.ripple.summary(),
         **judge.joints.summary(),
         "estimate": {
             "com_error_max_m": [round(float(v), 4) for v in judge.estimate_error_max],

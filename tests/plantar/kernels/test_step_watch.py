@@ -10,10 +10,10 @@ import pytest
 
 from plantar.kernels import python_form
 from plantar.kernels.contacts import foot_contacts, ground_reaction
-from plantar.kernels.judging import estimate_error, joint_extremes, stand_watch, step_watch
+from plantar.kernels.judging import estimate_error, joint_extremes, stance_force, stand_watch, step_watch
 
-NAMES = ("foot_contacts", "ground_reaction", "joint_extremes", "stand_watch", "step_watch", "estimate_error")
-MODULES = (foot_contacts, ground_reaction, joint_extremes, stand_watch, step_watch, estimate_error)
+MODULES = (foot_contacts, ground_reaction, joint_extremes, stance_force, stand_watch, step_watch, estimate_error)
+NAMES = tuple(module.__name__.split(".")[-1] for module in MODULES)
 COMPILED = SimpleNamespace(**dict(zip(NAMES, MODULES, strict=True)))
 PYTHON = SimpleNamespace(**{name: python_form(name) for name in NAMES})
 FORMS = pytest.mark.parametrize("forms", [COMPILED, PYTHON], ids=["compiled", "python"])
@@ -135,10 +135,12 @@ class Follower:
         self.warnings = np.zeros((8, 2), dtype=np.int32)[:, 1]
         self.stands = forms.stand_watch.StandWatch(100.0)
         joints = forms.joint_extremes.JointExtremes(*[np.zeros(1), np.zeros(1, dtype=np.intp), np.ones(1)] * 2)
+        stance = forms.stance_force.StanceForce(self.reaction, self.center, 80.0, 9.81, 1e-3, (2, 5), 20.0, 2e-3)
         self.watch = forms.step_watch.StepWatch(
             self.reaction,
             self.stands,
             joints,
+            stance,
             self.upright,
             self.center,
             list(self.places),

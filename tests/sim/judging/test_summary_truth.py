@@ -15,6 +15,7 @@ import pytest
 import shapely
 from scipy.spatial import ConvexHull, QhullError
 
+from plantar.mechanics.lip import GRAVITY
 from plantar.sides import SIDES
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
@@ -129,6 +130,7 @@ def check(run: Watched, summary: dict[str, Any]) -> None:
         area = max(hull_of(p).area if len(p) > 2 else 0.0 for p in settled)
         assert summary["contact_area_ratio"][number] == pytest.approx(area / sole, abs=0.02)
         assert summary["contact_area_ratio"][number] >= area / sole - 6e-4
+    check_stance(run, summary, [k for k, _ in landings], depth)
     # Stands and slips, the first ones too.
     slips = [0.0]
     for foot in range(2):
@@ -169,6 +171,29 @@ def check(run: Watched, summary: dict[str, Any]) -> None:
     pushed = period * np.sum([row["pushed"] for row in rows], axis=0)
     if "push" in summary:
         assert summary["push"]["impulse_Ns"] == pytest.approx(np.linalg.norm(pushed), abs=6e-5)
+
+
+def check_stance(run: Watched, summary: dict[str, Any], landings: list[int], depth: np.ndarray) -> None:
+    """Compare how steady the ground's force is, over runs of single support of 21 steps and more."""
+    w, rows = run.world, run.rows
+    loads = np.array([row["loads"] for row in rows])
+    single = (loads >= 0.0237 * w.body.weight).sum(axis=1) == 1
+    if single.any():
+        assert summary["zmp_edge_share"] == pytest.approx((depth[single] < 2e-3).mean(), abs=2e-5)
+    since = np.arange(len(rows)) - np.maximum.accumulate(np.isin(np.arange(len(rows)), landings) * np.arange(len(rows)))
+    if landings:
+        since[: landings[0]] = len(rows)
+    counts = single & (since >= round(0.1 / w.period))
+    mass, span = w.model.body_subtreemass[w.torso], round(0.01 / w.period)
+    height = np.array([row["com"][2] for row in rows])
+    off = [
+        loads[k].sum() / mass / GRAVITY
+        - 1.0
+        - (height[k + span] - 2.0 * height[k] + height[k - span]) / (0.01**2 * GRAVITY)
+        for k in range(span, len(rows) - span)
+        if counts[k - span : k + span + 1].all()
+    ]
+    assert summary["stance_force_rms"] == pytest.approx(np.sqrt(np.mean(np.square(off))) if off else None, abs=2e-5)
 
 
 def planned_end(run: Watched) -> tuple[np.ndarray, float]:

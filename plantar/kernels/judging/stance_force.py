@@ -1,0 +1,85 @@
+"""Kernel of how steady the ground's force is while one foot carries the robot."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+__all__ = ["StanceForce"]
+
+
+class StanceForce:
+    """Compares the ground's vertical force with the acceleration of the CoM, and its ZMP with the edge of the support.
+
+    By Newton's law both are equal at each instant, so the acceleration is taken over a time: the second difference of
+    the CoM's height over `span` steps each way. What is left of the force is faster than that: a contact that flickers.
+
+    Args:
+        reaction: `GroundReaction` of both feet.
+        center: CoM (3,) in m, where the simulator writes it.
+        mass: The robot's mass in kg.
+        gravity: Acceleration of gravity in m/s^2.
+        period: Physics step in s.
+        steps: Numbers of steps: `span`, and after a landing that are left out.
+        least: Vertical force in N from which on a foot touches the ground.
+        edge: Distance in m from the edge of the support below which a ZMP is at the edge.
+
+    Attributes:
+        compared: Steps in which force and acceleration were compared.
+        squares: Sum of the squares of their difference in N^2.
+        single: Steps in single support.
+        at_edge: Those with the ZMP at the edge.
+    """
+
+    def __init__(self, reaction, center, mass, gravity, period, steps, least, edge):
+        self.reaction = reaction
+        self.center = center
+        self.mass = mass
+        self.gravity = gravity
+        self.span, self.settling = steps
+        self.scale = 1.0 / (self.span * period) ** 2
+        self.least = least
+        self.edge = edge
+        self.size = 2 * self.span + 1
+        self.heights = np.zeros(self.size)
+        self.forces = np.zeros(self.size)
+        self.now = 0
+        self.lasting = 0
+        self.compared = 0
+        self.squares = 0.0
+        self.single = 0
+        self.at_edge = 0
+
+    def step(self, since):
+        """After each physics step.
+
+        Args:
+            since: Number of steps since the last landing.
+        """
+        left, right = self.reaction.loads[0], self.reaction.loads[1]
+        place = self.now % self.size
+        self.heights[place] = self.center[2]
+        self.forces[place] = left + right
+        self.now += 1
+        if (left >= self.least) == (right >= self.least):
+            self.lasting = 0
+            return
+        self.single += 1
+        if self.reaction.margin < self.edge:
+            self.at_edge += 1
+        if since < self.settling:
+            self.lasting = 0
+            return
+        self.lasting += 1
+        if self.lasting < self.size:
+            return
+        first, middle = self.now % self.size, (self.now + self.span) % self.size
+        bend = self.heights[place] - 2.0 * self.heights[middle] + self.heights[first]
+        off = self.forces[middle] - self.mass * (self.gravity + bend * self.scale)
+        self.compared += 1
+        self.squares += off * off
+
+    def rms(self):
+        """Root mean square of the difference in N; NaN where none was compared."""
+        return math.sqrt(self.squares / self.compared) if self.compared else math.nan

@@ -1,0 +1,73 @@
+"""How steady the ground carries: the figure of a known force, and the limit that a flickering contact breaks."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from plantar.kernels import python_form
+from plantar.sim.judging.stance_ripple import RIPPLE
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
+from plantar.sim.terrain.face_contact import MARK
+
+PERIOD, MASS, GRAVITY = 1e-3, 50.0, 9.81
+STEPS = (10, 100)
+PYTHON: Any = python_form("judging.stance_force").StanceForce
+
+
+def followed(force: np.ndarray, right: np.ndarray, margin: float = 0.03, since: int = 1000) -> Any:
+    """A watch after a body with the given force under its left foot, which moves as Newton's law has it."""
+    reaction = SimpleNamespace(loads=np.zeros(2), margin=margin)
+    center = np.zeros(3)
+    watch = PYTHON(reaction, center, MASS, GRAVITY, PERIOD, STEPS, 20.0, 2e-3)
+    speed = 0.0
+    for step, (a, b) in enumerate(zip(force, right, strict=True)):
+        reaction.loads[:] = a, b
+        watch.step(since + step)
+        speed += PERIOD * ((a + b) / MASS - GRAVITY)
+        center[2] += PERIOD * speed
+    return watch
+
+
+def test_a_force_that_changes_slowly_is_followed_and_one_that_flickers_is_not() -> None:
+    time = PERIOD * np.arange(2000)
+    weight = MASS * GRAVITY
+    slow = weight * (1.0 + 0.2 * np.sin(2.0 * math.pi * 1.5 * time))
+    assert followed(slow, np.zeros(2000)).rms() < 5e-4 * weight
+    flicker = np.where(np.arange(2000) % 50 == 0, 0.5, 1.0) * weight  # single steps at half the weight
+    # A step's force less its mean over the window, which sees a tenth of it at most, is nearly all of the drop.
+    assert followed(flicker, np.zeros(2000)).rms() == pytest.approx(0.5 * weight / math.sqrt(50.0), rel=0.15)
+
+
+def test_only_single_support_some_time_after_a_landing_counts() -> None:
+    steady = np.full(300, MASS * GRAVITY)
+    assert followed(steady, np.full(300, 30.0)).single == 0
+    watch = followed(steady, np.zeros(300), since=0)
+    assert (watch.single, watch.compared) == (300, 300 - STEPS[1] - 2 * STEPS[0])
+    assert math.isnan(followed(steady[:10], np.zeros(10)).rms())
+
+
+def test_a_zmp_near_the_edge_is_counted() -> None:
+    steady = np.full(50, MASS * GRAVITY)
+    assert followed(steady, np.zeros(50), margin=1.9e-3).at_edge == 50
+    assert followed(steady, np.zeros(50), margin=2.1e-3).at_edge == 0
+
+
+def test_contacts_that_flicker_break_the_limit_of_a_walk() -> None:
+    """The beam with MuJoCo's own contacts of two boxes, and with those that are continuous."""
+    summaries = []
+    for marked in (False, True):
+        simulation = Simulation(load_scene("beam", ["steps=14"]), 0)
+        if not marked:
+            simulation.world.model.geom_contype[:] &= ~MARK
+        summaries.append(simulation.run())
+    flickering, steady = summaries
+    assert [r["limit"] for r in flickering["reasons"] if r["criterion"] == "stance_force"] == [RIPPLE]
+    assert steady["completed"]
+    assert steady["stance_force_rms"] < 0.01
+    assert steady["zmp_edge_share"] < 0.002
