@@ -32,4 +32,4 @@ cdef class GroundReaction:
     cpdef double area(self, Py_ssize_t foot) except? -1.0
 
     @cython.locals(points=list, foot=Py_ssize_t, ring=list)
-    cpdef tuple told(self)
+    cpdef tuple found_now(self)

@@ -94,7 +94,7 @@ class GroundReaction:
         self.sole.hull(0, end - first)
         return self.sole.area()
 
-    def told(self):
+    def found_now(self):
         """What was found, to keep.
 
         Returns:

@@ -1,1 +1,1 @@
-"""What the judge of a walk looks at after each physics step and tick."""
+"""What the judge of a walk follows physics step by physics step, and tick by tick."""

@@ -41,7 +41,7 @@ _ROUND = np.array([(math.cos(a), math.sin(a)) for a in 2.0 * math.pi * np.arange
 _AXES = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
 _REST = own(np.zeros(2))
 _PEAK = 10.0 / math.sqrt(3.0)  # largest acceleration of a minimum-jerk motion over its way and time^2
-_FLAT = 1e-9  # weight of the steps beside that of the push: of all steps that capture as much, the shortest are taken
+_FLAT = 1e-9  # weight of the steps against that of the push: of all steps that capture as much, the shortest are chosen
 
 
 def mirrored(polygon: ArrayLike) -> NDArray[np.float64]:

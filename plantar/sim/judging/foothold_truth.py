@@ -45,17 +45,17 @@ class FootholdTruth:
 
     def update(self, footholds: tuple[FootholdFound, ...]) -> None:
         """Compare the footholds that were found at this tick; of each step the last one counts."""
-        for told in footholds if self._only_level else ():
-            true = self._under(told.side)
-            if len(true) < 3 or len(told.polygon) < 3:
+        for foothold in footholds if self._only_level else ():
+            true = self._under(foothold.side)
+            if len(true) < 3 or len(foothold.polygon) < 3:
                 continue
-            middle, found = centroid(true), centroid(told.polygon)
+            middle, found = centroid(true), centroid(foothold.polygon)
             assert middle is not None
             assert found is not None
-            whole = area(self._world.robot.layouts[told.side].outline)
-            self._found[told.step] = (
+            whole = area(self._world.robot.layouts[foothold.side].outline)
+            self._found[foothold.step] = (
                 float(np.hypot(*(found - middle))),
-                area(told.polygon) / whole,
+                area(foothold.polygon) / whole,
                 area(true) / whole,
             )
 

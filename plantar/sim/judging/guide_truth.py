@@ -35,7 +35,7 @@ class GuideTruth:
         link: Link of the arm that is held.
         point: Point (3,) in its frame in m at which it is held.
         joints: Names of the arm's joints.
-        posture: Their angles (k,) in rad while nobody moves the arm.
+        posture: Their angles (k,) in rad while the arm is at rest.
         way: How far the hand goes in m, along the world's x axis: negative backward.
         starts: Time in s from which it goes.
     """

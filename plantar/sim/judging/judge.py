@@ -203,13 +203,13 @@ class Judge:
             com: The controller's estimate of the CoM (3,) in m.
             zmp: The controller's estimate of the ZMP (2,) in m, or None.
             moved: Footsteps that the controller reports to have just planned again.
-            pushed: Whether somebody truly pushes on the robot.
+            pushed: Whether the robot is truly pushed.
         """
         if pushed:
             self._pushed.append(time)
         self._estimates.update(com.tolist(), None if zmp is None else zmp.tolist())
         if moved:
-            self.goal.hear(time, moved)
+            self.goal.move(time, moved)
 
     def _justified(self, stand: Stand, way: Way, before: tuple[float, float, float]) -> bool:
         """Whether a push in the last three steps, or the ground where a step was planned or the one before it stood,
@@ -226,7 +226,7 @@ class Judge:
 
     def truth(self) -> GroundTruth:
         """Ground reaction, true ZMP and true support polygon at the last physics step."""
-        return GroundTruth(*self._reaction.told())
+        return GroundTruth(*self._reaction.found_now())
 
     def _look_for_fall(self) -> None:
         """Whether the robot lies, or leans too far to stay up."""

@@ -15,7 +15,7 @@ def partner_reasons(role: str, way: float, moved: float) -> list[dict[str, Any]]
     """Criteria that failed of a robot with a partner.
 
     Args:
-        role: What the partner is: of a "leader" nothing is asked beside a completed walk.
+        role: What the partner is: of a "leader" only a completed walk is asked.
         way: How far the robot was to walk towards it in m.
         moved: How far the partner came towards the robot in m; negative for one that was pushed back.
 

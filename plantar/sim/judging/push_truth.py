@@ -23,13 +23,13 @@ __all__ = ["AGREEMENT", "CHANGED", "PushTruth", "Pushed", "Stride", "step_change
 
 CHANGED = 1 / 20
 """Distance in leg lengths by which a step has to be off its plan to count as changed: 30 mm for H1. A swing foot that
-is not aimed anew lands up to 25 mm off while a push that the ankles hold shakes the body."""
+is not aimed again lands up to 25 mm off while a push that the ankles hold shakes the body."""
 
 AGREEMENT = 0.1
 """Largest difference, as a share, of the CoM's measured acceleration from the predicted one."""
 
 _AFTER = 3  # steps after the one that a push falls into that it may still change
-_LEAST_FORCE = 0.001  # weight: below, nobody pushes
+_LEAST_FORCE = 0.001  # weight: less is no push
 
 
 class Pushed(NamedTuple):
@@ -158,14 +158,14 @@ class PushTruth:
         self._samples.append(_Sample(time, com.copy(), np.array(zmp), np.array([x, y]), above))
 
     def accelerations(self, pushes: Sequence[Pushed]) -> list[dict[str, float]]:
-        """What each push gave the CoM beside what the ground gave it, against what the model of K says.
+        """What each push gave the CoM, less what the ground gave it, against the model of K.
 
         For a body that is kept upright, m h com'' = m g (com - zmp) + F (h + d) for a horizontal force F that acts d
         above a CoM at height h (K 9-11, corrected). Integrated over the push, m dv less the ground's share has to be
         the integral of F (1 + d / h); with the signs as they are printed it would be that of F (1 - d / h).
 
         What legs and trunk swing with has angular momentum that the pendulum does not know: 1.2 N s in 0.24 s of H1's
-        steps in place, to the left or to the right. What it made a stride before, where nobody pushed, is taken off.
+        steps in place, to the left or to the right. What it made a stride before, without a push, is subtracted.
 
         Args:
             pushes: The pushes.
@@ -177,10 +177,10 @@ class PushTruth:
 
     def _acceleration(self, push: Pushed) -> dict[str, float]:
         chosen = self._around(push.start, push.end)
-        nothing = dict.fromkeys(("measured_Ns", "predicted_Ns", "printed_Ns", "above_com_m", "ratio"), math.nan)
+        unknown = dict.fromkeys(("measured_Ns", "predicted_Ns", "printed_Ns", "above_com_m", "ratio"), math.nan)
         length = float(np.hypot(*push.impulse))
         if len(chosen) < 4 or length == 0.0:
-            return nothing
+            return unknown
         way = push.impulse / length
         before = self._around(push.start - self._stride, push.end - self._stride) if self._stride else []
         walks = len(before) >= 4 and not any(s.force.any() for s in before)
@@ -204,7 +204,7 @@ class PushTruth:
         return [s for s in self._samples if start - 0.02 <= s.time <= end + 0.02]
 
     def _unexplained(self, chosen: Sequence[_Sample], way: NDArray[np.float64]) -> float:
-        """What the CoM gained along a way in N s beside what the ground gives a pendulum."""
+        """What the CoM gained along a way in N s, less what the ground gives a pendulum."""
         times, com = np.array([s.time for s in chosen]), np.array([s.com for s in chosen])
         along, zmp = com[:, :2] @ way, np.array([s.zmp for s in chosen]) @ way
         speed = np.gradient(along, times)
@@ -227,13 +227,13 @@ class PushTruth:
             after = changes[push.step : min(until, push.step + _AFTER + 1)]
             most = max(after, default=0.0)
             impulse = float(np.hypot(*push.impulse))
-            told = {"value": round(most, 4), "limit": round(limit, 4)}
+            sizes = {"value": round(most, 4), "limit": round(limit, 4)}
             if push.small and most > limit:
                 text = f"{impulse:.1f} N s changed a step by {most:.3f} m; allowed: {limit:.3f} m at a small push"
-                found.append({"criterion": "steps_kept", **told, "text": text})
+                found.append({"criterion": "steps_kept", **sizes, "text": text})
             elif not push.small and most <= limit:
                 text = f"{impulse:.1f} N s changed no step by more than {most:.3f} m; a large push needs {limit:.3f} m"
-                found.append({"criterion": "stepped", **told, "text": text})
+                found.append({"criterion": "stepped", **sizes, "text": text})
         return found
 
     def stride_reasons(self, pushes: Sequence[Pushed], ways: Sequence[Stride]) -> list[dict[str, Any]]:
@@ -258,7 +258,7 @@ class PushTruth:
         return [{"criterion": "strides", "value": reacted, "limit": len(pushes), "text": text}]
 
     def acceleration_reasons(self, pushes: Sequence[Pushed]) -> list[dict[str, Any]]:
-        """Criteria that failed of a scene in which the CoM is to be accelerated as the model of K says.
+        """Criteria that failed of a scene in which the model of K has to hold for the CoM's acceleration.
 
         Args:
             pushes: The pushes.
@@ -267,12 +267,12 @@ class PushTruth:
             As `plantar.sim.judging.verdict.reasons` gives them.
         """
         found = []
-        for told in self.accelerations(pushes):
-            off = abs(told["ratio"] - 1.0)
+        for row in self.accelerations(pushes):
+            off = abs(row["ratio"] - 1.0)
             if not off <= AGREEMENT:
                 text = (
-                    f"a push {told['above_com_m']:+.3f} m above the CoM gave it {told['measured_Ns']:.1f} N s beside "
-                    f"what the ground did, {told['predicted_Ns']:.1f} N s were predicted; allowed: {AGREEMENT:.0%} off"
+                    f"a push {row['above_com_m']:+.3f} m above the CoM gave it {row['measured_Ns']:.1f} N s more "
+                    f"than the ground, {row['predicted_Ns']:.1f} N s were predicted; allowed: {AGREEMENT:.0%} off"
                 )
                 found.append({"criterion": "com_acceleration", "value": off, "limit": AGREEMENT, "text": text})
         return found

@@ -125,7 +125,7 @@ class StepCount:
             taken.append(stand)
             drift, turned, way = found
             before, course, missed = stand.place, course + way[2], ""
-        if len(taken) == len(steps):  # whatever they did since, both feet have to stand there in the end
+        if len(taken) == len(steps):  # in the end both feet still have to stand there
             for side, k in {step.side: k for k, step in enumerate(steps)}.items():
                 last = next(s for s in reversed(stands) if s.side == side)
                 off, turn = _apart(taken[k].place, last.place) if k < len(taken) else (0.0, 0.0)

@@ -1,4 +1,4 @@
-"""How fast a robot truly walked against what it was told, and whether it stood still when it was told to."""
+"""How fast a robot truly walked against its command, and whether it stood still at a stop."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SPEED_ERROR = 0.1
 """Share of the commanded speed by which the mean speed may be off."""
 
 STEPS_TO_REST = 2
-"""Steps after which a robot that was told to stop stands."""
+"""Steps after which a robot that was commanded to stop has to stand."""
 
 AT_REST = 0.00824
 """Speed of the CoM in legs a beat below which it stands: 0.02 m/s for H1."""
@@ -109,20 +109,20 @@ class VelocityTruth:
         }
 
     def reasons(self, landings: list[float]) -> list[dict[str, Any]]:
-        """What keeps the walk from being as it was told; empty where nothing does.
+        """What keeps the walk from being as commanded; empty for a walk as commanded.
 
         Args:
             landings: Times of touchdown in s.
         """
-        told, found = self.summary(landings), []
+        figures, found = self.summary(landings), []
         for name, words in (("speed_ratio", "speed"), ("turn_ratio", "rate of turn")):
-            ratio = told[name]
+            ratio = figures[name]
             if ratio is not None and not abs(ratio - 1.0) <= SPEED_ERROR:
                 text = f"the mean {words} was {ratio:.2f} of the command; allowed: within {SPEED_ERROR:g} of it"
                 found.append({"criterion": name, "value": ratio, "limit": SPEED_ERROR, "text": text})
-        steps, speed = told["steps_after_stop"], told["last_speed_m_s"]
+        steps, speed = figures["steps_after_stop"], figures["last_speed_m_s"]
         if steps is not None and steps > STEPS_TO_REST:
-            text = f"{steps} steps after it was told to stop; allowed: {STEPS_TO_REST}"
+            text = f"{steps} steps after the command to stop; allowed: {STEPS_TO_REST}"
             found.append({"criterion": "stop", "value": steps, "limit": STEPS_TO_REST, "text": text})
         at_rest = round(self._world.body.in_si("leg/beat") * AT_REST, 4)
         if steps is not None and not speed < at_rest:

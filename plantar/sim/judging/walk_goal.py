@@ -1,4 +1,4 @@
-"""The goal of a walk: its footsteps as planned at the start, and what of them was planned anew, and why.
+"""The goal of a walk: its footsteps as planned at the start, what of them was planned again, and why.
 
 The judge keeps the goal itself. A controller cannot make it shorter, and can move a footstep only by a report before
 the foot lands there, with a reason, to a place that a detour explains. Whether the ground or a push justified the move,
@@ -92,12 +92,12 @@ class WalkGoal:
             ways.append(way)
         return ways
 
-    def hear(self, time: float, moved: Sequence[MovedStep]) -> None:
-        """Take over what a controller says that it moved.
+    def move(self, time: float, moved: Sequence[MovedStep]) -> None:
+        """Take over what a controller reports to have moved.
 
         Args:
-            time: When it was heard in s, by the judge's clock.
-            moved: The footsteps that it moved since it was heard last.
+            time: When it was reported in s, by the judge's clock.
+            moved: The footsteps that it moved since its last report.
         """
         wanted = list(self._now)
         known = [m for m in moved if 0 <= m.step < len(wanted) and m.reason.strip()]
@@ -140,7 +140,7 @@ class WalkGoal:
             The way as planned at the start, and as planned last where that is another one.
         """
         planned = _way(self._before(step), self.steps[step])
-        if self._heard(step, time) is None:
+        if self._last_move(step, time) is None:
             return planned, None
         begin = self._before(step) if step == 0 else self._place(step - 1, before)
         return planned, _way(begin, self._place(step, time))
@@ -149,18 +149,18 @@ class WalkGoal:
         """The foothold before a step, as planned at the start."""
         return self.steps[step - 1] if step else self._feet[other_side(self.steps[0].side)]
 
-    def _heard(self, step: int, time: float) -> _Move | None:
+    def _last_move(self, step: int, time: float) -> _Move | None:
         """How a step was moved last until some time."""
-        heard = [m for m in self._moves.get(step, ()) if m.time <= time]
-        return heard[-1] if heard else None
+        reported = [m for m in self._moves.get(step, ()) if m.time <= time]
+        return reported[-1] if reported else None
 
     def _place(self, step: int, time: float) -> Footstep:
-        move = self._heard(step, time)
+        move = self._last_move(step, time)
         return self.steps[step] if move is None else move.place
 
     def reason(self, step: int, time: float) -> str:
         """Why a step was moved last until some time in s; empty where it was not."""
-        move = self._heard(step, time)
+        move = self._last_move(step, time)
         return "" if move is None else move.reason
 
     def start(self) -> Footstep:
@@ -178,7 +178,7 @@ class WalkGoal:
 
         Args:
             centers: Centre (2,) of each sole in its frame in m.
-            at_start: As planned at the start instead of as planned anew last.
+            at_start: As planned at the start instead of as planned last.
 
         Returns:
             Point (2,) between the soles' centres in m, and the heading in rad.

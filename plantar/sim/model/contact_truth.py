@@ -238,7 +238,7 @@ def ground_truth(
     height = math.nan if plane_height is None else plane_height
     reaction = GroundReaction(height, minimum_force, reach)
     reaction.update(feet)
-    return GroundTruth(*reaction.told())
+    return GroundTruth(*reaction.found_now())
 
 
 def _total_wrench(feet: Sequence[ContactSet]) -> NDArray[np.float64]:

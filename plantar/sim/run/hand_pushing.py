@@ -34,7 +34,7 @@ Steps = tuple[Mapping[Side, Footstep], Sequence[Footstep]]
 def upper_body_skin_of(
     scene: Scene, robot: Robot, model: Any, body: BodyScale, worn: WornArm | None = None
 ) -> BodySkin | None:
-    """Skin of a robot's upper body in a scene; None where nobody touches it, which then costs nothing.
+    """Skin of a robot's upper body in a scene; None, at no cost, where it is not touched.
 
     Args:
         scene: The scene, for the same body.
@@ -47,7 +47,7 @@ def upper_body_skin_of(
         The skin, in the frames of the base and of the arm's links.
 
     Raises:
-        SceneError: If a hand shall lead a robot whose arms do not move.
+        SceneError: If a hand is to lead a robot whose arms do not move.
     """
     if scene.guide.way > 0.0 and worn is None:
         raise SceneError("[guide] way is above 0 and arm.side 'none'; allowed: with an arm that moves, left or right")
@@ -132,7 +132,7 @@ class _When:
 
     def __call__(self) -> float:
         now = self._schedule()
-        if now is not self._of:  # plans are values: one that is another object may say another time
+        if now is not self._of:  # plans are values: another object may have other times
             self._of = now
             found = _moment(self._push, now, self._step)
             self._moment = self._moment if found is None else found
@@ -155,7 +155,7 @@ def _single_support(schedule: WalkSchedule, step: int) -> Phase | None:
 
 
 def _along(steps: Steps, k: int) -> NDArray[np.float64]:
-    """Unit vector (2,) of the way of the foot that takes step k; forward where it goes nowhere."""
+    """Unit vector (2,) of the way of the foot that takes step k; forward where it stays."""
     feet, plan = steps
     side = plan[k].side
     before = next((s for s in reversed(plan[:k]) if s.side == side), feet[side])

@@ -39,7 +39,7 @@ class RunLog:
         world: The world.
         metadata: What identifies the run.
         zmps: Whether the ZMPs of skin and ankles are recorded, too.
-        touch: Who touches the robot, and the skin that feels it; None for nobody.
+        touch: Who touches the robot, and the skin that feels it; None for none.
         arm: Its arm that moves; None without.
     """
 
@@ -187,21 +187,21 @@ class RunLog:
             self._arms.write(time, row)
         if self._guide is not None:
             guide = self._guide
-            told = (guide.sign * guide.reference, guide.sign * guide.moved, guide.sign * guide.force)
-            self._guides.write(time, np.concatenate([guide.position(w), guide.held(w)[0], told]))
+            along = (guide.sign * guide.reference, guide.sign * guide.moved, guide.sign * guide.force)
+            self._guides.write(time, np.concatenate([guide.position(w), guide.held(w)[0], along]))
 
     def _record_touch(self, touch: Touch, sensors: Sensors, command: Command) -> None:
-        """Record the true force on the skin and the felt one, world frame, where feet shall be, and the partner."""
-        felt = np.full(3, np.nan)
+        """Record the true and the measured force on the skin, world frame, the commanded feet, and the partner."""
+        measured = np.full(3, np.nan)
         if sensors.skin is not None:
             skin, world = touch.sensor.skin, self._world
             active = sensors.skin.force >= skin.thresholds
-            felt = np.zeros(3)
+            measured = np.zeros(3)
             for patch in skin.patches:
                 own = np.flatnonzero(active[skin.slices[patch.name]]) + skin.slices[patch.name].start
                 turn = world.data.body(patch.link).xmat.reshape(3, 3)
-                felt += turn @ (sensors.skin.force[own] @ skin.normals[own])
-        self._touched.write(sensors.time, np.concatenate([touch.force, felt]))
+                measured += turn @ (sensors.skin.force[own] @ skin.normals[own])
+        self._touched.write(sensors.time, np.concatenate([touch.force, measured]))
         self._feet.write(sensors.time, np.concatenate([command.feet[side].position for side in SIDES]))
         if self._partner is not None:
             row = np.array([self._partner.moved, self._partner.law.position, self._partner.force])

@@ -44,7 +44,7 @@ class Pusher:
         applied: Impulse (3,) in N s that was applied of each so far; ends with the last one that began.
 
     Raises:
-        SceneError: If the scene pushes at a step that the walk does not have, or when nobody stands any more.
+        SceneError: If the scene pushes at a step that the walk does not have, or when the robot no longer stands.
     """
 
     def __init__(self, push: Push, schedule: WalkSchedule, seed: int) -> None:
@@ -99,7 +99,7 @@ def direction_name(push: Push, seed: int) -> str:
         seed: Seeds 0-3 push forward, backward, left and right, seeds 4-7 again, and so on.
 
     Returns:
-        One of the four, or "angle" or "step" where the scene says so.
+        One of the four, or "angle" or "step" where the scene has it so.
     """
     return tuple(_DIRECTIONS)[seed % len(_DIRECTIONS)] if push.direction == "seeded" else push.direction
 
@@ -120,7 +120,7 @@ def direction_of(push: Push, seed: int) -> tuple[float, float]:
 
 
 def _refuse_unused(push: Push) -> None:
-    """Refuse what only hands do: a force from nowhere does nothing of it."""
+    """Refuse what only hands do."""
     alone = {"direction": push.direction == "step", "cycle": push.cycle >= 0.0, "repeat": push.repeat > 1}
     alone |= {"with_swing": push.with_swing}
     alone |= {"small": push.small > 0.0, "place": push.place != "height", "verdict": push.verdict != "walk"}

@@ -177,7 +177,7 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
 
 
 def _of_parts(run: FinishedRun, landings: list[float], balance: dict[str, Any]) -> dict[str, Any]:
-    """What only some scenes have to say."""
+    """Figures that only some scenes have."""
     found: dict[str, Any] = {}
     if run.plant is not None:
         found["plant"] = run.plant.summary()

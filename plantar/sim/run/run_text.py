@@ -13,8 +13,8 @@ __all__ = ["demo_text", "run_text"]
 
 Summary = Mapping[str, Any]
 
-_TOLD = ("terrain.", "push.", "walk.length", "walk.sideways", "walk.swing_height")
-"""Settings whose numbers people want to know of a run; the JSON tells all of them."""
+_SHOWN = ("terrain.", "push.", "walk.length", "walk.sideways", "walk.swing_height")
+"""Settings whose numbers people want to know of a run; the JSON lists all of them."""
 
 _PLANT_UNITS = {"_rad_s": "rad/s", "_Nm": "N m", "_m": "m", "_N": "N", "_deg": "deg", "_s": "s"}
 """Units of the true plant's items by the ends of their names in the JSON."""
@@ -80,25 +80,25 @@ def _outcome(summary: Summary) -> list[str]:
 
 def _shares(summary: Summary) -> list[str]:
     """What the scene's shares of a body come to on this robot."""
-    shares = {name: share for name, share in summary["shares"].items() if name.startswith(_TOLD)}
-    told = [f"{name} {x['value']:.3g} {x['unit']} ({x['share']})" for name, x in shares.items()]
+    shares = {name: share for name, share in summary["shares"].items() if name.startswith(_SHOWN)}
+    parts = [f"{name} {x['value']:.3g} {x['unit']} ({x['share']})" for name, x in shares.items()]
     body = summary["body"]
     size = f"{body['mass_kg']:.3g} kg, paced as a leg of {body['leg_m']:.3g} m, soles of {body['sole_m']:.3g} m"
-    return textwrap.wrap(f"on {size}: {', '.join(told)}", 118, initial_indent="  ", subsequent_indent="    ")
+    return textwrap.wrap(f"on {size}: {', '.join(parts)}", 118, initial_indent="  ", subsequent_indent="    ")
 
 
 def _plant(summary: Summary) -> list[str]:
     """In what the true plant differed from the controller's model."""
-    told = []
+    parts = []
     for key, value in summary.get("plant", {}).items():
         ending = next((e for e in _PLANT_UNITS if key.endswith(e)), "")
         numbers = value if isinstance(value, list) else [value]
         size = ", ".join(f"{v:.3g}" for v in numbers)
         if len(numbers) > 3:
             size = f"up to {max(map(abs, numbers)):.3g}"
-        told.append(f"{key.removesuffix(ending).replace('_', ' ')} {size} {_PLANT_UNITS.get(ending, '')}".rstrip())
-    words = f"true plant, which the controller does not know: {'; '.join(told)}"
-    return textwrap.wrap(words, 118, initial_indent="  ", subsequent_indent="    ") if told else []
+        parts.append(f"{key.removesuffix(ending).replace('_', ' ')} {size} {_PLANT_UNITS.get(ending, '')}".rstrip())
+    words = f"true plant, which the controller does not know: {'; '.join(parts)}"
+    return textwrap.wrap(words, 118, initial_indent="  ", subsequent_indent="    ") if parts else []
 
 
 def _body(summary: Summary) -> list[str]:
@@ -144,7 +144,7 @@ def _joints(summary: Summary) -> list[str]:
 
 
 def _balance(summary: Summary) -> list[str]:
-    """Pushes that were recovered from, and the skin's ZMP beside that of the ankles, where the scene has them."""
+    """Pushes that were recovered from, and the skin's ZMP against that of the ankles, where the scene has them."""
     balance = summary.get("balance", {})
     lines = []
     if balance.get("pushes"):

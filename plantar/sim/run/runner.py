@@ -172,7 +172,7 @@ class Simulation:
 
     @property
     def end(self) -> float:
-        """Time in s at which the run is over: the walk has ended, and nothing is commanded any more."""
+        """Time in s at which the run is over: the walk has ended, and all commands are over."""
         if self.velocities is None:
             return self.controller.end
         return max(self.controller.end, self.velocities.times[-1] + self.settings.timing.settle)
@@ -200,9 +200,9 @@ class Simulation:
         with ExitStack() as stack:
             log = film = None
             if record is not None:
-                told, touch = self._identity(), self.touch
+                identity, touch = self._identity(), self.touch
                 log = stack.enter_context(
-                    RunLog(Path(record), self.world, told, zmps=bool(self.zmps), touch=touch, arm=self.arm)
+                    RunLog(Path(record), self.world, identity, zmps=bool(self.zmps), touch=touch, arm=self.arm)
                 )
             if video is not None:
                 film = stack.enter_context(Film(video, self.world))

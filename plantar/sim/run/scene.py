@@ -46,15 +46,15 @@ class Push(Settings):
     """Pushes on the base: one in a step, one in each of several steps, or several while the robot stands.
 
     Attributes:
-        dv: Velocity in m/s that the push gives to a body that nothing holds: its impulse is that times the robot's
-            mass; 0 pushes nobody.
+        dv: Velocity in m/s that the push gives to a free body: its impulse is that times the robot's
+            mass; 0 for no push.
         impulse: Impulse in N s, for every robot the same, instead of `dv`; 0 goes by `dv`.
         duration: Duration in s.
-        by: What pushes: a "force" on the torso that comes from nowhere, or "hands" that press on the skin of the upper
-            body, which is then felt (`sensing.body_skin`).
+        by: What pushes: a bare "force" on the torso, or "hands" that press on the skin of the upper
+            body, which then measures them (`sensing.body_skin`).
         direction: Direction in the robot's frame; "angle" takes `angle`, "step" goes along the step that it falls into,
             and with "seeded" the seed chooses.
-        angle: Direction in degrees from forward to the left, where `direction` says so.
+        angle: Direction in degrees from forward to the left, where `direction` is "angle".
         step: Step in whose single support it comes; -1 lets the seed choose.
         phase: Share of the single support at which it begins.
         cycle: Share of the stride, from the begin of that single support to the begin of the next one of the same foot,
@@ -70,7 +70,7 @@ class Push(Settings):
         sideways: Strength of a push to the side, as a share of one forward; in between along an ellipse.
         height: Height in m above the torso's centre of mass at which it is pushed; 0.6 is about the neck.
         place: Where hands push: at `height`, or at the height of the CoM, the hips or the shoulders.
-        verdict: What the judge asks for beside a completed walk: "steps", that small pushes change no step and others
+        verdict: What the judge asks for besides a completed walk: "steps", that small pushes change no step and others
             do; "stride", that each pushed step becomes longer along its push; "acceleration", that the CoM is
             accelerated as a force at that height has to. Of pushes by hands.
     """
@@ -168,7 +168,7 @@ class Scene:
         return self.sensing.proximity_range
 
     def for_body(self, body: BodyScale) -> Scene:
-        """The scene for a robot: what it states as shares of a body is told for this one.
+        """The scene for a robot: shares of a body in numbers of this one.
 
         Args:
             body: How large the robot is.

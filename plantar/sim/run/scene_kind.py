@@ -135,7 +135,7 @@ def run(
 
     Raises:
         SceneError: If the scene cannot be run.
-        InputError: If a file or folder cannot be written, or the scene has nothing to record.
+        InputError: If a file or folder cannot be written, or the scene cannot be recorded.
 
     Example:
         >>> run("flat", 0)["completed"]  # doctest: +SKIP

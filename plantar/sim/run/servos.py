@@ -35,7 +35,7 @@ class LegServos:
         world: The world.
         legs: Kinematics of the robot.
         period: Control period in s.
-        plant: In what the true drives differ from what these servos are taken to be; None for nothing.
+        plant: How the true drives differ from these servos; None for no difference.
 
     Attributes:
         out_of_reach_since: Time in s at which something was first asked for that the legs do not reach; None if never.

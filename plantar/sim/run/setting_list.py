@@ -21,10 +21,10 @@ def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -
 
     Args:
         name: A table such as "estimator" or "terrain.beam", a setting's dotted name, or its last part; None lists all.
-        body: The body for which defaults that are shares of one are told in SI.
+        body: The body for which defaults that are shares of one are given in SI.
 
     Returns:
-        What there is to say of each; those of a kind of terrain stand under "terrain.KIND.", which a scene writes as
+        Each with its description; those of a kind of terrain are listed under "terrain.KIND.", which a scene writes as
         `terrain.kind` and the last part; those of an experiment under its name.
 
     Raises:
@@ -41,16 +41,16 @@ def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -
     tables |= {table: controller_settings_described(table, body) for table in CONTROLLER_TABLES}
     for kind in experiment_names():
         tables |= {f"{kind}.{table}": own.described(body) for table, own in companion_tables(kind).items()}
-    every = {f"{table}.{told.name}": told for table, settings in tables.items() for told in settings}
+    every = {f"{table}.{setting.name}": setting for table, settings in tables.items() for setting in settings}
     if name is None:
         return every
     found = {
-        full: told
-        for full, told in every.items()
+        full: setting
+        for full, setting in every.items()
         if full == name or full.startswith(f"{name}.") or full.endswith(f".{name}")
     }
     if not found:
-        words = {*tables, *every, *(told.name for told in every.values())}
+        words = {*tables, *every, *(setting.name for setting in every.values())}
         near = get_close_matches(name, sorted(words), 4)
         hint = f"nearest: {', '.join(near)}; " if near else ""
         raise InputError(f"no setting or table '{name}'; {hint}tables: {', '.join(tables)}")
@@ -65,7 +65,7 @@ def settings_of_robot(name: str | None, robot: str | None) -> dict[str, Setting]
         robot: Name or file of the robot; None takes the reference body, which is H1's.
 
     Returns:
-        What there is to say of each.
+        Their descriptions.
 
     Raises:
         InputError: If there is no such table or setting.

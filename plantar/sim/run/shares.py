@@ -45,7 +45,9 @@ def shares_told(scene: Scene) -> dict[str, dict[str, Any]]:
         >>> shares_told(load_scene("flat"))["walk.length"]
         {'share': '0.3333 leg', 'value': 0.2, 'unit': 'm'}
     """
-    return {f"{section}.{name}": told for section in SECTIONS for name, told in _told(getattr(scene, section)).items()}
+    return {
+        f"{section}.{name}": share for section in SECTIONS for name, share in _told(getattr(scene, section)).items()
+    }
 
 
 def _told(settings: Settings) -> dict[str, dict[str, Any]]:

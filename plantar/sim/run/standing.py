@@ -42,7 +42,7 @@ def stand(
         feet: Where the soles stand.
         centers: Point (2,) of each sole in the world frame in m that carries its half of the weight.
         com_height: CoM height above the soles in m.
-        hold: Holds what else of the robot moves, and is called before each physics step; None where nothing does.
+        hold: Holds what else of the robot moves, called before each physics step; None where all else is at rest.
 
     Raises:
         RobotError: If the left foot is to the right of the other.

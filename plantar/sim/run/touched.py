@@ -1,4 +1,4 @@
-"""Who touches the robot in a run: hands that push or lead, a partner, the skin that feels them, and their judge."""
+"""What touches the robot in a run: hands that push or lead, a partner, the skin under them, and their judge."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ class Touched:
             self._led.update(time)
 
     def reasons(self, stands: Sequence[Stand]) -> list[dict[str, Any]]:
-        """Criteria that failed of what the scene asks beside a completed walk.
+        """Criteria that failed of what the scene asks besides a completed walk.
 
         Args:
             stands: The stands of the feet that could be steps.
@@ -153,8 +153,8 @@ class Touched:
         """
         found: dict[str, Any] = {}
         if self.hands is not None:
-            push, told = self._scene.push, self.hands.summary()
-            for row, measured in zip(told["pushes"], self._truth.accelerations(self._pushes()), strict=True):
+            push, figures = self._scene.push, self.hands.summary()
+            for row, measured in zip(figures["pushes"], self._truth.accelerations(self._pushes()), strict=True):
                 row |= {name: round(value, 3) for name, value in measured.items()}
             changes = step_changes(stands, self._feet, self._steps)
             ways = strides(stands, self._feet, self._steps)
@@ -166,7 +166,7 @@ class Touched:
                 "direction": direction_name(push, self._seed),
                 "step_changes_m": [round(change, 4) for change in changes],
                 "strides_m": [[round(v, 4) for v in way.true] for way in ways],
-                **told,
+                **figures,
             }
         if self.partner is not None:
             found["partner"] = {**self.partner.summary(), "robot_moved_m": round(walked, 4)}

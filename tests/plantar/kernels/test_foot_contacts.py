@@ -133,7 +133,7 @@ def test_the_ground_s_reaction_is_that_of_both_feet_in_both_forms(height, seed):
         for first in (seed + 5, seed):  # what was found before leaves no trace
             reaction.update([gathered(lists, first), gathered(lists, first + 1)])
         areas = [reaction.area(foot) for foot in (0, 1)]
-        reactions.append((*reaction.told(), areas))
+        reactions.append((*reaction.found_now(), areas))
     one, other = reactions
     assert one[0].tolist() == other[0].tolist()
     assert (one[1] is None) == (other[1] is None)

@@ -179,7 +179,7 @@ class Follower:
                 self.last[foot] = now
         assert seen == wanted
         assert list(self.reaction.loads) == pytest.approx(loads, abs=1e-9)
-        _, _, _, depth, _ = self.other.told()
+        _, _, _, depth, _ = self.other.found_now()
         if depth is not None:
             self.margin = min(self.margin, depth)
             if self.landings:

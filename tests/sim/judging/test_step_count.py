@@ -36,7 +36,7 @@ class Walk:
         self.count.watch.carry(SIDES.index(step.side), force, step.x + dx, step.y, step.yaw + dyaw)
 
     def say(self, *moved: MovedStep) -> None:
-        self.goal.hear(self.time, moved)
+        self.goal.move(self.time, moved)
 
     @property
     def taken(self) -> int:
@@ -212,7 +212,7 @@ def test_who_leads_the_robot_explains_steps_that_go_along(led: float, refused: i
     feet, steps = straight_plan(6, length=0.0)
     goal = WalkGoal(feet, steps, led=led)
     for k in range(len(steps)):
-        goal.hear(float(k), [MovedStep(n, 0.12 * k, s.y, 0.0, "goes along") for n, s in enumerate(steps) if n == k])
+        goal.move(float(k), [MovedStep(n, 0.12 * k, s.y, 0.0, "goes along") for n, s in enumerate(steps) if n == k])
     assert goal.refused == refused
 
 
