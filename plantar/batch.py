@@ -22,7 +22,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import integer
+from plantar.arguments import instance, integer, number
 from plantar.arrays import held_numbers
 from plantar.errors import ReadingError
 from plantar.kernels.skin import frames as _kernel
@@ -172,7 +172,7 @@ def wrenches(
 
     Raises:
         ReadingError: If the forces or `out` have another shape, or are not numeric.
-        InputError: If there is not at least one thread.
+        InputError: If the layout is none, the threshold NaN or no number, or there is not at least one thread.
 
     Example:
         >>> from plantar import hex_layout
@@ -211,7 +211,7 @@ def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None, 
 
     Raises:
         ReadingError: If the forces have another shape or are not numeric.
-        InputError: If there is not at least one thread.
+        InputError: If the layout is none, the threshold NaN or no number, or there is not at least one thread.
 
     Example:
         >>> from plantar import hex_layout
@@ -253,7 +253,7 @@ def support_polygons(
 
     Raises:
         ReadingError: If the forces have another shape or are not numeric.
-        InputError: If there is not at least one thread.
+        InputError: If the layout is none, the threshold NaN or no number, or there is not at least one thread.
 
     Example:
         >>> from plantar import hex_layout
@@ -345,14 +345,13 @@ def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[sl
         Which frames, and a view of them: nothing is read or copied before the view is.
 
     Raises:
-        ReadingError: If there is not at least one frame in a block.
+        InputError: If there is not at least one frame in a block.
 
     Example:
         >>> [(rows.start, rows.stop, part.shape) for rows, part in blocks(np.zeros((5, 3)), frames=2)]
         [(0, 2, (2, 3)), (2, 4, (2, 3)), (4, 5, (1, 3))]
     """
-    if frames < 1:
-        raise ReadingError(f"a block has {frames} frames; allowed: 1 or more")
+    frames = integer(frames, "frames of a block", 1)
     for start in range(0, len(force), frames):
         rows = slice(start, min(start + frames, len(force)))
         yield rows, force[rows]
@@ -376,6 +375,7 @@ def _frames(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> tuple
 
     Not copied, but where the dimensions cannot be one otherwise.
     """
+    instance(layout, SoleLayout, "layout")
     array = held_numbers(force, name, ReadingError)
     if array.ndim < 1 or array.shape[-1] != len(layout):
         raise ReadingError(f"{name} have shape {array.shape}; expected (..., {len(layout)})")
@@ -385,7 +385,8 @@ def _frames(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> tuple
 
 def _limits(layout: SoleLayout, threshold: float | None) -> tuple[float, float]:
     """Between which forces a taxel is active."""
-    return layout.force_threshold if threshold is None else float(threshold), layout.force_limit
+    low = layout.force_threshold if threshold is None else number(threshold, "activation threshold")
+    return low, layout.force_limit
 
 
 def _is_plain(force: NDArray[np.generic]) -> bool:

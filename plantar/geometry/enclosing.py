@@ -1,8 +1,8 @@
 """Shapes around points: bounding box, oriented box and parallelogram of least area (T 4.2.5).
 
 Each takes the vertices of a convex polygon, in either direction and with repeated or collinear vertices, and returns
-corners (4, 2) in m, counter-clockwise; no corners (0, 2) for an empty polygon. Vertices that are not finite are left
-out.
+corners (4, 2) in m, counter-clockwise; no corners (0, 2) for an empty polygon. A vertex that is not finite is
+refused.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.geometry.convex_shapes import convex_shapes, points_of
+from plantar.geometry.convex_shapes import convex_shapes
+from plantar.plane_points import plane_points
 
 __all__ = ["bounding_box", "enclosing_parallelogram", "oriented_box"]
 
@@ -30,7 +31,7 @@ def bounding_box(points: ArrayLike) -> NDArray[np.float64]:
         >>> bounding_box([]).shape
         (0, 2)
     """
-    return np.asarray(convex_shapes().bounding_box(points_of(points)))
+    return np.asarray(convex_shapes().bounding_box(plane_points(points, "points")))
 
 
 def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -48,7 +49,7 @@ def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> round(float(np.linalg.norm(box[1] - box[0]) * np.linalg.norm(box[2] - box[1])), 12)
         2.0
     """
-    return np.asarray(convex_shapes().box(points_of(polygon)))
+    return np.asarray(convex_shapes().box(plane_points(polygon)))
 
 
 def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -69,4 +70,4 @@ def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> sorted(np.round(corners, 12).tolist())
         [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [3.0, 1.0]]
     """
-    return np.asarray(convex_shapes().parallelogram_around(points_of(polygon)))
+    return np.asarray(convex_shapes().parallelogram_around(plane_points(polygon)))

@@ -1,9 +1,9 @@
 """Largest shapes inside the contact: triangle, parallelogram, circle and rectangles (T 4.2.5, T 4.4.4).
 
 The functions of a convex polygon take its vertices (k, 2) in m in either direction, with repeated or collinear
-vertices; vertices that are not finite are left out. They return corners in m, counter-clockwise: none (0, 2) for an
-empty polygon, and a shape without area within it for a polygon without area. Inside means up to rounding: a corner may
-stand out by a few units in the last place of the coordinates.
+vertices; one that is not convex or not finite is refused. They return corners in m, counter-clockwise: none (0, 2)
+for an empty polygon, and a shape without area within it for a polygon without area. Inside means up to
+rounding: a corner may be outside by a few units in the last place of the coordinates.
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number
 from plantar.errors import InputError
-from plantar.geometry.convex_shapes import convex_shapes, points_of
+from plantar.geometry.convex_shapes import convex_shapes
 from plantar.geometry.outline import Outline
+from plantar.geometry.polygon import convex_ring
 
 __all__ = [
     "BoundedRectangle",
@@ -74,7 +75,7 @@ def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> inscribed_triangle([[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.0, 3.0], [0.0, 1.0]]).tolist()
         [[0.0, 0.0], [4.0, 0.0], [2.0, 3.0]]
     """
-    return np.asarray(convex_shapes().triangle(points_of(polygon)))
+    return np.asarray(convex_shapes().triangle(convex_ring(polygon)))
 
 
 def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -94,7 +95,7 @@ def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> corners.tolist()  # half of the triangle
         [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5]]
     """
-    return np.asarray(convex_shapes().parallelogram(points_of(polygon)))
+    return np.asarray(convex_shapes().parallelogram(convex_ring(polygon)))
 
 
 def inscribed_circle(polygon: ArrayLike) -> Circle | None:
@@ -117,7 +118,7 @@ def inscribed_circle(polygon: ArrayLike) -> Circle | None:
         >>> inscribed_circle([]) is None
         True
     """
-    center, radius = convex_shapes().circle(points_of(polygon))
+    center, radius = convex_shapes().circle(convex_ring(polygon))
     return Circle(center[0], float(radius)) if len(center) else None
 
 
@@ -139,7 +140,7 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
         >>> inscribed_rectangle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()
         [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5]]
     """
-    return np.asarray(convex_shapes().rectangle(points_of(polygon), angle))
+    return np.asarray(convex_shapes().rectangle(convex_ring(polygon), angle))
 
 
 def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -160,7 +161,7 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 9)
         2.0
     """
-    return np.asarray(convex_shapes().rectangle_at_any_angle(points_of(polygon)))
+    return np.asarray(convex_shapes().rectangle_at_any_angle(convex_ring(polygon)))
 
 
 def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.float64]:

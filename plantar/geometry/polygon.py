@@ -13,14 +13,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number
+from plantar.errors import InputError
 from plantar.kernels.geometry import convex as _kernel
 from plantar.kernels.geometry import hull as _hull
 from plantar.kernels.geometry.clean import clean_ring, extent, turning
 from plantar.kernels.geometry.half_plane import part_below
 from plantar.plane_points import plane_point, plane_points
 
-__all__ = ["area", "centroid", "closest_point", "convex_hull", "inner_offset", "part_inside", "signed_margin"]
+__all__ = [
+    "area",
+    "centroid",
+    "closest_point",
+    "convex_hull",
+    "convex_ring",
+    "inner_offset",
+    "part_inside",
+    "signed_margin",
+]
 
+_DENT = 1e-6  # of its hull: a polygon that lacks less than this is convex
 _NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to each other are one
 
 
@@ -48,6 +59,36 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
     """
     hull: NDArray[np.float64] = _hull.convex_hull(plane_points(points, "points", finite=False))
     return hull
+
+
+def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
+    """A convex polygon as it is handed over, checked; repeated and collinear vertices are allowed.
+
+    Args:
+        polygon: Polygon (k, 2) in m, either orientation.
+
+    Returns:
+        Vertices (k, 2) in m, not copied where they are an array of float64.
+
+    Raises:
+        InputError: If it is not (k, 2) finite numbers, or not convex.
+
+    Example:
+        >>> convex_ring([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]])
+        Traceback (most recent call last):
+        plantar.errors.InputError: polygon is not convex: 86 % of its hull; allowed: a convex one, as of convex_hull
+    """
+    ring = plane_points(polygon)
+    if len(ring) > 3 and turning(ring, 0.0, 0.0, 0.0) == 0:
+        hull = float(_kernel.area_of(_hull.convex_hull(ring)))
+        share = abs(float(_kernel.area_of(ring))) / hull if hull > 0.0 else 1.0
+        size = extent(ring)
+        step = 1e-15 * float(np.abs(ring).max())  # of the coordinates
+        if (1.0 - share) * hull > _DENT * (hull + 0.01 * size * size) + step * size:
+            raise InputError(
+                f"polygon is not convex: {100.0 * share:.0f} % of its hull; allowed: a convex one, as of convex_hull"
+            )
+    return ring
 
 
 def area(polygon: ArrayLike) -> float:
@@ -109,13 +150,13 @@ def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] |
         NaN for a point that is not finite, to which nothing is closest.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers, or the point not two numbers.
+        InputError: If the polygon is not (k, 2) finite numbers or not convex, or the point not two numbers.
 
     Example:
         >>> closest_point(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [2.0, 0.5]).tolist()
         [1.0, 0.5]
     """
-    ring = plane_points(polygon)
+    ring = convex_ring(polygon)
     x, y = plane_point(point)
     if len(ring) == 0:
         return None
@@ -134,13 +175,13 @@ def signed_margin(polygon: ArrayLike, point: ArrayLike) -> float:
         The distance; -inf for an empty polygon, NaN for a point that is not finite.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers, or the point not two numbers.
+        InputError: If the polygon is not (k, 2) finite numbers or not convex, or the point not two numbers.
 
     Example:
         >>> signed_margin(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [0.5, 0.25])
         0.25
     """
-    ring = plane_points(polygon)
+    ring = convex_ring(polygon)
     x, y = plane_point(point)
     if len(ring) == 0:
         return -math.inf
@@ -160,16 +201,18 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
         one, and a copy for a distance of 0.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers, or the distance no number.
+        InputError: If the polygon is not (k, 2) finite numbers or not convex, or the distance is below 0 or no number.
 
     Example:
         >>> inner_offset(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), 0.25).tolist()
         [[0.25, 0.75], [0.25, 0.25], [0.75, 0.25], [0.75, 0.75]]
     """
-    ring = plane_points(polygon)
+    ring = convex_ring(polygon)
     if type(distance) is not float:  # which control loops hand over, and which may be NaN or inf
         distance = number(distance, "distance", nan=True)
-    if len(ring) == 0 or distance <= 0.0:
+    if distance < 0.0:
+        raise InputError(f"distance is {distance} m; allowed: 0 or more")
+    if len(ring) == 0 or distance == 0.0:
         return ring[:: -1 if area(ring) < 0.0 else 1].copy()
     if len(ring) < 3:
         return np.asarray(ring.mean(axis=0, keepdims=True))

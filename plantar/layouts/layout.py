@@ -56,7 +56,7 @@ DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * GRAVITY, "proximity":
 """Activation thresholds: 0.15 kg of force (T Table 2) in N, the proximity range in m, and 31 degC (T 3.3.2.1)."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SoleLayout:
     """The taxels of one sole. Arrays, lists and mappings are copied in, and read-only; n taxels, v vertices.
 
@@ -196,6 +196,10 @@ class SoleLayout:
     def __len__(self) -> int:
         return len(self.corners)
 
+    def __repr__(self) -> str:
+        length, width = np.ptp(self.outline, axis=0)
+        return f"<SoleLayout '{self.name}', {self.side}: {len(self)} taxels on {length:.3f} x {width:.3f} m>"
+
     @cached_property
     def force_threshold(self) -> float:
         """Force in N at which a taxel counts as active (epsilon_f of T 4.22)."""
@@ -231,6 +235,11 @@ class SoleLayout:
     def is_flat(self) -> bool:
         """Whether every taxel's axes are those of the sole frame."""
         return bool((self.rotations == np.eye(3)).all())
+
+    @cached_property
+    def is_level(self) -> bool:
+        """Whether taxels and corners all lie in the plane z = 0."""
+        return not (self.positions[:, 2].any() or self.vertices[:, 2].any())
 
     @cached_property
     def corner_start(self) -> NDArray[np.int64]:

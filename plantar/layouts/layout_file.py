@@ -11,15 +11,19 @@ from typing import Any, cast
 
 import numpy as np
 
+from plantar.arguments import instance
 from plantar.atomic import write_text
 from plantar.errors import LayoutError
 from plantar.files.structured_text import read_json
+from plantar.layouts.cell_checks import check_cells
 from plantar.layouts.layout import Side, SoleLayout
 
 __all__ = ["SCHEMA", "layout_from_dict", "layout_to_dict", "read_layout", "write_layout"]
 
 SCHEMA = "plantar.layout/1"
 """Schema name and version that a layout file states."""
+
+_UNITS = "m, N, degC; sole frame: x forward, y left, z up, on the outer contact face"
 
 
 def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
@@ -37,11 +41,12 @@ def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
         >>> layout_to_dict(layout)["name"]
         'mat'
     """
+    instance(layout, SoleLayout, "layout")
     return {
         "schema": SCHEMA,
         "name": layout.name,
         "side": layout.side,
-        "units": "m, N, degC; sole frame: x forward, y left, z up, on the outer contact face",
+        "units": _UNITS,
         "cell_shape": layout.cell_shape,
         "cell_area": layout.cell_area,
         "modalities": list(layout.modalities),
@@ -102,7 +107,8 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
         The checked layout.
 
     Raises:
-        LayoutError: If a field is missing or wrong; the message names it.
+        LayoutError: If a field is missing or wrong, the units are not SI, or cells contradict themselves; the message
+            names it.
 
     Example:
         >>> from plantar import grid_layout
@@ -115,6 +121,9 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
     schema = _take(source, "schema", str, where)
     if schema != SCHEMA:
         raise LayoutError(f"{where}: field 'schema' is {schema!r}; this version reads {SCHEMA!r}")
+    units = _take(source, "units", str, where) if "units" in source else _UNITS
+    if units.partition(";")[0].replace(" ", "").split(",") != ["m", "N", "degC"]:
+        raise LayoutError(f"{where}: field 'units' is {units[:60]!r}; allowed: m, N, degC")
     taxels = _take(source, "taxels", list, where)
     rows: dict[str, list[Any]] = {
         k: [] for k in ("id", "position", "rotation_taxel_to_sole", "corners", "area", "neighbours")
@@ -147,7 +156,7 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
     name, side, cell_shape = (_take(source, key, str, where) for key in ("name", "side", "cell_shape"))
     modalities = _take(source, "modalities", list, where)
     try:
-        return SoleLayout(
+        layout = SoleLayout(
             name=name,
             side=cast(Side, side),
             positions=np.array(rows["position"], dtype=np.float64),
@@ -164,6 +173,8 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
             ranges={k: (float(v[0]), float(v[1])) for k, v in ranges.items()},
             thresholds={k: float(v) for k, v in thresholds.items()},
         )
+        check_cells(layout)
+        return layout
     except LayoutError as error:
         raise LayoutError(f"{where}: {error}") from None
     except OverflowError:

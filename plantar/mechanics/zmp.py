@@ -19,7 +19,7 @@ from plantar.plane_points import plane_point
 __all__ = ["centroidal_moment_pivot", "zero_moment_wrench", "zmp_in_plane", "zmp_of_feet", "zmp_of_wrench"]
 
 
-def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 1.0) -> NDArray[np.float64] | None:
+def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 0.0) -> NDArray[np.float64] | None:
     """Zero moment point of a wrench in a plane z = height (T 4.5-4.6).
 
     There the wrench has no moment about x and y: p = [(h fx - ty) / fz, (h fy + tx) / fz].
@@ -27,7 +27,7 @@ def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 
     Args:
         wrench: Wrench (6,) about the frame's origin.
         height: Height h of the plane above the frame's origin in m.
-        minimum_force: Vertical force in N below which there is no ZMP.
+        minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
 
     Returns:
         Position (2,) in m, or None where the vertical force is below `minimum_force` or not above 0, or NaN.
@@ -59,14 +59,14 @@ def _levels(height: float, minimum_force: float) -> tuple[float, float]:
 
 
 def zero_moment_wrench(
-    wrench: ArrayLike, height: float = 0.0, minimum_force: float = 1.0
+    wrench: ArrayLike, height: float = 0.0, minimum_force: float = 0.0
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
     """The ground reaction force with zero moment: the wrench transferred to its ZMP (T 4.2.4, after 4.23).
 
     Args:
         wrench: Wrench (6,) about the frame's origin.
         height: Height of the plane of the ZMP in m.
-        minimum_force: Vertical force in N below which there is no ZMP.
+        minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
 
     Returns:
         The point (3,) in m and the wrench (6,) about it: the same force, moments 0 about x and y, and the twist about
@@ -90,7 +90,7 @@ def zero_moment_wrench(
 
 
 def centroidal_moment_pivot(
-    force: ArrayLike, com: ArrayLike, height: float = 0.0, minimum_force: float = 1.0
+    force: ArrayLike, com: ArrayLike, height: float = 0.0, minimum_force: float = 0.0
 ) -> NDArray[np.float64] | None:
     """Centroidal moment pivot: where the line of the ground reaction force, put through the CoM, meets the ground.
 
@@ -125,12 +125,12 @@ def centroidal_moment_pivot(
     return np.array(pivot) if math.isfinite(pivot[0]) and math.isfinite(pivot[1]) else None
 
 
-def zmp_of_wrench(wrench: ArrayLike, minimum_force: float = 1.0) -> NDArray[np.float64] | None:
+def zmp_of_wrench(wrench: ArrayLike, minimum_force: float = 0.0) -> NDArray[np.float64] | None:
     """Zero moment point of one wrench in the plane z = 0 of its frame (T 4.5-4.6 for a force-torque sensor).
 
     Args:
         wrench: Wrench (6,) about the frame's origin.
-        minimum_force: Vertical force in N below which there is no ZMP.
+        minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
 
     Returns:
         Position (2,) in m, or None, also where the wrench holds NaN or inf.
@@ -157,11 +157,12 @@ def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[fl
         vertical_forces: Vertical force of each foot in N.
 
     Returns:
-        Position (2,) in the common frame in m, or None where no foot carries load, which a force that is NaN or below 0
-        is not.
+        Position (2,) in the common frame in m, or None where no foot carries load. A foot cannot pull: one whose force
+        is NaN, 0 or less is left out.
 
     Raises:
-        InputError: If there are not as many points as forces, or one is not numeric or not finite.
+        InputError: If there are not as many points as forces, one is not numeric or not finite, or a foot that carries
+            load has no point.
 
     Example:
         >>> zmp_of_feet([np.array([0.0, 0.1]), np.array([0.0, -0.1])], [300.0, 100.0]).tolist()
@@ -173,7 +174,9 @@ def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[fl
     total = sum_x = sum_y = 0.0
     for point, given in zip(places, forces, strict=True):
         force = number(given, "vertical force", nan=True)
-        if point is not None and force > 0.0:
+        if force > 0.0:
+            if point is None:
+                raise InputError(f"a foot carries {force:.3g} N and has no point; allowed: None with a force of 0")
             x, y = plane_point(point)
             total += force
             sum_x += force * x

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from plantar.arguments import instance, number
 from plantar.errors import ReadingError
 from plantar.layouts.layout import SoleLayout
 
@@ -53,8 +54,9 @@ def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> An
         >>> active(layout, np.array([[0.0, 9.0], [np.nan, 9.0]]), threshold=1.0).tolist()
         [[False, True], [False, True]]
     """
+    instance(layout, SoleLayout, "layout")
     _namespace(layout, force)
-    low = layout.force_threshold if threshold is None else float(threshold)
+    low = layout.force_threshold if threshold is None else number(threshold, "activation threshold")
     return (force > low) & (force < layout.force_limit)
 
 

@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from plantar.arguments import instance, items, number
 from plantar.errors import InputError
+from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import area
+from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
 from plantar.mechanics.zmp import zmp_in_plane
 from plantar.percepts.percept import Percept
@@ -58,23 +60,37 @@ class FeetPercept:
 
     @lazy
     def positions_cop_in_world(self) -> tuple[NDArray[np.float64] | None, ...]:
-        """CoP (3,) of each sole in the world in m, None for a sole without load (T 4.21)."""
+        """CoP (3,) of each sole on its surface, in the world in m; None for a sole without load (T 4.21)."""
         return tuple(
-            None if p.position_cop_in_sole is None else pose.to_world([*p.position_cop_in_sole.tolist(), 0.0])
+            None if p.surface_cop_in_sole is None else pose.to_world(p.surface_cop_in_sole)
             for p, pose in zip(self.percepts, self.poses, strict=True)
         )
 
     @lazy
     def support_polygon_in_world(self) -> NDArray[np.float64]:
         """Convex support polygon (k, 2) of all soles seen from above in m; empty without contact (T 4.25)."""
-        polygons = [p.support_polygon_in_sole for p in self.percepts]
-        return feet_support_polygon([pose.polygon_to_world(q) for q, pose in zip(polygons, self.poses, strict=True)])
+        polygons = [
+            pose.polygon_to_world(p.support_polygon_in_sole if p.layout.is_level else _corners(p.layout, p.active))
+            for p, pose in zip(self.percepts, self.poses, strict=True)
+        ]
+        return feet_support_polygon(polygons)
+
+    @lazy
+    def outlines_in_world(self) -> tuple[Outline, ...]:
+        """Concave outline of each sole's contact, seen from above in the world in m (T 4.2.5)."""
+        return tuple(
+            pose.outline_to_world(p.concave_outline_in_sole, p.layout)
+            for p, pose in zip(self.percepts, self.poses, strict=True)
+        )
 
     @lazy
     def preemptive_polygon_in_world(self) -> NDArray[np.float64] | None:
         """Convex polygon (k, 2) of all near cells in m (T 4.2.7, Fig. 37-g); None where no sole has proximity."""
-        polygons = [(p.preemptive_polygon_in_sole, pose) for p, pose in zip(self.percepts, self.poses, strict=True)]
-        known = [pose.polygon_to_world(q) for q, pose in polygons if q is not None]
+        known = [
+            pose.polygon_to_world(polygon if p.layout.is_level else _corners(p.layout, p.near))
+            for p, pose in zip(self.percepts, self.poses, strict=True)
+            if (polygon := p.preemptive_polygon_in_sole) is not None
+        ]
         return feet_support_polygon(known) if known else None
 
     @lazy
@@ -86,3 +102,9 @@ class FeetPercept:
     def contact_area(self) -> float:
         """Area in m^2 of the active cells of all soles (T 4.22)."""
         return sum([p.contact_area for p in self.percepts])
+
+
+def _corners(layout: SoleLayout, mask: NDArray[np.bool_] | None) -> NDArray[np.float64]:
+    """Corners (m, 3) of some cells in the sole frame in m."""
+    cells: list[int] = [] if mask is None else np.flatnonzero(mask).tolist()
+    return layout.vertices[sorted({v for i in cells for v in layout.corners[i]})]

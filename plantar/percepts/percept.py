@@ -198,6 +198,23 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         return self._cop()
 
     @lazy
+    def surface_cop_in_sole(self) -> NDArray[np.float64] | None:
+        """Centre of pressure (3,) on the sole's surface in the sole frame in m, or None without load.
+
+        Its height is that of the taxels and of their tangent planes, weighted as the centre of pressure is: exact on a
+        surface of second order, 0 on a flat one.
+        """
+        cop = self.position_cop_in_sole
+        if cop is None:
+            return None
+        if self.layout.is_level:
+            return np.array([*cop.tolist(), 0.0])
+        places, axes = self.layout.positions, self.layout.rotations[:, :, 2]
+        share = self.active_force * axes[:, 2]
+        rise = ((places[:, :2] - cop) * axes[:, :2]).sum(axis=1) / axes[:, 2]
+        return np.array([*cop.tolist(), share @ (places[:, 2] + 0.5 * rise) / share.sum()])
+
+    @lazy
     def wrench_in_sole(self) -> NDArray[np.float64]:
         """Ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.23)."""
         return self._wrench()

@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import instance, items, number
 from plantar.arrays import array, is_finite, numbers, own
 from plantar.errors import InputError
+from plantar.geometry.outline import Outline
+from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
 from plantar.mechanics.rotation import level_rotation
 from plantar.mechanics.zmp import zmp_in_plane
@@ -85,8 +87,23 @@ class SolePose:
         return np.asarray(turned)
 
     def polygon_to_world(self, polygon: ArrayLike) -> NDArray[np.float64]:
-        """A polygon (k, 2) of the sole plane seen from above in the world frame, in m."""
+        """A polygon seen from above in the world frame (k, 2) in m: one of the sole plane (k, 2), or points (k, 3) of a
+        curved sole."""
+        given = numbers(polygon, "polygon")
+        if given.ndim == 2 and given.shape[1] == 3:
+            return self.to_world(given)[:, :2]
         return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
+
+    def outline_to_world(self, outline: Outline, layout: SoleLayout) -> Outline:
+        """A contact's outline seen from above in the world in m, its corners on the sole's own surface.
+
+        Args:
+            outline: Outline in the sole frame in m, as of `concave_outline`.
+            layout: The sole, whose corners the outline has.
+        """
+        height = {(x, y): z for x, y, z in layout.vertices.tolist()}
+        corners = [np.array([[x, y, height.get((x, y), 0.0)] for x, y in ring.tolist()]) for ring in outline.rings]
+        return Outline.of_rings([self.to_world(ring)[:, :2] for ring in corners])
 
     def wrench_to_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
         """Wrenches (..., 6) about the sole's origin as wrenches about the world's origin, in N and N m.
@@ -128,28 +145,34 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
         >>> wrench_of_feet([load, load], [SolePose.flat(0.2, 0.1), SolePose.flat(0.0, -0.1)]).tolist()
         [0.0, 0.0, 200.0, 0.0, -20.0, 0.0]
     """
+    return np.asarray(sum(_turned(wrenches_in_sole, poses)))
+
+
+def _turned(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) -> list[NDArray[np.float64]]:
+    """Each sole's wrench about the world's origin, checked."""
     wrenches, places = items(wrenches_in_sole, "wrenches"), items(poses, "poses")
     if len(wrenches) != len(places) or not places:
         raise InputError(f"{len(wrenches)} wrenches and {len(places)} poses; expected one pose a wrench")
     turned = [instance(p, SolePose, "pose").wrench_to_world(w) for w, p in zip(wrenches, places, strict=True)]
     if any(w.shape != turned[0].shape for w in turned):
         raise InputError(f"wrenches have shapes {', '.join(str(w.shape) for w in turned)}; expected the same")
-    return np.asarray(sum(turned))
+    return turned
 
 
 def zmp_of_soles(
-    wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose], height: float = 0.0, minimum_force: float = 1.0
+    wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose], height: float = 0.0, minimum_force: float = 0.0
 ) -> NDArray[np.float64] | None:
     """Composite ZMP of the soles in a horizontal plane of the world (T 4.7-4.8).
 
     On level soles it is the mean of the soles' ZMPs weighted with their vertical forces, as T 4.7-4.8 print; taken from
-    the summed wrench it also holds for soles that are tilted or at different heights.
+    the summed wrench it also holds for soles that are tilted or at different heights. A sole cannot pull: one whose
+    vertical force in the world is 0 or less is left out, so that the ZMP stays between the feet.
 
     Args:
         wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air.
         poses: Pose of each sole.
         height: Height of the plane in the world in m.
-        minimum_force: Vertical force in N below which there is no ZMP.
+        minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
 
     Returns:
         Position (2,) in the world frame in m, or None without load.
@@ -162,4 +185,7 @@ def zmp_of_soles(
         >>> zmp_of_soles([load, load], [SolePose.flat(0.2, 0.1), SolePose.flat(0.0, -0.1)]).tolist()
         [0.1, 0.0]
     """
-    return zmp_in_plane(wrench_of_feet(wrenches_in_sole, poses), height, minimum_force)
+    turned = _turned(wrenches_in_sole, poses)
+    if turned[0].shape != (6,):
+        raise InputError(f"wrenches have shape {turned[0].shape}; expected (6,)")
+    return zmp_in_plane(np.sum([w for w in turned if not w[2] <= 0.0] or [np.zeros(6)], axis=0), height, minimum_force)

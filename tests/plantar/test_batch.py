@@ -202,8 +202,13 @@ def test_other_bad_input_is_named():
     constant.flags.writeable = False
     with pytest.raises(ReadingError, match="writeable"):
         wrenches(SOLE, np.zeros((2, len(SOLE))), out=constant)
-    with pytest.raises(ReadingError, match="a block has 0 frames"):
+    with pytest.raises(InputError, match="frames of a block"):
         next(blocks(np.zeros((2, 3)), 0))
+    for wrong in ({"threshold": math.nan}, {"threshold": "x"}):
+        with pytest.raises(InputError, match="activation threshold"):
+            batch.loads(SOLE, np.zeros((2, len(SOLE))), **wrong)
+    with pytest.raises(InputError, match="layout"):
+        batch.loads(None, np.zeros(3))
     with pytest.raises(ReadingError, match="vertices=True"):
         support_polygons(SOLE, np.zeros((2, len(SOLE)))).polygon(0)
 

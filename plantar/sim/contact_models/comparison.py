@@ -271,7 +271,7 @@ def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tup
         wrench = rig.wrench()
         if wrench[2] > 100.0:
             pivot = max(pivot, float((_cop(wrench) - middle) @ direction))
-            cop = center_of_pressure(layout, sole.read(rig.data))
+            cop = center_of_pressure(layout, sole.read(rig.data), 0.0)
             shown = shown if cop is None else max(shown, float((cop - middle) @ direction))
     return (pivot - half) * 1e3 if rig.tilt() >= _TIPPED else math.inf, (shown - half) * 1e3
 

@@ -74,12 +74,12 @@ def _percept_loads(block: Block, tally: Tally) -> None:
     reach = float(np.abs(block.layout.positions[:, :2]).max()) + 1e-9
     error = np.where(loaded, np.abs(place - truth).max(axis=1) / reach, 0.0)
     tally.add("Percept.position_cop_in_sole", block, error, 1e-13)
-    direct = [force.center_of_pressure(block.layout, k) for k in kept]
+    direct = [force.center_of_pressure(block.layout, k, 0.0) for k in kept]
     near = np.array([np.zeros(2) if c is None else c for c in direct])
     tally.add("center_of_pressure", block, np.where(loaded, np.abs(near - truth).max(axis=1) / reach, 0.0), 1e-13)
-    whole = force.ground_reaction_wrench(block.layout, kept)
+    whole = force.ground_reaction_wrench(block.layout, kept, 0.0)
     tally.add("ground_reaction_wrench", block, _error(whole, wanted, scale), _SUM)
-    one = [force.ground_reaction_wrench(block.layout, k) for k in kept[::16]]
+    one = [force.ground_reaction_wrench(block.layout, k, 0.0) for k in kept[::16]]
     tally.add(
         "ground_reaction_wrench: batch as scalar",
         block,

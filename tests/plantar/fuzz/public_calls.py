@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from plantar import batch
 from plantar.geometry import contact_rectangle, enclosing, inscribed, outline, polygon
 from plantar.geometry.cell_cutting import CellCutter, half_planes
-from plantar.geometry.convex_shapes import points_of
 from plantar.layouts import cell_edges, cell_layout, curved_sole, taxel_values, tiling
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import SoleLayout
@@ -236,15 +235,15 @@ def _polygon(called: str = "polygon", nan: bool = False) -> Argument:
 def _of_polygons(sole: SoleLayout) -> list[Call]:
     point = Argument(np.array([0.5, 0.25]), (2,), "point", nan=True)
     active = Argument(_force(len(sole)) > 4.0, (len(sole),), "mask", truth=True)
-    shapes = [  # of the convex hull of what is finite
+    shapes = [
         *(enclosing.enclosing_parallelogram, enclosing.oriented_box),
         *(inscribed.inscribed_circle, inscribed.inscribed_parallelogram, inscribed.inscribed_rectangle),
         *(inscribed.inscribed_rectangle_any_angle, inscribed.inscribed_triangle),
     ]
-    found = [Call(_name(f), f, {"polygon": _polygon(nan=True)}) for f in shapes]
+    found = [Call(_name(f), f, {"polygon": _polygon()}) for f in shapes]
     found += [Call(_name(f), f, {"polygon": _polygon()}) for f in (polygon.area, polygon.centroid)]
-    clouds = (polygon.convex_hull, enclosing.bounding_box, points_of)
-    found += [Call(_name(f), f, {"points": _polygon("points polygon", nan=True)}) for f in clouds]
+    found += [Call(_name(f), f, {"points": _polygon("points polygon", nan=True)}) for f in (polygon.convex_hull,)]
+    found += [Call(_name(f), f, {"points": _polygon("points polygon")}) for f in (enclosing.bounding_box,)]
     pairs = [polygon.closest_point, polygon.signed_margin]
     found += [Call(_name(f), f, {"polygon": _polygon(), "point": point}) for f in pairs]
     frame = {
@@ -258,7 +257,7 @@ def _of_polygons(sole: SoleLayout) -> list[Call]:
         Call(
             _name(contact_rectangle.safe_rectangle),
             contact_rectangle.safe_rectangle,
-            {"polygon": _polygon(nan=True)},
+            {"polygon": _polygon()},
             {"offset": 0.03125},
         ),
         Call(_name(outline.concave_outline), lambda active: outline.concave_outline(sole, active), {"active": active}),
@@ -434,10 +433,10 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
     anything = Argument(frames.value, (...,), "force value mean reading", nan=True)
     times = Argument(np.arange(2.0), ("f",), "times")
     return [
-        Call("force.center_of_pressure", lambda force_: force.center_of_pressure(sole, force_), {"force_": one}),
+        Call("force.center_of_pressure", lambda force_: force.center_of_pressure(sole, force_, 0.0), {"force_": one}),
         Call(
             "force.ground_reaction_wrench",
-            lambda force_: force.ground_reaction_wrench(sole, force_),
+            lambda force_: force.ground_reaction_wrench(sole, force_, 0.0),
             {"force_": frames},
         ),
         Call("activation.active_taxels", activation.active_taxels, {"force": free}, {"threshold": 4.0}),

@@ -1,4 +1,5 @@
 import math
+import re
 from itertools import combinations, combinations_with_replacement
 
 import numpy as np
@@ -10,6 +11,7 @@ from scipy.optimize import linprog, minimize
 
 from plantar import hex_layout
 from plantar.bench.soles import contacts
+from plantar.errors import InputError
 from plantar.geometry.inscribed import (
     inscribed_circle,
     inscribed_parallelogram,
@@ -20,7 +22,7 @@ from plantar.geometry.inscribed import (
     rectangle_in_outline_any_angle,
 )
 from plantar.geometry.outline import Outline, concave_outline
-from plantar.geometry.polygon import area, convex_hull
+from plantar.geometry.polygon import area, closest_point, convex_hull, inner_offset, signed_margin
 from plantar.kernels import is_compiled
 from plantar.layouts.hex_lattice import HexLattice
 
@@ -279,7 +281,8 @@ def test_rectangle_at_an_angle_is_that_of_the_turned_polygon(seed, angle):
 def test_degenerate_polygons_have_defined_shapes(shape):
     corners = 3 if shape is inscribed_triangle else 4
     assert shape([]).shape == (0, 2)
-    assert shape(np.full((3, 2), np.nan)).shape == (0, 2)
+    with pytest.raises(InputError, match="not finite"):
+        shape(np.full((3, 2), np.nan))
     assert shape([[1.0, 2.0]] * 3).tolist() == [[1.0, 2.0]] * corners
     line = shape([[0.0, 0.0], [1.0, 1.0], [0.5, 0.5], [0.2, 0.2]])
     assert line.shape == (corners, 2)
@@ -297,9 +300,9 @@ def test_circle_of_degenerate_polygons():
 
 @settings(max_examples=100 if is_compiled("any_angle") else 10)
 @given(seeds, st.integers(-12, 9))
-def test_direction_repeats_nan_offset_and_scale_change_nothing(seed, power):
+def test_direction_repeats_offset_and_scale_change_nothing(seed, power):
     hull = random_hull(seed)
-    spoilt = np.vstack([[[np.nan, 0.0]], np.repeat(hull, 2, axis=0), [[np.inf, 1.0]]])
+    spoilt = np.repeat(hull, 2, axis=0)
     middles = np.stack([hull, 0.5 * (hull + np.roll(hull, -1, axis=0))], axis=1).reshape(-1, 2)  # collinear
     scale = 10.0**power
     for shape in (*CONVEX, lambda p: inscribed_circle(p).center + np.array([[1, 0], [0, 1], [-1, 0]]) * p_radius(p)):
@@ -316,13 +319,28 @@ def p_radius(polygon):
 
 
 @given(st.lists(st.tuples(st.floats(), st.floats()), max_size=12))
-def test_any_points_get_an_answer(points):
-    """Not convex, not finite, crossing: no exception, and no NaN where the products of coordinates are finite."""
-    calm = np.clip(np.nan_to_num(np.array(points).reshape(-1, 2), nan=np.nan, posinf=np.inf, neginf=-np.inf), -1e9, 1e9)
-    for shape in CONVEX:
-        assert not np.isnan(shape(calm)).any()
-    circle = inscribed_circle(calm)
-    assert circle is None or (np.isfinite(circle.center).all() and 0.0 <= circle.radius < math.inf)
+def test_any_points_get_an_answer_or_one_error(points):
+    """Not convex, not finite, crossing: one error of ours, else no NaN where the products of coordinates are finite."""
+    given_points = np.array(points).reshape(-1, 2)
+    calm = np.where(np.abs(given_points) > 1e9, 1e9, given_points)
+    for shape in (*CONVEX, lambda p: np.array([*(inscribed_circle(p) or (np.zeros(2),))[0]])):
+        try:
+            corners = shape(calm)
+        except InputError as error:
+            assert re.search("not convex|not finite", str(error))  # noqa: PT017
+        else:
+            assert not np.isnan(corners).any()
+
+
+def test_what_is_not_convex_is_refused():
+    bend = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
+    calls = [*CONVEX, inscribed_circle, lambda p: signed_margin(p, [1.5, 1.5])]
+    for call in (*calls, lambda p: closest_point(p, [3.0, 3.0]), lambda p: inner_offset(p, 0.1)):
+        with pytest.raises(InputError, match="not convex: 86 % of its hull"):
+            call(bend)
+    with pytest.raises(InputError, match="allowed: 0 or more"):
+        inner_offset(bend[:3], -0.1)
+    assert inner_offset([], 0.1).shape == (0, 2)
 
 
 # --- concave outline ----------------------------------------------------------------------------------------------

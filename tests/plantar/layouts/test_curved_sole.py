@@ -42,7 +42,7 @@ def test_the_area_is_that_of_the_surface(flat):
 def test_a_uniform_pressure_presses_on_the_area_seen_from_above(flat):
     """The pressure's force on any surface over a flat outline is upwards p times the area inside the outline."""
     layout = laid_over(flat, rocker)
-    wrench = ground_reaction_wrench(layout, 1e4 * layout.areas)
+    wrench = ground_reaction_wrench(layout, 1e4 * layout.areas, 0.0)
     assert wrench[2] == pytest.approx(1e4 * flat.areas.sum(), rel=1e-3)
     # On a ball all forces pass through its middle.
     about_middle = wrench[3:] - np.cross([0, 0, 0.3], wrench[:3])

@@ -37,13 +37,14 @@ def test_in_the_plane_of_the_frame_it_is_the_zmp_of_a_force_torque_sensor(seed):
     assert zmp_in_plane(wrench) == pytest.approx(zmp_of_wrench(wrench))
 
 
-@pytest.mark.parametrize("fz", [0.0, 0.99, -300.0, math.nan, math.inf])
+@pytest.mark.parametrize("fz", [0.0, -300.0, math.nan, math.inf])
 def test_no_load_has_no_point(fz):
     wrench = np.array([1.0, 0, fz, 1.0, 1.0, 0])
     assert zmp_in_plane(wrench) is None
     assert zero_moment_wrench(wrench) is None
     assert centroidal_moment_pivot(wrench, [0, 0, 0.8]) is None
-    assert zmp_in_plane(np.zeros(6), minimum_force=0.0) is None
+    assert zmp_of_wrench(wrench) is None
+    assert zmp_in_plane(np.array([1.0, 0, 0.99, 1.0, 1.0, 0]), minimum_force=1.0) is None
 
 
 def test_a_wrench_that_is_not_finite_has_no_point():

@@ -63,7 +63,7 @@ def test_it_is_the_sum_of_forces_and_moments(tilted_sole, pushed, layout_seed, s
     force = np.random.default_rng(seed).uniform(0.0, 9.0, len(layout))
     got = skin_wrench(layout.positions, layout.rotations, force)
     assert got == pytest.approx(pushed(layout, force), abs=1e-10)
-    assert got == pytest.approx(ground_reaction_wrench(layout, force), abs=1e-10)
+    assert got == pytest.approx(ground_reaction_wrench(layout, force, 0.0), abs=1e-10)
     frames = np.stack([force, np.where(force > 4, np.nan, force)])
     holes = pushed(layout, np.where(force > 4, 0.0, force))
     assert skin_wrench(layout.positions, layout.rotations, frames) == pytest.approx(np.stack([got, holes]), abs=1e-10)

@@ -66,7 +66,7 @@ def test_standing_foot_has_the_true_force_and_centre_of_pressure(com: str, yaw: 
     wrench = true_wrench(data, skin)
     assert force.sum() == pytest.approx(wrench[2], rel=1e-12)
     assert force.sum() == pytest.approx(MASS * GRAVITY, abs=1e-2)
-    cop = center_of_pressure(LAYOUT, force)
+    cop = center_of_pressure(LAYOUT, force, 0.0)
     assert cop == pytest.approx([-wrench[4] / wrench[2], wrench[3] / wrench[2]], abs=1e-6)
     assert cop == pytest.approx([float(v) for v in com.split()[:2]], abs=1e-3)
 

@@ -26,7 +26,7 @@ def test_line_on_the_bare_rim_keeps_its_place_along_the_rim() -> None:
     layout = hex_layout(OUTLINE, clip=False)
     edge = [(0.125, -0.0775), (0.125, 0.0775)]
     force = SolePressure(layout).spread(edge, 100.0, (0.125, 0.02))
-    cop = center_of_pressure(layout, force)
+    cop = center_of_pressure(layout, force, 0.0)
     assert cop is not None
     assert cop[1] == pytest.approx(0.02, abs=0.008)  # a quarter of a cell
     assert layout.positions[force > 0, 0].min() > 0.06
@@ -40,7 +40,7 @@ def test_a_line_along_a_row_of_cells_carries_its_load_where_it_acts(x: float, y:
     """Cells in a row span no area; a load near the end of the line must not move to its middle."""
     line = [(-0.125, y), (0.125, y)]
     force = SolePressure(LAYOUT).spread(line, 100.0, (x, y))
-    cop = center_of_pressure(LAYOUT, force)
+    cop = center_of_pressure(LAYOUT, force, 0.0)
     assert cop is not None
     assert cop[0] == pytest.approx(x, abs=0.008)  # a quarter of a cell
     assert len(np.unique(LAYOUT.positions[force > 0, 1].round(3))) == 1
@@ -52,7 +52,7 @@ def test_pressure_is_zero_where_the_sole_lifts_off() -> None:
     force = pressure.spread(WHOLE, 100.0, (0.08, 0.0))
     rear = LAYOUT.positions[:, 0] < -0.02
     assert force[rear].max() == 0.0
-    assert center_of_pressure(LAYOUT, force) == pytest.approx([0.08, 0.0], abs=1e-9)
+    assert center_of_pressure(LAYOUT, force, 0.0) == pytest.approx([0.08, 0.0], abs=1e-9)
     assert force[~rear].sum() == pytest.approx(100.0)
 
 
@@ -60,7 +60,7 @@ def test_load_beyond_the_reach_of_the_taxels_goes_to_the_nearest() -> None:
     force = SolePressure(LAYOUT).spread(WHOLE, 100.0, (0.2, 0.0))
     assert force.sum() == pytest.approx(100.0)
     hull = convex_hull(LAYOUT.positions[:, :2])
-    cop = center_of_pressure(LAYOUT, force)
+    cop = center_of_pressure(LAYOUT, force, 0.0)
     assert cop is not None
     assert signed_margin(hull, cop) == pytest.approx(0.0, abs=1e-3)
     assert cop[0] > 0.1
@@ -114,7 +114,7 @@ def test_result_does_not_depend_on_the_loads_before() -> None:
 def test_full_sole_has_the_exact_centre_of_pressure(fx: float, fy: float, force: float) -> None:
     cop = HALF * [fx, fy]
     taxels = SHARED_PRESSURE.spread(WHOLE, force, (float(cop[0]), float(cop[1])))
-    assert center_of_pressure(LAYOUT, taxels) == pytest.approx(cop, abs=1e-7)
+    assert center_of_pressure(LAYOUT, taxels, 0.0) == pytest.approx(cop, abs=1e-7)
 
 
 @settings(max_examples=100, deadline=None)
@@ -131,7 +131,7 @@ def test_loaded_cells_touch_the_patch(patch: list[tuple[float, float]], weights:
     taxels = SHARED_PRESSURE.spread(patch, 100.0, (float(load[0]), float(load[1])))
     for i in np.flatnonzero(taxels):
         assert min(-signed_margin(hull, p) for p in [*LAYOUT.cell_polygon(i), LAYOUT.positions[i, :2]]) < 0.03
-    cop = center_of_pressure(LAYOUT, taxels)
+    cop = center_of_pressure(LAYOUT, taxels, 0.0)
     assert cop is not None
     assert np.hypot(*(cop - load)) < 0.033  # one cell corner to corner
 
