@@ -8,9 +8,8 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from plantar import FeetPercept, Percept, Reading, SolePose, hex_layout, laid_over, layout_of_cells, mirrored
+from plantar import FeetPercept, Percept, Reading, SolePose, batch, hex_layout, laid_over, layout_of_cells, mirrored
 from plantar.geometry.polygon import area
-from plantar.percepts import batch
 from plantar.percepts.sole_pose import zmp_of_soles
 from plantar.sensing.force import center_of_pressure, ground_reaction_wrench
 
