@@ -59,7 +59,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("controller_settings", "controller", "controller_tables"),
     ),
     "plantar.gait.analysis": (
-        *("measures", "options", "subject", "spread", "prints", "steps", "body_weight", "activity"),
+        *("measures", "options", "subject", "spread", "prints", "steps", "health", "body_weight", "activity"),
         *("mirrored_feet", "parameters", "pages", "metrics", "results", "analyse_one"),
         *("study", "compare", "custom", "exports", "analyse"),
     ),

@@ -86,6 +86,9 @@ class AnalysisOrder:
     steps: str | None = _option(None, "Steps of each foot in the means: 3-14, all, or steady (without start and stop).")
     begin: float | None = _option(None, "Time in s before which no step is in the means.", "--from")
     end: float | None = _option(None, "Time in s after which no step is in the means.", "--to")
+    segment: str | None = _option(
+        None, "Activity in the means: walking, running or hopping. Default: that of most steps."
+    )
     baseline: str = _option("auto", "auto subtracts what sensors read in swing where that is an offset; keep does not.")
     events: str = _option(
         "own", "own finds heel strikes and toe offs in the force; vendor uses those of the file; or a file's path."
@@ -98,7 +101,8 @@ class AnalysisOrder:
         """Which steps and events count: `plantar.gait.analysis.options.AnalysisOptions`."""
         from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
 
-        return AnalysisOptions(steps_of_text(self.steps), self.begin, self.end, cast(Any, self.baseline), self.events)
+        steps = steps_of_text(self.steps)
+        return AnalysisOptions(steps, self.begin, self.end, self.segment, cast(Any, self.baseline), self.events)
 
     def subject(self) -> Any:
         """The person: `plantar.gait.analysis.subject.Subject`."""
@@ -128,7 +132,7 @@ def analyze(
     ] = None,
     export: Annotated[
         list[str] | None,
-        Option(metavar="FORMAT", help="Write the recording in another format, too: c3d, csv or npz; repeatable."),
+        Option(metavar="FORMAT", help="Write the recording in another format, too: c3d, csv, mot or npz; repeatable."),
     ] = None,
     figures: Annotated[
         bool | None,

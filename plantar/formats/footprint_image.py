@@ -251,7 +251,7 @@ def _tall(boxes: dict[int, NDArray[np.float64]], length: float) -> bool:
 def _belongs(
     boxes: dict[int, NDArray[np.float64]], stats: Any, group: list[int], part: int, upright: bool, length: float
 ) -> bool:
-    """Whether a part is of the foot that a group is: in line with it, and apart by less than 0.4 of its length."""
+    """Whether a part is of a group's foot: in line with it, and apart by less than 0.4 of the foot (a high arch)."""
     across, along = (0, 1) if upright else (1, 0)
     low = min(boxes[i][across] for i in group)
     high = max(boxes[i][across] + boxes[i][across + 2] for i in group)
@@ -263,7 +263,7 @@ def _belongs(
     last = max(boxes[i][along] + boxes[i][along + 2] for i in group)
     gap = max(first - (box[along] + box[along + 2]), box[along] - last)
     whole = max(last, box[along] + box[along + 2]) - min(first, box[along])
-    return bool(gap < 0.4 * length and whole < 4.5 * max(high - low, box[across + 2]))
+    return bool(gap < 0.4 * max(length, whole) and whole < 4.5 * max(high - low, box[across + 2]))
 
 
 FORMAT = Format(

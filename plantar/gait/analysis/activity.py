@@ -41,6 +41,9 @@ of a forefoot gait."""
 _CHI2 = -2.0 * math.log(0.05)
 """95 % quantile of the chi-squared distribution with two degrees of freedom."""
 
+_RUN, _WALK = 0.35, 0.5
+"""Contact times in s of running (0.2 to 0.35) and of walking (0.5 and more), for single steps (Novacheck 1998)."""
+
 _LIFTS = 3
 """How often a foot that does not stand is lifted at least: one that is put elsewhere once is lifted once or twice."""
 
@@ -79,6 +82,8 @@ def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
         pushes off more than it lands walks up stairs. Ramps, turns, and stairs up on whole feet load the feet as
         walking does, and are called so.
     """
+    if any(step.activity == "hopping" for gait in feet.values() for step in gait.used or gait.steps):
+        return Activity("hopping", "both feet land and lift together")
     found = _by_times(recording, feet)
     return (_by_landing(recording, feet) or found) if found.name == "walking" else found
 
@@ -191,8 +196,15 @@ def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Ac
         name = "running" if median < _RUNNING_STANCE else "walking"
         return Activity(name, f"the foot is on the ground for {median:.0f} % of its stride")
     if steps:
-        return Activity("unknown", "single steps tell walking and running not apart")
-    load = np.sum([np.nan_to_num(foot.vertical_force) for foot in recording.feet.values()], axis=0)
+        contact = float(np.median([step["contact_time_s"] for step in steps]))
+        if contact >= _WALK or contact <= _RUN:
+            name = "walking" if contact >= _WALK else "running"
+            return Activity(
+                name, f"single steps of {contact:.2g} s: those of a run last less than {_RUN:g} s, of a walk more"
+            )
+        return Activity("unknown", f"single steps of {contact:.2g} s are those of a walk or a run")
+    load = np.sum([foot.vertical_force for foot in recording.feet.values()], axis=0)
+    load = load[np.isfinite(load)]  # what was not measured is no load, and no lack of it
     usual = float(np.median(load)) if len(load) else 0.0
     if any(_is_lifted(gait.foot.vertical_force, usual) for gait in feet.values()):
         return Activity("unknown", "feet are lifted and set down again, but no step is complete")
@@ -236,14 +248,17 @@ def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dic
     known = np.isfinite(points).all(axis=1)
     if known.sum() < 10 or float(np.ptp(time[known])) < _SHORTEST:
         return {}
-    at, when = points[known], time[known]
-    pieces = np.hypot(*np.diff(at, axis=0).T)
+    at = points[known]
+    both = known[1:] & known[:-1]  # a gap has neither a path nor a time
+    pieces, seconds = np.hypot(*np.diff(points, axis=0).T)[both], np.diff(time)[both]
+    if not len(pieces):
+        return {}
     covariance = np.cov(at.T)
     ahead, across = (float(v) for v in at.std(axis=0, ddof=1))
     return {
         "sway_ellipse_m2": math.pi * _CHI2 * math.sqrt(max(0.0, float(np.linalg.det(covariance)))),
         "sway_path_m": float(pieces.sum()),
-        "sway_velocity_m_s": float(pieces.sum()) / float(when[-1] - when[0]),
+        "sway_velocity_m_s": float(pieces.sum()) / float(seconds.sum()),
         "sway_ap_m": ahead,
         "sway_ml_m": across,
     }

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from plantar.gait.analysis.activity import activity_of, progression_doubts, sway_measures
 from plantar.gait.analysis.body_weight import implied_weight, weight_doubts
+from plantar.gait.analysis.health import creep_doubts, silent_cell_doubts
 from plantar.gait.analysis.measures import raw_name
 from plantar.gait.analysis.mirrored_feet import mirrored_doubts
 from plantar.gait.analysis.pages.summary import gait_of_feet, regions_of_foot, summary_of_foot, symmetry
 from plantar.gait.analysis.pages.tables import EACH_STEP
-from plantar.gait.analysis.spread import Spread
+from plantar.gait.analysis.spread import Spread, spread
 from plantar.gait.analysis.steps.events import MINIMUM_STANCE, find_contacts
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.force_curve import landing_impact
+from plantar.gait.analysis.steps.segments import Segment, segments_of
 from plantar.gait.analysis.steps.stated import stated_beside_own
 from plantar.gait.analysis.subject import Subject, device_of, mass_doubts
 from plantar.layouts.layout import Side
@@ -61,6 +63,9 @@ def metrics_of(
         warnings += gait.warnings
     weight = implied_weight(recording, feet)
     subject = subject or Subject()
+    segments = () if standing else segments_of(feet)
+    warnings += _segment_notes(segments, feet)
+    warnings += silent_cell_doubts(recording) + creep_doubts(feet)
     warnings += progression_doubts(recording, feet) + mirrored_doubts(recording, feet)
     warnings += weight_doubts(recording, weight) + mass_doubts(subject, weight)
     named = _keys(recording.raw)
@@ -76,6 +81,7 @@ def metrics_of(
         "raw": recording.raw,
         "grid": None if recording.grid is None else {"rows": recording.grid[0], "columns": recording.grid[1]},
         "activity": dataclasses.asdict(activity),
+        "segments": [_segment(segment, feet) for segment in segments],
         "feet": {
             side: _foot(recording, gait) | {"sway": _sway(recording, gait, standing)} for side, gait in feet.items()
         },
@@ -96,6 +102,40 @@ def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
     if levels is not None and find_contacts(recording.time, force, levels, minimum_stance=0.0):
         return f"has no contact of {MINIMUM_STANCE:g} s or longer"
     return "carries no load above its noise"
+
+
+def _segment(segment: Segment, feet: Mapping[Side, FootGait]) -> dict[str, Any]:
+    """One segment with the means of its own steps."""
+    steps = [s for side, own in segment.steps.items() for s in feet[side].steps if s.number in own]
+    means = {
+        key: spread([s[key] for s in steps]).mean
+        for key in ("stride_time_s", "contact_time_s", "double_support_percent")
+    }
+    stride = means["stride_time_s"]
+    return {
+        "activity": segment.activity,
+        "begin_s": segment.begin,
+        "end_s": segment.end,
+        "steps": {side: len(own) for side, own in segment.steps.items()},
+        "used": sum(s.used for s in steps),
+        "cadence_steps_per_min": None if stride is None else 120.0 / stride,
+        **means,
+    }
+
+
+def _segment_notes(segments: Sequence[Segment], feet: Mapping[Side, FootGait]) -> list[str]:
+    """What to report where a recording holds several activities, or stops."""
+    kinds = list(dict.fromkeys(s.activity for s in segments))
+    if len(segments) < 2 or (len(kinds) == 1 and len(segments) < 2):
+        return []
+    parts = ", ".join(
+        f"{s.activity} {s.begin:.1f} to {s.end:.1f} s" + (f" ({s.count} steps)" if s.count else "")
+        for s in segments[:6]
+    )
+    more = f" and {len(segments) - 6} more" if len(segments) > 6 else ""
+    used = list(dict.fromkeys(s.activity for gait in feet.values() for s in gait.used if s.activity))
+    means = f"; means are of {' and '.join(used)} (--segment, --from and --to choose)" if used else ""
+    return [f"the recording has {len(segments)} segments: {parts}{more}{means}"]
 
 
 def _lowest(gait: FootGait) -> str:

@@ -8,7 +8,10 @@ from typing import Literal
 
 from plantar.errors import InputError
 
-__all__ = ["AnalysisOptions", "steps_of_text"]
+__all__ = ["ACTIVITIES", "AnalysisOptions", "steps_of_text"]
+
+ACTIVITIES = ("walking", "running", "hopping")
+"""Activities of steps that segments are of."""
 
 
 @dataclass(frozen=True)
@@ -21,6 +24,7 @@ class AnalysisOptions:
             "all" for all complete ones.
         begin: Time in s before which no step counts.
         end: Time in s after which no step counts.
+        segment: The activity whose steps are in the means, such as "walking"; the one with most steps where None.
         baseline: "auto" takes off what sensors read in swing where that is an offset; "keep" leaves it.
         events: "own" finds the events in the force; "vendor" takes those that the file states; else the path of a file
             of events, such as a vendor's report (see `plantar.formats.stated_events`).
@@ -29,12 +33,15 @@ class AnalysisOptions:
     steps: tuple[int, int] | Literal["steady", "all"] = "steady"
     begin: float | None = None
     end: float | None = None
+    segment: str | None = None
     baseline: Literal["auto", "keep"] = "auto"
     events: str = "own"
 
     def __post_init__(self) -> None:
         if self.baseline not in ("auto", "keep"):
             raise InputError(f"--baseline is {self.baseline!r}; allowed: auto, keep")
+        if self.segment not in (None, *ACTIVITIES):
+            raise InputError(f"--segment is {self.segment!r}; allowed: {', '.join(ACTIVITIES)}")
         if self.begin is not None and self.end is not None and not self.begin < self.end:
             raise InputError(f"--from {self.begin:g} is not before --to {self.end:g}")
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
+from plantar.gait.analysis.health import unequal_strides
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.prints.platform import PlatformPrint
 from plantar.gait.analysis.prints.regions import REGIONS
@@ -18,8 +19,9 @@ from plantar.gait.analysis.steps.cop_path import averaged_path
 from plantar.gait.analysis.steps.events import EVENT_LEVELS, Contact, Levels, find_contacts, force_levels, run_together
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.pressure_measures import region_measures
+from plantar.gait.analysis.steps.segments import with_activities, without_standing
 from plantar.gait.analysis.steps.stated import stated_contacts
-from plantar.gait.analysis.steps.steady import with_used_steps
+from plantar.gait.analysis.steps.steady import in_one_window, with_used_steps
 from plantar.gait.analysis.steps.step_footprint import footprint_of_step, print_of_contact, with_picture
 from plantar.gait.analysis.steps.step_load import StepLoad, StepLoads, cell_threshold
 from plantar.gait.analysis.steps.step_measures import step_measures
@@ -65,8 +67,35 @@ def analyse_feet(
         )
     if known.events != "own":
         _check_clock(recording)
-    feet = _measured_feet(recording, prints, known.events != "own")
-    return {side: with_used_steps(gait, known, recording.kind, recording.raw) for side, gait in feet.items()}
+    feet = with_activities(_out_of_time(_measured_feet(recording, prints, known.events != "own")))
+    names = [step.activity for gait in feet.values() for step in gait.steps if step.activity]
+    usual = max(dict.fromkeys(names), key=names.count) if names else ""
+    chosen = known.segment or (usual if known.steps == "steady" else "")
+    if known.segment is not None and known.segment not in names:
+        found = ", ".join(dict.fromkeys(names)) or "none"
+        raise InputError(f"--segment {known.segment}: no step is {known.segment}; the recording has {found}")
+    feet = {side: with_used_steps(gait, known, recording.kind, recording.raw, chosen) for side, gait in feet.items()}
+    return in_one_window(feet) if known.steps == "steady" else feet
+
+
+_CROSS = ("step_time_s", "double_support_percent", "single_support_percent", "flight_time_s")
+"""Measures that take both feet at one time."""
+
+
+def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:
+    """The feet without what takes both, where their strides differ as those of one walk do not."""
+    difference = unequal_strides(feet)
+    if difference is None:
+        return feet
+    note = (
+        f"the left foot's strides are {100.0 * abs(difference):.0f} % {'longer' if difference > 0.0 else 'shorter'} "
+        "than the right one's: two clocks, or two people in one file; double support and flight are not given"
+    )
+    out: dict[Side, FootGait] = {}
+    for side, gait in feet.items():
+        steps = tuple(replace(s, measures={k: v for k, v in s.measures.items() if k not in _CROSS}) for s in gait.steps)
+        out[side] = replace(gait, steps=steps, warnings=(*gait.warnings, note))
+    return out
 
 
 def _check_clock(recording: PressureRecording) -> None:
@@ -149,8 +178,8 @@ def _with_events(recording: PressureRecording, side: Side, stated: bool) -> Foot
 
 def _other_foot(recording: PressureRecording, side: Side, stated: bool) -> OtherFoot | None:
     """The contacts of the foot across; None where it was not recorded."""
-    if other_side(side) not in recording.feet:
-        return None
+    if other_side(side) not in recording.feet or not recording.metadata.get("sees_every_step", True):
+        return None  # plates in a walkway do not see what the other foot does beside them
     return OtherFoot(recording, other_side(side), _contacts(recording, other_side(side), stated))
 
 
@@ -158,8 +187,12 @@ def _contacts(recording: PressureRecording, side: Side, stated: bool) -> list[Co
     """The contacts of a foot: found in its force, or those that the file states."""
     if stated:
         return stated_contacts(recording.time, recording.events[side])
-    levels = _levels(recording, side)
-    return [] if levels is None else find_contacts(recording.time, recording.feet[side].vertical_force, levels)
+    levels, force = _levels(recording, side), recording.feet[side].vertical_force
+    if levels is None:
+        return []
+    found = find_contacts(recording.time, force, levels)
+    joined = [run_together(force, recording.rate_hz, levels, c) > 1 for c in found]
+    return without_standing([replace(c, standing=True) if many else c for c, many in zip(found, joined, strict=True)])
 
 
 def _levels(recording: PressureRecording, side: Side) -> Levels | None:

@@ -22,18 +22,32 @@ class Spread:
     median: float | None = None
 
 
-def spread(values: Sequence[float] | NDArray[np.float64]) -> Spread:
+def spread(values: Sequence[float] | NDArray[np.float64], circular: bool = False) -> Spread:
     """Mean, standard deviation, coefficient of variation and median of the values that are known.
+
+    Args:
+        values: The values, NaN where one is not known.
+        circular: Whether they are angles in degrees: their mean is the direction of the mean of their unit vectors, and
+            the rest is of their differences from it (Fisher 1993, Statistical Analysis of Circular Data, ch. 2).
+
+    Returns:
+        The spread; a coefficient of variation of angles is unknown.
 
     Example:
         >>> spread([1.0, 2.0, 3.0, float("nan")])
         Spread(mean=2.0, sd=1.0, cv_percent=50.0, n=3, median=2.0)
+        >>> abs(round(spread([175.0, -175.0], circular=True).mean or 0.0))
+        180
     """
     known = np.asarray(values, dtype=float)
     known = known[np.isfinite(known)]
     n = len(known)
     if n == 0:
         return Spread(None, None, None, 0)
+    if circular:
+        middle = float(np.degrees(np.angle(np.exp(1j * np.radians(known)).sum())))
+        away = spread((known - middle + 180.0) % 360.0 - 180.0)
+        return Spread(middle, away.sd, None, n, (middle + (away.median or 0.0) + 180.0) % 360.0 - 180.0)
     mean = float(known.mean())
     if n == 1:
         return Spread(mean, None, None, 1, mean)

@@ -106,8 +106,8 @@ def read_rows(text, delimiter, comma, columns, out):
                     at += 1
                 else:
                     return row
-        while at < size and (data[at] == delimiter or data[at] == _BLANK or data[at] == _TAB):  # empty ones too many
-            at += 1
+        while at < size and (data[at] == _BLANK or data[at] == _TAB or (delimiter != 0 and data[at] == delimiter)):
+            at += 1  # empty ones too many
         if at < size:
             if data[at] != _LINE_END:
                 return row

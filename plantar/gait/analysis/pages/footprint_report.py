@@ -137,6 +137,9 @@ def _side_by_shape(print_: Footprint) -> Side:
     """The side of a print looked at as a right foot: the waist lies to the lateral side of heel and ball."""
     u, v = print_.centres.T / print_.length
     middle, rest = (u > 0.35) & (u < 0.55), (u < 0.25) | ((u > 0.60) & (u < 0.78))
+    toes, ball = u > 0.9, (u > 0.60) & (u < 0.78)
+    if not middle.any() and toes.any() and ball.any():  # a high arch: the longest toe is the first one, or beside it
+        return "right" if float(v[toes].mean() - v[ball].mean()) >= 0.0 else "left"
     if not middle.any() or not rest.any():
         return "right"
     return "right" if float(v[rest].mean() - v[middle].mean()) >= 0.0 else "left"

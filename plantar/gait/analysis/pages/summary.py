@@ -15,9 +15,13 @@ from plantar.layouts.layout import Side
 __all__ = ["gait_of_feet", "regions_of_foot", "summary_of_foot", "symmetry"]
 
 
+_RESOLVED = {"_s": 2e-3, "_percent": 0.2, "_m": 5e-4, "_m2": 5e-6, "_N": 1.0, "_Ns": 0.5, "_Pa": 500.0, "_Pas": 100.0}
+"""Values below which two feet differ by noise alone, by the unit at a key's end: no symmetry index is formed."""
+
+
 def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
     """Each measure of a foot over the steps that are in the means."""
-    return {name: spread(gait.columns.get(name, ())) for name in MEASURES}
+    return {name: spread(gait.columns.get(name, ()), name.endswith("_deg")) for name in MEASURES}
 
 
 def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
@@ -37,12 +41,14 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
         feet: The feet that were recorded.
 
     Returns:
-        landings (heel strikes of all feet), stride_time_s (mean of all complete steps, as vendors give it),
+        landings (heel strikes of all feet), stride_time_s (mean of all complete steps of the activity in the means),
         cadence_steps_per_min (two steps in that stride), steady_cadence_steps_per_min (in that of the steps in the
         means), double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
         walking_speed_m_s (means); None where the recording cannot tell.
     """
-    stride = spread([step["stride_time_s"] for gait in feet.values() for step in gait.steps]).mean
+    used = {step.activity for gait in feet.values() for step in gait.used if step.activity}
+    steps = [s for gait in feet.values() for s in gait.steps if not used or s.activity in used or not s.activity]
+    stride = spread([step["stride_time_s"] for step in steps]).mean
     steady = _mean(feet, "stride_time_s")
     return {
         "landings": sum(c.heel_strike is not None for g in feet.values() for c in g.contacts),
@@ -71,8 +77,8 @@ def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> 
         names: The measures.
 
     Returns:
-        0 for symmetry, above 0 where the left foot's value is larger; None where a foot has no value, or the two have
-        opposite signs.
+        0 for symmetry, above 0 where the left foot's value is larger; None where a foot has no value, the two have
+        opposite signs or are below what is resolved, and of angles.
     """
     names = list(names)
     if "left" not in feet or "right" not in feet:
@@ -82,6 +88,8 @@ def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> 
     for name in names:
         a, b = left[name].mean, right[name].mean
         out[name] = None
-        if a is not None and b is not None and a * b >= 0.0 and a + b != 0.0:
+        small = max(abs(a or 0.0), abs(b or 0.0)) < _RESOLVED.get(name[name.rfind("_") :], 0.0)
+        angle = name.endswith("_deg")
+        if a is not None and b is not None and a * b >= 0.0 and a + b != 0.0 and not small and not angle:
             out[name] = 200.0 * (a - b) / (a + b)
     return out

@@ -78,8 +78,13 @@ _NOISE_RELEASE, _NOISE_CONTACT = 4.0, 8.0
 _MEDIAN_OF_NORMAL = 0.6745
 """Median of the magnitude of a normal variable, in standard deviations."""
 
-_FALL = (0.30, 0.15)
-"""Shares of the range between which push-off falls straight: above, it is rounded; below, the shoe presses too."""
+_FALL = (0.60, 0.30, 0.10)
+"""Shares of the range that part the fall of push-off: its steepest piece is continued straight. A foot that leaves
+freely falls steepest at its end; where the shoe presses on, the end is flat and the piece lies higher."""
+
+_RISE = (0.20, 0.50)
+"""Shares of the range that part the rise of a landing, from the event level on: its steepest piece is continued back
+straight. A shoe that touches lightly before the foot lands makes the first piece flat."""
 
 _LIGHT = 0.7
 """Share of the middle load that a contact has to reach for its peak to count."""
@@ -125,17 +130,19 @@ class Contact:
         toe_off: Time in s at which it ended, None where the recording cuts it.
         begin: First frame in contact.
         end: Frame after the last one in contact.
+        standing: Whether it lasts too long for a step of those around it.
     """
 
     heel_strike: float | None
     toe_off: float | None
     begin: int
     end: int
+    standing: bool = False
 
     @property
     def complete(self) -> bool:
-        """Whether both its ends were recorded."""
-        return self.heel_strike is not None and self.toe_off is not None
+        """Whether it is a step whose ends were both recorded."""
+        return self.heel_strike is not None and self.toe_off is not None and not self.standing
 
 
 def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool = True) -> Levels | None:
@@ -318,6 +325,8 @@ def _contact(
     begin, end = span
     jump = 0.5 * (levels.peak - levels.rest)
     strike = _crossing(time, force, begin, levels.release, jump) if begin > 0 else None
+    if strike is not None and levels.clear is not None and force[begin] - force[begin - 1] <= jump:
+        strike = _begin_of_rise(time, force, span, levels, strike)
     lift = None
     if end < len(force):
         level = min(levels.lift, levels.contact)
@@ -327,6 +336,28 @@ def _contact(
             lift = _end_of_push_off(time, force, (begin, end), levels, lift)
             end = max(end, int(np.searchsorted(time, lift)))
     return Contact(strike, lift, begin + offset, end + offset)
+
+
+def _begin_of_rise(
+    time: NDArray[np.float64], force: NDArray[np.float64], span: tuple[int, int], levels: Levels, strike: float
+) -> float:
+    """Time at which the rise of a landing, continued back straight, begins: not before the force leaves its rest."""
+    begin, end = span
+    assert levels.clear is not None
+    at, heights = [strike], [levels.release]
+    for share in _RISE:
+        level = levels.rest + share * (levels.peak - levels.rest)
+        above = np.flatnonzero(force[begin:end] >= level)
+        if not len(above) or level <= heights[-1]:
+            return strike
+        at.append(max(_crossing(time, force, begin + int(above[0]), level), at[-1]))
+        heights.append(level)
+    slow = [(b - a) / (h - g) for a, b, g, h in zip(at, at[1:], heights, heights[1:], strict=False)]
+    steepest = int(np.argmin(slow))
+    straight = at[steepest] - slow[steepest] * (heights[steepest] - levels.rest)
+    before = np.flatnonzero(force[:begin] <= levels.clear)
+    least = _crossing(time, force, int(before[-1]) + 1, levels.clear) if len(before) else strike
+    return min(strike, max(straight, least))
 
 
 def _end_of_push_off(
@@ -339,10 +370,13 @@ def _end_of_push_off(
     for share in _FALL:
         level = levels.rest + share * (levels.peak - levels.rest)
         loaded = np.flatnonzero(force[begin:end] >= level)
-        if not len(loaded):
-            return lift  # a light contact
-        at.append(_crossing(time, force, begin + int(loaded[-1]) + 1, level))
-    straight = at[1] + (at[1] - at[0]) * _FALL[1] / (_FALL[0] - _FALL[1])
+        at.append(_crossing(time, force, begin + int(loaded[-1]) + 1, level) if len(loaded) else np.inf)
+    known = [k for k in range(len(at) - 1) if at[k] < at[k + 1] < np.inf]
+    if not known:
+        return lift  # a light contact
+    steepest = min(known, key=lambda k: (at[k + 1] - at[k]) / (_FALL[k] - _FALL[k + 1]))
+    slow = (at[steepest + 1] - at[steepest]) / (_FALL[steepest] - _FALL[steepest + 1])
+    straight = at[steepest + 1] + slow * _FALL[steepest + 1]
     stop = int(np.searchsorted(time, straight))
     light = np.flatnonzero(force[end : stop + 1] <= levels.clear)
     if len(light):

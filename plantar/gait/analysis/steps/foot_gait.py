@@ -34,6 +34,7 @@ class Step:
         used: Whether it is in the means.
         unused: Why not; empty where it is.
         odd: What is odd about it; empty for nothing.
+        activity: "walking", "running" or "hopping"; empty where it is not known.
     """
 
     side: Side
@@ -48,6 +49,7 @@ class Step:
     used: bool = True
     unused: str = ""
     odd: str = ""
+    activity: str = ""
 
     def __getitem__(self, key: str) -> float:
         return self.measures.get(key, float("nan"))

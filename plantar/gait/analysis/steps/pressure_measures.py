@@ -52,10 +52,10 @@ def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> dict[str, fl
     every = -(-len(area) // _MOST_FRAMES)
     polygons = support_polygons(layout, force[::every], 0.0).area
     footprint = float(load.areas[load.loaded.any(axis=0)].sum())
-    if footprint > 0.0:
-        out["force_time_integral_area_Pas"] = float(_integral(load.force.sum(axis=1), load.time)) / footprint
+    on = area > 0.0
     return out | {
-        "mean_pressure_Pa": float(pressure.max()),
+        "mean_pressure_Pa": float(pressure[on].mean()) if on.any() else 0.0,
+        "mean_pressure_max_Pa": float(pressure.max()),
         "contact_area_m2": float(area.max()),
         "footprint_area_m2": footprint,
         "support_polygon_area_m2": float(polygons.max()),
@@ -109,13 +109,14 @@ def region_measures(
     return out
 
 
-def robot_measures(load: StepLoad, layout: SoleLayout, cop: NDArray[np.float64]) -> dict[str, float]:
+def robot_measures(load: StepLoad, layout: SoleLayout) -> dict[str, float]:
     """Wrench of a sole of taxels, and margin of its centre of pressure to the support polygon.
+
+    Both are of the loaded cells at one instant: forces that push keep their CoP inside the hull of their cells.
 
     Args:
         load: The contact.
         layout: The sole.
-        cop: Centre of pressure (m, 2) of its frames in m, NaN where there is none.
 
     Returns:
         Largest magnitudes of the wrench's components about the sole frame's origin, and the smallest and mean margin.
@@ -123,12 +124,16 @@ def robot_measures(load: StepLoad, layout: SoleLayout, cop: NDArray[np.float64])
     wrench = np.abs(load.force @ layout.wrench_map.T)
     fx, fy, _, tx, ty, tz = wrench.max(axis=0)
     out = {"fx_peak_N": fx, "fy_peak_N": fy, "tx_peak_Nm": tx, "ty_peak_Nm": ty, "tz_peak_Nm": tz}
-    every = -(-len(cop) // _MOST_FRAMES)
+    every = -(-len(load.time) // _MOST_FRAMES)
     force = np.where(load.loaded, load.force, 0.0)[::every]
+    normal = force * layout.rotations[:, 2, 2]
+    total = normal.sum(axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cop = normal @ layout.positions[:, :2] / total[:, None]
     polygons = support_polygons(layout, force, 0.0, vertices=True)
     margins: list[float] = []
-    for i, point in enumerate(cop[::every]):
-        if np.isfinite(point[0]) and polygons.size[i] >= 3:
+    for i, point in enumerate(cop):
+        if total[i] > 0.0 and polygons.size[i] >= 3:
             margins.append(signed_margin(polygons.polygon(i), point))
     if margins:
         out |= {"cop_margin_polygon_m": min(margins), "cop_margin_polygon_mean_m": float(np.mean(margins))}

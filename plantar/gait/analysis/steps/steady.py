@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
+from plantar.sides import Side
 
-__all__ = ["FEWEST_STEPS", "with_used_steps"]
+__all__ = ["FEWEST_STEPS", "in_one_window", "with_used_steps"]
 
 FEWEST_STEPS = 12
 """Steps a foot that reliable means of in-shoe pressure take (Arts & Bus 2011, Clin. Biomech. 26:880)."""
@@ -33,7 +34,9 @@ _WORDS = {
 }
 
 
-def with_used_steps(gait: FootGait, options: AnalysisOptions, kind: str, raw: bool = False) -> FootGait:
+def with_used_steps(
+    gait: FootGait, options: AnalysisOptions, kind: str, raw: bool = False, activity: str = ""
+) -> FootGait:
     """The gait with each step marked: whether it is in the means and why not, and what is odd about it.
 
     Steps at either end of a walk that are odd in time or force start and stop it: they are left out of the means unless
@@ -44,13 +47,16 @@ def with_used_steps(gait: FootGait, options: AnalysisOptions, kind: str, raw: bo
         options: Which steps the reader wants.
         kind: What measured; footprints on a platform are no walk of many steps, and none starts it.
         raw: Whether forces are counts.
+        activity: Activity whose steps are in the means; every one where empty.
 
     Returns:
         The gait, with warnings.
     """
-    steps = list(gait.steps)
+    others = [step for step in gait.steps if activity and step.activity not in ("", activity)]
+    steps = [step for step in gait.steps if step not in others]
     if not steps:
-        return gait
+        left = tuple(_of_other(step) for step in others)
+        return replace(gait, steps=left) if left else gait
     odd = _odd(steps, raw) if len(steps) >= _FEWEST_TO_JUDGE and kind in ("insole", "robot") else [""] * len(steps)
     used, notes = np.ones(len(steps), dtype=bool), list(gait.warnings)
     side = gait.foot.side
@@ -85,7 +91,49 @@ def with_used_steps(gait: FootGait, options: AnalysisOptions, kind: str, raw: bo
             f"{count} step{'' if count == 1 else 's'} of the {side} foot {'is' if count == 1 else 'are'} in the means: "
             f"fewer than {FEWEST_STEPS} a foot are less reliable (Arts & Bus 2011)"
         )
-    return replace(gait, steps=tuple(out), warnings=tuple(notes))
+    everything = sorted([*out, *map(_of_other, others)], key=lambda step: step.number)
+    return replace(gait, steps=tuple(everything), warnings=tuple(notes))
+
+
+def _of_other(step: Step) -> Step:
+    """A step of another activity than the one that means are of."""
+    return replace(step, used=False, unused=f"{step.activity}, which the means are not of")
+
+
+def in_one_window(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
+    """The feet with the same time in their means, so that left and right can be compared.
+
+    Args:
+        feet: The feet with the steps that are in the means of each.
+
+    Returns:
+        The feet; a step more than a stride outside the other foot's steps in the means is left out, and named.
+    """
+    used = {side: gait.used for side, gait in feet.items()}
+    if len(feet) < 2 or not all(used.values()):
+        return dict(feet)
+    strides = [v for own in used.values() for s in own if np.isfinite(v := s["stride_time_s"])]
+    stride = float(np.median(strides)) if strides else 0.0
+    begin = max(own[0].heel_strike_s for own in used.values()) - stride
+    end = min(own[-1].toe_off_s for own in used.values()) + stride
+    out: dict[Side, FootGait] = {}
+    for side, gait in feet.items():
+        late = [s.number for s in gait.used if s.heel_strike_s < begin or s.toe_off_s > end]
+        steps = tuple(
+            replace(s, used=False, unused="outside the other foot's steps") if s.number in late else s
+            for s in gait.steps
+        )
+        notes = (
+            [f"{_numbers(late)} of the {side} foot lie outside the other foot's steps in the means: left out"]
+            if late
+            else []
+        )
+        out[side] = replace(gait, steps=steps, warnings=(*gait.warnings, *notes))
+    return out
+
+
+def _numbers(numbers: Sequence[int]) -> str:
+    return f"steps {', '.join(map(str, numbers))}"
 
 
 def _unused(chosen: bool, within: bool, reason: str) -> str:

@@ -42,6 +42,8 @@ def step_measures(
     out["landing_impact_N"] = landing_impact(recording.time, foot.vertical_force, strike)
     if load.pressure is not None:
         out |= pressure_measures(load, foot.layout)
+        if out.get("footprint_area_m2", 0.0) > 0.0:
+            out["force_time_integral_area_Pas"] = out["impulse_Ns"] / out["footprint_area_m2"]
     if gait.cop is not None:
         out |= _cop_measures(recording, gait, load, gait.cop[contact.begin : contact.end], print_)
     if foot.wrench is not None:
@@ -66,12 +68,15 @@ def _cop_measures(
         if kind in ("insole", "robot") and len(inside):
             out["cop_margin_m"] = margin_to_outline(layout, inside)
         if kind == "robot" and not recording.raw:
-            out |= robot_measures(load, layout, cop)
+            out |= robot_measures(load, layout)
     return out
 
 
 def _wrench_measures(recording: PressureRecording, wrench: NDArray[np.float64]) -> dict[str, float]:
     """Largest magnitudes of a wrench (m, 6); of a force plate, whose origin is not the sole's, without tx and ty."""
+    wrench = wrench[np.isfinite(wrench).all(axis=1)]
+    if not len(wrench):
+        return {}
     fx, fy, _, tx, ty, tz = np.abs(wrench).max(axis=0)
     out = {"fx_peak_N": fx, "fy_peak_N": fy, "tz_peak_Nm": tz}
     return out | ({"tx_peak_Nm": tx, "ty_peak_Nm": ty} if recording.kind == "robot" else {})

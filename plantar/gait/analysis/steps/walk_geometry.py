@@ -39,8 +39,9 @@ class Place:
 def step_geometry(places: Mapping[Side, Sequence[Place]]) -> dict[Side, list[dict[str, float]]]:
     """Measures of each step from where it stands and where those before it stood.
 
-    The line of walking of a step joins the heels of this foot's footprint before it and of this one (its stride);
-    without one, it is the direction that the place states. Step length is measured along it from the other foot's last
+    A stride begins with its step, as stride time does; a step ends with its heel strike. The line of walking of a step
+    joins the heels of this foot's footprint before it and of this one; without one, it is the direction that the place
+    states. Step length is measured along it from the other foot's last
     heel, step width is that heel's distance from it (Huxham et al. 2006).
 
     Args:
@@ -54,20 +55,25 @@ def step_geometry(places: Mapping[Side, Sequence[Place]]) -> dict[Side, list[dic
         >>> x = np.array([1.0, 0.0])
         >>> left = [Place(0.0, np.array([0.0, 0.1]), x), Place(1.0, np.array([1.2, 0.1]), x)]
         >>> right = [Place(0.5, np.array([0.6, 0.0]), x)]
-        >>> out = step_geometry({"left": left, "right": right})["left"][1]
-        >>> round(out["step_length_m"], 6), round(out["step_width_m"], 6), round(out["stride_length_m"], 6)
+        >>> first, second = step_geometry({"left": left, "right": right})["left"]
+        >>> round(second["step_length_m"], 6), round(second["step_width_m"], 6), round(first["stride_length_m"], 6)
         (0.6, 0.1, 1.2)
     """
     out: dict[Side, list[dict[str, float]]] = {}
     for side, own in places.items():
         others = places.get(other_side(side), ())
-        out[side] = [_step(side, place, own[i - 1] if i else None, others) for i, place in enumerate(own)]
+        out[side] = [
+            _step(side, place, own[i - 1] if i else None, others)
+            | (_stride(place, own[i + 1])[0] if i + 1 < len(own) else {})
+            for i, place in enumerate(own)
+        ]
     return out
 
 
 def _step(side: Side, place: Place, before: Place | None, others: Sequence[Place]) -> dict[str, float]:
     """Measures of one step from the one of the same foot before it, and the other foot's."""
-    out, forward = _stride(place, before)
+    out: dict[str, float] = {}
+    forward = place.forward if before is None else _stride(before, place)[1]
     if forward is None:
         return out
     left = np.array([-forward[1], forward[0]])
@@ -81,11 +87,11 @@ def _step(side: Side, place: Place, before: Place | None, others: Sequence[Place
     return out
 
 
-def _stride(place: Place, before: Place | None) -> tuple[dict[str, float], NDArray[np.float64] | None]:
-    """Measures of the stride that ends at a place, and the direction (2,) of walking there."""
-    if before is None or place.time - before.time > _LONGEST_STRIDE:
-        return {}, place.forward
-    stride = place.heel - before.heel
+def _stride(place: Place, after: Place) -> tuple[dict[str, float], NDArray[np.float64] | None]:
+    """Measures of the stride that begins at a place, and the direction (2,) of walking in it."""
+    if after.time - place.time > _LONGEST_STRIDE:
+        return {}, after.forward
+    stride = after.heel - place.heel
     length = float(np.hypot(*stride))
-    out = {"stride_length_m": length, "stride_velocity_m_s": length / (place.time - before.time)}
-    return out, stride / length if length >= _LEAST_STRIDE else place.forward
+    out = {"stride_length_m": length, "stride_velocity_m_s": length / (after.time - place.time)}
+    return out, stride / length if length >= _LEAST_STRIDE else after.forward

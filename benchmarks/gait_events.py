@@ -1,0 +1,177 @@
+"""Heel strikes and toe offs against truth, set by set: made gaits, and recordings with a maker's or a plate's events.
+
+    python benchmarks/gait_events.py [--recordings FOLDER] [--with MODULE:FUNCTION]
+
+A function of another algorithm takes times (n,) in s, vertical force (n,) in N and the kind ("insole" or "plate"), and
+returns heel strikes and toe offs in s. No set is for tuning: a change is judged by all of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.formats import read_recording
+from plantar.formats.stated_events import read_events
+from plantar.gait.analysis.steps.events import find_contacts, force_levels
+
+Array = NDArray[np.float64]
+Finder = Callable[[Array, Array, str], tuple[Array, Array]]
+_SAME = 0.25
+
+
+class Walk(NamedTuple):
+    """A foot's vertical force (n,) in N over time (n,) in s, what measured it, and its true events in s."""
+
+    time: Array
+    force: Array
+    kind: str
+    strikes: Array
+    lifts: Array
+
+
+def humps(share: Array, valley: float, tail: float) -> Array:
+    """Force over the stance in body weights: two humps with a valley, and an end that flattens by `tail`."""
+    at = np.array([0.0, 0.04, 0.1, 0.2, 0.35, 0.5, 0.65, 0.79, 0.88, 0.94, 0.975, 1.0])
+    high = np.array([0.0, 0.35, 0.8, 1.08, 0.95, valley, 0.95, 1.1, 0.75, 0.35 - tail, 0.12 - 0.5 * tail, 0.0])
+    curve = np.interp(share, at, high)
+    return np.where((share > 0.0) & (share < 1.0), curve, 0.0)
+
+
+def made(shape: Callable[[Array], Array], stride: float, stance: float, rate: float, kind: str, seed: int) -> Walk:
+    """A walk of twelve strides whose timing and height vary as people's do, with 1 % noise."""
+    random = np.random.default_rng(seed)
+    strikes = 0.5 + np.cumsum(stride * (1.0 + 0.02 * random.standard_normal(12)))
+    lasts = stance * (1.0 + 0.02 * random.standard_normal(12))
+    time = np.arange(0.0, strikes[-1] + stance + 1.0, 1.0 / rate)
+    force = np.zeros_like(time)
+    for on, last in zip(strikes, lasts, strict=True):
+        force += 700.0 * (1.0 + 0.03 * random.standard_normal()) * shape((time - on) / last)
+    return Walk(time, force + random.normal(0.0, 4.0, len(time)), kind, strikes, strikes + lasts)
+
+
+def pressed_on(shape: Callable[[Array], Array], press: float) -> Callable[[Array], Array]:
+    """A shape whose shoe presses on by a share of body weight after the foot has left, dying away."""
+
+    def with_tail(share: Array) -> Array:
+        return shape(share) + np.where(share >= 0.99, press * np.exp(-(share - 0.99) / 0.05), 0.0) * (share < 1.5)
+
+    return with_tail
+
+
+def half_sine(share: Array) -> Array:
+    return np.where((share > 0.0) & (share < 1.0), 1.2 * np.sin(np.pi * np.clip(share, 0.0, 1.0)), 0.0)
+
+
+def sets(recordings: Path | None) -> Iterator[tuple[str, list[Walk]]]:
+    """Every set by its name."""
+    for kind in ("insole", "plate"):
+        for name, stride, stance in (
+            ("fast", 0.95, 0.56),
+            ("usual", 1.1, 0.68),
+            ("slow", 1.5, 1.02),
+            ("very slow", 2.0, 1.44),
+        ):
+            shapes = {
+                "half sines": half_sine,
+                "two humps": lambda s: humps(s, 0.75, 0.0),
+                "flat end": lambda s: humps(s, 0.85, 0.08),
+            }
+            for title, shape in shapes.items():
+                walks = [made(shape, stride, stance, rate, kind, i) for i, rate in enumerate((50.0, 100.0, 250.0))]
+                yield f"made {title}, {name}, {kind}", walks
+    for press in (0.03, 0.06):
+        shape = pressed_on(lambda s: humps(s, 0.75, 0.0), press)
+        yield (
+            f"made two humps, shoe presses {100 * press:.0f} %, insole",
+            [made(shape, 1.1, 0.68, r, "insole", 5) for r in (50.0, 100.0)],
+        )
+    yield (
+        "made running, insole",
+        [made(lambda s: 2.0 * half_sine(s), 0.72, 0.25, r, "insole", 7) for r in (100.0, 250.0)],
+    )
+    yield (
+        "made running, plate",
+        [made(lambda s: 2.0 * half_sine(s), 0.72, 0.25, r, "plate", 8) for r in (250.0, 1000.0)],
+    )
+    for path in sorted(recordings.iterdir()) if recordings is not None else ():
+        report = path.with_name(f"{path.stem}_report.xlsx")
+        if path.suffix in (".txt", ".c3d", ".csv") and (report.exists() or path.suffix == ".c3d"):
+            recording = read_recording(path)
+            events = read_events(report) if report.exists() else recording.events
+            walks = [
+                Walk(
+                    recording.time,
+                    foot.vertical_force,
+                    recording.kind,
+                    events[side].heel_strikes,
+                    events[side].toe_offs,
+                )
+                for side, foot in recording.feet.items()
+                if side in events
+            ]
+            if walks:
+                yield f"{path.name} (its maker's events)", walks
+
+
+def ours(time: Array, force: Array, kind: str) -> tuple[Array, Array]:
+    """The events of `plantar analyze`."""
+    levels = force_levels(force, "plate" if kind == "plate" else "insole")
+    found = [] if levels is None else find_contacts(time, force, levels)
+    strikes = [c.heel_strike for c in found if c.heel_strike is not None]
+    return np.array(strikes, dtype=float), np.array([c.toe_off for c in found if c.toe_off is not None], dtype=float)
+
+
+def differences(found: Array, true: Array) -> Array:
+    """Found less true time of each true event that was found within 0.25 s."""
+    if not len(found):
+        return np.zeros(0)
+    nearest = found[np.abs(found[None] - true[:, None]).argmin(axis=1)] - true
+    return np.asarray(nearest[np.abs(nearest) <= _SAME])
+
+
+def table(finder: Finder, recordings: Path | None) -> list[str]:
+    """Rows of a table in Markdown: a set each, differences in ms."""
+    out = [
+        "| set | events | found | strike: mean, SD, largest ms | toe off: mean, SD, largest ms | stance % |",
+        "|---|---|---|---|---|---|",
+    ]
+    for name, walks in sets(recordings):
+        pairs = [finder(w.time, w.force, w.kind) for w in walks]
+        on = np.concatenate([differences(f[0], w.strikes) for f, w in zip(pairs, walks, strict=True)])
+        off = np.concatenate([differences(f[1], w.lifts) for f, w in zip(pairs, walks, strict=True)])
+        count = sum(len(w.strikes) + len(w.lifts) for w in walks)
+        stance = float(np.mean(np.concatenate([w.lifts[: len(w.strikes)] - w.strikes[: len(w.lifts)] for w in walks])))
+        cells = [
+            f"{1e3 * d.mean():+.1f}, {1e3 * d.std():.1f}, {1e3 * np.abs(d).max():.0f}" if len(d) else "-"
+            for d in (on, off)
+        ]
+        longer = 100.0 * (off.mean() - on.mean()) / stance if len(on) and len(off) else float("nan")
+        out.append(f"| {name} | {count} | {len(on) + len(off)} | {cells[0]} | {cells[1]} | {longer:+.1f} |")
+    return out
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--recordings", default=os.environ.get("PLANTAR_REAL_DATA"), help="folder of recordings")
+    parser.add_argument("--with", dest="other", help="module:function of another algorithm")
+    given = parser.parse_args()
+    finder: Finder = ours
+    if given.other:
+        module, _, name = given.other.partition(":")
+        finder = getattr(import_module(module), name)
+    folder = None if given.recordings is None else Path(given.recordings)
+    folder = folder / "recordings" if folder is not None and (folder / "recordings").is_dir() else folder
+    print("\n".join(table(finder, folder)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,204 @@
+"""Whether sensors and the walk are what measures take them to be: silent cells, gain that creeps, feet out of time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.layouts.layout import SoleLayout
+from plantar.recordings.let_go import column_maxima, let_go
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+from plantar.sides import Side, other_side
+
+__all__ = ["SilentCells", "creep_doubts", "silent_cell_doubts", "silent_cells", "unequal_strides"]
+
+_BESIDE = 1.7
+"""Usual distances between cells up to which they are neighbours: the eight around a cell of a matrix."""
+_CARRIES = 0.15
+"""Largest reading of a cell that carries load, as a share of the high ones."""
+_AROUND, _GAP = 0.6, 170.0
+"""Share of a cell's neighbours that carry, and largest angle in degrees without one, where an unloaded part of a sole
+would not lie: at its edge the angle is 180."""
+_MISSING = 0.01
+"""Share of the force that silent cells lack from which it is reported."""
+_FEWEST, _CREEP, _CLEAR = 8, 0.08, 5.0
+"""Steps, change of a step's mean force from first to last, and standard errors of it, from which gain creeps."""
+_UNEQUAL, _STRIDES = 0.05, 4
+"""Difference of the feet's strides, relative to their mean, which nobody walks with; strides that show it."""
+
+
+class SilentCells(NamedTuple):
+    """Cells that read nothing though load lies around them.
+
+    Attributes:
+        cells: Their indices (m,).
+        missing: Force that they lack, as a share of the foot's whole force.
+    """
+
+    cells: NDArray[np.int64]
+    missing: float
+
+
+def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> SilentCells:
+    """Cells of an insole that read 0 throughout while those around them carry load.
+
+    What a silent cell lacks is taken as the mean pressure of the neighbours that carry, at the frames of high load.
+
+    Args:
+        foot: One foot.
+        other: The other foot: of insoles that are each other's mirror image, its cell of the same number shows that a
+            part of the sole at an edge is loaded.
+
+    Returns:
+        The cells and the share of force that is missing.
+    """
+    layout = foot.layout
+    none = SilentCells(np.zeros(0, dtype=np.int64), 0.0)
+    if layout is None or len(layout) < 8 or not len(foot.force):
+        return none
+    top = column_maxima(foot.force) / layout.areas
+    zero = top <= 0.0
+    if not zero.any() or zero.all():
+        return none
+    beside = _neighbours(layout)
+    carries = top > _CARRIES * float(np.percentile(top[~zero], 90.0))
+    mirror = np.zeros(len(layout), dtype=bool)
+    if other is not None and other.layout is not None and _mirrored(layout, other.layout):
+        theirs = column_maxima(other.force) / other.layout.areas
+        mirror = theirs > _CARRIES * float(np.percentile(theirs, 90.0))
+    silent = np.zeros(len(layout), dtype=bool)
+    for _ in range(3):  # silent cells beside silent ones are found by those that were found
+        loaded = carries | silent
+        found = np.array(
+            [i for i in np.flatnonzero(zero & ~silent) if _inside(layout, i, beside[i], loaded, bool(mirror[i]))]
+        )
+        if not len(found):
+            break
+        silent[found] = True
+    cells = np.flatnonzero(silent)
+    if not len(cells):
+        return none
+    total = foot.vertical_force if foot.total is None else np.nansum(foot.force, axis=1)
+    high = np.flatnonzero(total >= 0.5 * np.nanpercentile(total, 99.0))
+    high = high[:: max(1, len(high) // 2000)]
+    pressure = np.nanmean(foot.force[high], axis=0) / layout.areas
+    let_go(foot.force)
+    lacking = 0.0
+    for i in cells:
+        near = [k for k in beside[i] if not zero[k]]
+        near = near or list(
+            np.argsort(np.hypot(*(layout.positions[:, :2] - layout.positions[i, :2]).T) + 1e3 * zero)[:3]
+        )
+        lacking += float(pressure[near].mean() * layout.areas[i])
+    whole = float((pressure * layout.areas).sum()) + lacking
+    return SilentCells(cells, lacking / whole if whole > 0.0 else 0.0)
+
+
+def _neighbours(layout: SoleLayout) -> list[NDArray[np.int64]]:
+    """Indices of the cells around each cell."""
+    points = layout.positions[:, :2]
+    away = np.hypot(*(points[:, None] - points[None]).transpose(2, 0, 1))
+    np.fill_diagonal(away, np.inf)
+    nearest = away.min(axis=1)
+    return [
+        np.flatnonzero(row < _BESIDE * max(own, float(np.median(nearest))))
+        for row, own in zip(away, nearest, strict=True)
+    ]
+
+
+def _mirrored(layout: SoleLayout, other: SoleLayout) -> bool:
+    """Whether cells of the same number lie mirror-wise in two soles."""
+    if len(layout) != len(other):
+        return False
+    here, there = layout.positions[:, :2] * [1.0, -1.0], other.positions[:, :2]
+    return bool(np.abs(here - there).max() < 0.5 * float(np.sqrt(layout.areas.mean())))
+
+
+def _inside(layout: SoleLayout, cell: int, beside: NDArray[np.int64], loaded: NDArray[np.bool_], mirror: bool) -> bool:
+    """Whether a cell lies among loaded ones."""
+    on = beside[loaded[beside]]
+    if not len(beside) or len(on) < _AROUND * len(beside):
+        return False
+    way = layout.positions[on, :2] - layout.positions[cell, :2]
+    angles = np.sort(np.degrees(np.arctan2(way[:, 1], way[:, 0])))
+    gap = float(np.diff(np.append(angles, angles[0] + 360.0)).max())
+    return gap < _GAP or (mirror and len(on) == len(beside))
+
+
+def silent_cell_doubts(recording: PressureRecording) -> list[str]:
+    """A warning of each insole with silent cells, with the force that is missing.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        The warnings.
+    """
+    out = []
+    for side, foot in recording.feet.items() if recording.kind == "insole" else ():
+        found = silent_cells(foot, recording.feet.get(other_side(side)))
+        if found.missing >= _MISSING:
+            assert foot.layout is not None
+            names = ", ".join(str(i) for i in foot.layout.ids[found.cells][:12])
+            out.append(
+                f"{len(found.cells)} of {len(foot.layout)} cells of the {side} foot read 0 throughout though cells "
+                f"around them carry load ({names}{', ...' if len(found.cells) > 12 else ''}): its forces are about "
+                f"{100.0 * found.missing:.2g} % too low, by the pressure around these cells"
+            )
+    return out
+
+
+def creep_doubts(feet: Mapping[Side, FootGait]) -> list[str]:
+    """A warning where a step's mean force changes steadily over the recording: body weight does not, gains do.
+
+    Args:
+        feet: The gait of the feet.
+
+    Returns:
+        The warnings, with the change from the first step to the last.
+    """
+    out = []
+    for side, gait in feet.items():
+        time = np.array([step.heel_strike_s for step in gait.used])
+        force = np.array([step["impulse_Ns"] / step["stride_time_s"] for step in gait.used])
+        known = np.isfinite(force)
+        if known.sum() < _FEWEST:
+            continue
+        time, force = time[known] - time[known].mean(), force[known]
+        slope = float((time @ force) / (time @ time))
+        rest = force - force.mean() - slope * time
+        error = float(np.sqrt((rest @ rest) / (len(time) - 2) / (time @ time)))
+        change = slope * float(np.ptp(time)) / float(force.mean())
+        if abs(change) > _CREEP and abs(slope) > _CLEAR * error:
+            out.append(
+                f"the {side} foot's force a stride {'grows' if change > 0.0 else 'falls'} by "
+                f"{100.0 * abs(change):.0f} % from first to last step, which body weight does not: the sensor's "
+                f"gain creeps, and forces err by up to {50.0 * abs(change):.0f} % around their mean"
+            )
+    return out
+
+
+def unequal_strides(feet: Mapping[Side, FootGait]) -> float | None:
+    """How much longer the left foot's strides are than the right one's, relative to their mean.
+
+    Args:
+        feet: The gait of the feet.
+
+    Returns:
+        The difference where it is more than a walk has: two clocks, or two people; else None.
+    """
+    if len(feet) < 2:
+        return None
+    middles = []
+    for side in ("left", "right"):
+        strides = np.array([step["stride_time_s"] for step in feet[side].steps])  # type: ignore[index]
+        strides = strides[np.isfinite(strides)]
+        if len(strides) < _STRIDES:
+            return None
+        middles.append(float(np.median(strides)))
+    difference = 2.0 * (middles[0] - middles[1]) / (middles[0] + middles[1])
+    return difference if abs(difference) > _UNEQUAL else None

@@ -1,0 +1,174 @@
+"""Parts of a recording in which one thing is done: walking, running, hopping, standing between walks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import cast
+
+import numpy as np
+
+from plantar.gait.analysis.steps.events import Contact
+from plantar.gait.analysis.steps.foot_gait import FootGait, Step
+from plantar.sides import SIDES, Side
+
+__all__ = ["Segment", "segments_of", "with_activities", "without_standing"]
+
+_LONG, _LEAST, _BESIDE = 2.0, 1.2, 3
+"""A contact over twice the median of the three before and the three after it, and over 1.2 s, is standing."""
+_FLIGHT, _HALF, _RUN = 0.01, 50.0, 45.0
+"""A step of a run has a flight of more than 0.01 s and a stance below half of its stride; of one foot, below 45 %."""
+_SAME = 0.8
+"""Share of both feet's contacts that is common where both hop at once; walking has 0.2."""
+_IN_TURNS = ("step_time_s", "double_support_percent", "single_support_percent")
+"""Measures of feet that step in turns."""
+_SHORTEST = 4
+"""Steps of both feet from which they are a segment and no odd step."""
+_PAUSE = 3.0
+"""Usual strides without a step that part two segments."""
+
+
+@dataclass(frozen=True)
+class Segment:
+    """Steps in a row of one activity.
+
+    Attributes:
+        activity: "walking", "running", "hopping" or "standing".
+        begin: First heel strike in s.
+        end: Last toe off in s.
+        steps: Numbers of its steps of each foot.
+    """
+
+    activity: str
+    begin: float
+    end: float
+    steps: Mapping[Side, tuple[int, ...]]
+
+    @property
+    def count(self) -> int:
+        """Steps of both feet."""
+        return sum(len(own) for own in self.steps.values())
+
+
+def without_standing(contacts: Sequence[Contact]) -> list[Contact]:
+    """Contacts, those marked as standing that last too long for a step of the steps around them.
+
+    Args:
+        contacts: The contacts of a foot, in order.
+
+    Returns:
+        The contacts.
+    """
+    known = [i for i, c in enumerate(contacts) if c.complete]
+    lasts = {i: cast(float, contacts[i].toe_off) - cast(float, contacts[i].heel_strike) for i in known}
+    out = list(contacts)
+    for at, i in enumerate(known):
+        around = [lasts[k] for k in known[max(0, at - _BESIDE) : at] + known[at + 1 : at + 1 + _BESIDE]]
+        if len(around) >= 2 and lasts[i] > max(_LEAST, _LONG * float(np.median(around))):
+            out[i] = replace(contacts[i], standing=True)
+    return out
+
+
+def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
+    """The feet with the activity of each step: "walking", "running", "hopping", or empty where it is not known.
+
+    Args:
+        feet: The gait of each foot, all steps measured.
+
+    Returns:
+        The feet.
+    """
+    hops = _both_at_once(feet)
+    rows = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
+    raw = ["hopping" if hops else _activity(step) for step in rows]
+    steady = [_most(raw[max(0, i - 2) : i + 3]) or name for i, name in enumerate(raw)]  # one odd step is no segment
+    found = {(s.side, s.number): name for s, name in zip(rows, steady, strict=True)}
+    out: dict[Side, FootGait] = {}
+    for side, gait in feet.items():
+        steps = [replace(s, activity=found[side, s.number]) for s in gait.steps]
+        if hops:
+            steps = [replace(s, measures={k: v for k, v in s.measures.items() if k not in _IN_TURNS}) for s in steps]
+        out[side] = replace(gait, steps=tuple(steps))
+    return out
+
+
+def _both_at_once(feet: Mapping[Side, FootGait]) -> bool:
+    """Whether both feet land and lift together."""
+    if len(feet) < 2:
+        return False
+    left, right = ([c for c in feet[s].contacts if c.complete] for s in SIDES)
+    if len(left) < 3 or len(right) < 3:
+        return False
+    shares = []
+    for c in left:
+        begin, end = cast(float, c.heel_strike), cast(float, c.toe_off)
+        common = max(
+            (min(end, cast(float, o.toe_off)) - max(begin, cast(float, o.heel_strike)))
+            / (max(end, cast(float, o.toe_off)) - min(begin, cast(float, o.heel_strike)))
+            for o in right
+        )
+        shares.append(common)
+    return float(np.median(shares)) > _SAME
+
+
+def _activity(step: Step) -> str:
+    flight, stance = step["flight_time_s"], step["stance_percent"]
+    if np.isfinite(flight) and np.isfinite(stance):
+        return "running" if flight > _FLIGHT and stance < _HALF else "walking"
+    if np.isfinite(stance):
+        return "running" if stance < _RUN else "walking"
+    return ""
+
+
+def _most(names: Sequence[str]) -> str:
+    """The commonest name that is not empty."""
+    known = [n for n in names if n]
+    return max(dict.fromkeys(known), key=known.count) if known else ""
+
+
+def segments_of(feet: Mapping[Side, FootGait]) -> tuple[Segment, ...]:
+    """Segments of a recording, in the order of time.
+
+    Args:
+        feet: The feet with the activity of each step.
+
+    Returns:
+        The segments; standing between them where a foot stays on the ground for too long for a step.
+    """
+    rows = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
+    strides = [v for s in rows if np.isfinite(v := s["stride_time_s"])]
+    pause = _PAUSE * float(np.median(strides)) if strides else np.inf
+    groups: list[list[Step]] = []
+    for step in rows:
+        last = groups[-1][-1] if groups else None
+        apart = last is None or step.heel_strike_s - last.heel_strike_s > pause
+        if last is None or apart or (step.activity and last.activity and step.activity != last.activity):
+            groups.append([])
+        groups[-1].append(step)
+    out = [
+        Segment(
+            _most([s.activity for s in group]) or "unknown",
+            group[0].heel_strike_s,
+            max(s.toe_off_s for s in group),
+            {side: tuple(s.number for s in group if s.side == side) for side in feet},
+        )
+        for group in groups
+        if len(group) >= min(_SHORTEST, len(rows))
+    ]
+    stands = [c for g in feet.values() for c in g.contacts if c.standing]
+    for begin, end in _common([(cast(float, c.heel_strike), cast(float, c.toe_off)) for c in stands]):
+        out.append(Segment("standing", begin, end, {}))
+    return tuple(sorted(out, key=lambda s: s.begin))
+
+
+def _common(spans: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Spans that overlap, as one each."""
+    joined: list[tuple[float, float]] = []
+    for begin, end in sorted(spans):
+        if joined and begin <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
+        else:
+            joined.append((begin, end))
+    assert all(a[1] <= b[0] for a, b in pairwise(joined))
+    return joined
