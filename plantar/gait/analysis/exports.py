@@ -1,4 +1,4 @@
-"""A recording and its steps in other programs' files: NPZ, CSV, C3D, and a sidecar that says what they hold."""
+"""A recording and its steps in other programs' files: NPZ, CSV, C3D, OpenSim, and a sidecar that describes them."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from plantar import __version__
 from plantar.atomic import parent_folder, replacing, write_text
 from plantar.csv_table import write_csv_rows
 from plantar.errors import InputError
+from plantar.gait.analysis.ground_reactions import ground_reactions, write_external_loads, write_mot
 from plantar.gait.analysis.results import Analysis
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.optional_library import optional_library
@@ -30,8 +31,8 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
     Args:
         analysis: The analysis: its recording as it was measured, baselines taken off, and the events of its feet.
         path: File ending in .npz (times, forces in N of each cell, layouts and events; `plantar analyze` reads it),
-            .csv (a column a cell, `left 12 [N]`; the same) or .c3d (total force of each foot as an analog channel, its
-            CoP as a point, events in the group EVENT; needs ezc3d).
+            .csv (a column a cell, `left 12 [N]`; the same), .c3d (a force platform of each foot, its CoP as a point,
+            events in the group EVENT; needs ezc3d) or .mot (OpenSim, with its external loads as .xml).
 
     Returns:
         The files written: the export and its sidecar, which is named after it (walk.c3d.json) and has the keys that
@@ -47,8 +48,13 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
         raise InputError(f"cannot export to '{target.name}'; allowed: {', '.join(EXPORTS)}")
     with parent_folder(target), replacing(target) as temporary:
         write(analysis, temporary)
+    loads = []
+    if target.suffix.lower() == ".mot":
+        loads = [target.with_name(f"{target.stem}_loads.xml")]
+        write_external_loads(analysis, loads[0], target.name)
     return [
         target,
+        *loads,
         write_text(target.with_name(f"{target.name}.json"), json.dumps(_sidecar(analysis, target), indent=1) + "\n"),
     ]
 
@@ -57,7 +63,7 @@ def exporter(formats: Sequence[str]) -> Callable[[Analysis, Path], None] | None:
     """What writes a recording in some formats into the folder of its analysis, under the recording's own name.
 
     Args:
-        formats: Formats by their suffix, "c3d", "csv" or "npz", with or without its dot.
+        formats: Formats by their suffix, "c3d", "csv", "mot" or "npz", with or without its dot.
 
     Returns:
         A function of an analysis and a folder; None for no format.
@@ -157,16 +163,39 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     parameters["POINT"]["RATE"]["value"] = [recording.rate_hz]
     parameters["POINT"]["UNITS"]["value"] = ["m"]
     parameters["POINT"]["LABELS"]["value"] = list(cops) or ["none"]
+    reactions = ground_reactions(analysis)
     analog = parameters["ANALOG"]
+    unit = _unit(analysis)
     analog["RATE"]["value"] = [recording.rate_hz]
-    analog["LABELS"]["value"] = [f"{side}.Fz" for side in analysis.feet]
-    analog["UNITS"]["value"] = [_unit(analysis)] * len(analysis.feet)
+    analog["LABELS"]["value"] = [
+        f"{side}.{axis}" for side in reactions for axis in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+    ]
+    analog["UNITS"]["value"] = [unit, unit, unit, f"{unit}m", f"{unit}m", f"{unit}m"] * len(reactions)
+    analog["SCALE"]["value"] = [1.0] * (6 * len(reactions))
+    analog["OFFSET"]["value"] = [0] * (6 * len(reactions))
+    channels, corners = [], []
+    for reaction in reactions.values():
+        low, high = reaction.cop.min(axis=0) - 0.05, reaction.cop.max(axis=0) + 0.05
+        x, y = (reaction.cop - 0.5 * (low + high)).T  # moments are about the middle of the plate
+        fx, fy, fz = reaction.force.T
+        channels += [fx, fy, fz, y * fz, -x * fz, x * fy - y * fx + reaction.free]
+        corners.append([[high[0], high[1], 0.0], [low[0], high[1], 0.0], [low[0], low[1], 0.0], [high[0], low[1], 0.0]])
+    plates = parameters["FORCE_PLATFORM"]
+    for name, value in (
+        ("USED", np.array([len(reactions)])),
+        ("TYPE", np.full(len(reactions), 2)),
+        ("ZERO", np.array([1, 0])),
+        ("CORNERS", np.array(corners).transpose(2, 1, 0)),
+        ("ORIGIN", np.zeros((3, len(reactions)))),
+        ("CHANNEL", np.arange(1, 6 * len(reactions) + 1).reshape(-1, 6).T),
+    ):
+        plates[name]["value"] = value
     file["data"]["points"] = points
     file["data"]["meta_points"] = {  # residual -1: the point is not there, as without load
         "residuals": np.where(unknown, -1.0, 0.0)[None],
         "camera_masks": np.zeros((7, len(unknown), frames), dtype=bool),
     }
-    file["data"]["analogs"] = np.array([np.nan_to_num(g.foot.vertical_force) for g in analysis.feet.values()])[None]
+    file["data"]["analogs"] = np.array(channels)[None]
     events = _events(analysis)
     if events:
         names = {"heel_strike": "Foot Strike", "toe_off": "Foot Off"}
@@ -178,5 +207,10 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     file.write(str(path))
 
 
-EXPORTS: Mapping[str, Callable[[Analysis, Path], None]] = {".npz": _write_npz, ".csv": _write_csv, ".c3d": _write_c3d}
+EXPORTS: Mapping[str, Callable[[Analysis, Path], None]] = {
+    ".npz": _write_npz,
+    ".csv": _write_csv,
+    ".c3d": _write_c3d,
+    ".mot": write_mot,
+}
 """What writes a file of each suffix."""

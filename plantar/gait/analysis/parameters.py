@@ -117,7 +117,8 @@ def _check_clock(recording: PressureRecording) -> None:
 
 def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
     """The gait of each foot, all of whose steps are in the means."""
-    feet = {side: analyse_foot(recording, side, prints, stated) for side in recording.feet}
+    events = {side: _events_of(recording, side, stated) for side in recording.feet}
+    feet = {side: analyse_foot(recording, side, prints, stated, events) for side in recording.feet}
     places = {side: [_place(recording, gait, step, prints) for step in gait.steps] for side, gait in feet.items()}
     known = {side: [p for p in own if p is not None] for side, own in places.items()}
     if known != places:  # a step without a place would be taken for a longer stride
@@ -133,7 +134,11 @@ def _with_measures(gait: FootGait, extra: Sequence[Mapping[str, float]]) -> Foot
 
 
 def analyse_foot(
-    recording: PressureRecording, side: Side, prints: Sequence[PlatformPrint] = (), stated: bool = False
+    recording: PressureRecording,
+    side: Side,
+    prints: Sequence[PlatformPrint] = (),
+    stated: bool = False,
+    events: Mapping[Side, tuple[Levels | None, list[Contact]]] | None = None,
 ) -> FootGait:
     """Find the contacts of one foot and measure its complete steps.
 
@@ -142,14 +147,16 @@ def analyse_foot(
         side: A foot that it has.
         prints: The footprints of a platform.
         stated: Whether the events that the file states are taken.
+        events: Levels and contacts of both feet, where they are known.
 
     Returns:
         The foot's gait. Measures that need the other foot use its contacts where it was recorded.
     """
-    gait = _with_events(recording, side, stated)
+    events = events or {s: _events_of(recording, s, stated) for s in recording.feet}
+    gait = _with_events(recording, side, *events[side])
     loads = StepLoads(recording, gait.foot, gait.cell_threshold)
     gait = with_picture(recording, gait, loads)
-    others = _other_foot(recording, side, stated)
+    others = _other_foot(recording, side, events)
     strides, longest = iter(stride_times(gait.contacts)), longest_stride(gait.contacts)
     steps: list[Step] = []
     for contact, previous in zip(gait.contacts, [None, *gait.contacts], strict=False):
@@ -164,32 +171,40 @@ def analyse_foot(
     return replace(gait, steps=tuple(steps), warnings=tuple(_doubts(recording, gait)))
 
 
-def _with_events(recording: PressureRecording, side: Side, stated: bool) -> FootGait:
+def _events_of(recording: PressureRecording, side: Side, stated: bool) -> tuple[Levels | None, list[Contact]]:
+    """Force levels and contacts of a foot."""
+    levels = _levels(recording, side)
+    return levels, _contacts(recording, side, stated, levels)
+
+
+def _with_events(
+    recording: PressureRecording, side: Side, levels: Levels | None, contacts: Sequence[Contact]
+) -> FootGait:
     """One foot with its contacts and its CoP; no step is measured yet."""
     foot = recording.feet[side]
     force = foot.vertical_force
-    levels = _levels(recording, side)
-    contacts = _contacts(recording, side, stated)
     cop = foot.center_of_pressure(levels.release if levels is not None else np.inf)
     if cop is not None:
         cop = averaged_path(cop, np.where(np.isfinite(force), force, 1.0), round(COP_WINDOW * recording.rate_hz))
     return FootGait(foot, levels, tuple(contacts), (), cop, cell_threshold(recording, foot, contacts))
 
 
-def _other_foot(recording: PressureRecording, side: Side, stated: bool) -> OtherFoot | None:
+def _other_foot(
+    recording: PressureRecording, side: Side, events: Mapping[Side, tuple[Levels | None, list[Contact]]]
+) -> OtherFoot | None:
     """The contacts of the foot across; None where it was not recorded."""
     if other_side(side) not in recording.feet or not recording.metadata.get("sees_every_step", True):
         return None  # plates in a walkway do not see what the other foot does beside them
-    return OtherFoot(recording, other_side(side), _contacts(recording, other_side(side), stated))
+    return OtherFoot(recording, other_side(side), events[other_side(side)][1])
 
 
-def _contacts(recording: PressureRecording, side: Side, stated: bool) -> list[Contact]:
+def _contacts(recording: PressureRecording, side: Side, stated: bool, levels: Levels | None) -> list[Contact]:
     """The contacts of a foot: found in its force, or those that the file states."""
     if stated:
         return stated_contacts(recording.time, recording.events[side])
-    levels, force = _levels(recording, side), recording.feet[side].vertical_force
     if levels is None:
         return []
+    force = recording.feet[side].vertical_force
     found = find_contacts(recording.time, force, levels)
     joined = [run_together(force, recording.rate_hz, levels, c) > 1 for c in found]
     return without_standing([replace(c, standing=True) if many else c for c, many in zip(found, joined, strict=True)])

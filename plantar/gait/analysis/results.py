@@ -24,6 +24,10 @@ from plantar.recordings.pressure_recording import PressureRecording
 __all__ = ["Analysis", "as_data_frame", "write_analysis"]
 
 
+_LONG = 500
+"""Steps from which metrics.json is one line."""
+
+
 @dataclass(frozen=True, eq=False)
 class Analysis:
     """A recording, its feet and what was measured.
@@ -120,7 +124,8 @@ def write_analysis(
     (folder / "steps.csv").write_text(_steps_csv(analysis.steps), encoding="utf-8")
     if any(step.regions for gait in feet.values() for step in gait.steps):
         (folder / "regions.csv").write_text(_regions_csv(feet, recording.raw), encoding="utf-8")
-    (folder / "metrics.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    lines = None if sum(len(gait.steps) for gait in feet.values()) > _LONG else 1  # indented takes six times as long
+    (folder / "metrics.json").write_text(json.dumps(metrics, indent=lines, allow_nan=False) + "\n", encoding="utf-8")
     if not figures:
         return
     from plantar.gait.analysis.pages.draw_analysis import draw_figures

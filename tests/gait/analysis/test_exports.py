@@ -85,7 +85,7 @@ def test_a_c3d_file_has_no_centre_of_pressure_without_load(tmp_path: Path, analy
 def test_the_command_exports_beside_its_report(tmp_path: Path, analysis: Analysis) -> None:
     pytest.importorskip("ezc3d", reason="ezc3d is not installed")
     walk, _ = export_analysis(analysis, tmp_path / "walk.npz")
-    arguments = ["analyze", str(walk), "-o", str(tmp_path / "out"), "--json"]
+    arguments = ["analyze", str(walk), "-o", str(tmp_path / "out"), "--json", "--figures"]
     done = CliRunner().invoke(app, [*arguments, "--export", "c3d", "--export", "CSV"])
     assert done.exit_code == 0, done.output
     names = {Path(file).name for file in json.loads(done.stdout)["files"]}
@@ -93,7 +93,7 @@ def test_the_command_exports_beside_its_report(tmp_path: Path, analysis: Analysi
     held = json.loads((tmp_path / "out" / "walk.c3d.json").read_text())
     assert held["Sha256"] == hashlib.sha256((tmp_path / "out" / "walk.c3d").read_bytes()).hexdigest()
     for more, message in (
-        ([str(walk), "--export", "xls"], "--export is 'xls'; allowed: npz, csv, c3d"),
+        ([str(walk), "--export", "xls"], "--export is 'xls'; allowed: npz, csv, c3d, mot"),
         (["--compare", str(walk), str(walk), "--export", "npz"], "--export is for one recording"),
         ([str(tmp_path), "--export", "npz"], "--export is for one recording"),
     ):
@@ -106,3 +106,41 @@ def test_other_suffixes_are_refused(tmp_path: Path, analysis: Analysis) -> None:
     with pytest.raises(InputError, match=r"cannot export to 'walk.xls'; allowed: .npz, .csv, .c3d"):
         export_analysis(analysis, tmp_path / "walk.xls")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("suffix", [".c3d", ".mot"])
+def test_forces_are_read_back_as_plates(tmp_path: Path, analysis: Analysis, suffix: str) -> None:
+    if suffix == ".c3d":
+        pytest.importorskip("ezc3d", reason="ezc3d is not installed")
+    path = export_analysis(analysis, tmp_path / f"walk{suffix}")[0]
+    again = analyse(path, options=ReadOptions(plates=("left", "right") if suffix == ".c3d" else ())).recording
+    assert again.kind == "plate"
+    for side, gait in analysis.feet.items():
+        force = gait.foot.vertical_force
+        assert np.abs(again.feet[side].vertical_force - force).max() < 1e-6 * force.max()
+        cop, read = gait.foot.center_of_pressure(100.0), again.feet[side].cop
+        assert cop is not None
+        assert read is not None
+        there = np.isfinite(cop[:, 0])
+        axes = read[there] if suffix == ".c3d" else read[there][:, ::-1] * [1.0, -1.0]  # (right, ahead) in OpenSim
+        assert np.abs(axes - cop[there]).max() < 1e-5
+
+
+def test_ezc3d_reads_force_platforms(tmp_path: Path, analysis: Analysis) -> None:
+    ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed")
+    path, _ = export_analysis(analysis, tmp_path / "walk.c3d")
+    plates = ezc3d.c3d(str(path), extract_forceplat_data=True)["data"]["platform"]
+    for side, plate in zip(analysis.feet, plates, strict=True):
+        force = analysis.feet[side].foot.vertical_force
+        assert np.abs(plate["force"][2] - force).max() < 1e-6 * force.max()
+
+
+def test_opensim_reads_the_motion_file(tmp_path: Path, analysis: Analysis) -> None:
+    opensim = pytest.importorskip("opensim", reason="opensim is not installed: pip install opensim")
+    motion, loads, _ = export_analysis(analysis, tmp_path / "walk.mot")
+    table = opensim.TimeSeriesTable(str(motion))
+    for side, gait in analysis.feet.items():
+        force = gait.foot.vertical_force
+        read = table.getDependentColumn(f"ground_force_{side}_vy").to_numpy()
+        assert np.abs(read - force).max() < 1e-6 * force.max()
+    assert opensim.ExternalLoads(str(loads), False).getSize() == len(analysis.feet)

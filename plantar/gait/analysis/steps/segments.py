@@ -100,16 +100,14 @@ def _both_at_once(feet: Mapping[Side, FootGait]) -> bool:
     left, right = ([c for c in feet[s].contacts if c.complete] for s in SIDES)
     if len(left) < 3 or len(right) < 3:
         return False
-    shares = []
-    for c in left:
-        begin, end = cast(float, c.heel_strike), cast(float, c.toe_off)
-        common = max(
-            (min(end, cast(float, o.toe_off)) - max(begin, cast(float, o.heel_strike)))
-            / (max(end, cast(float, o.toe_off)) - min(begin, cast(float, o.heel_strike)))
-            for o in right
-        )
-        shares.append(common)
-    return float(np.median(shares)) > _SAME
+    one, other = (
+        np.array([[cast(float, c.heel_strike), cast(float, c.toe_off)] for c in own]) for own in (left, right)
+    )
+    near = np.clip(np.searchsorted(other[:, 0], one[:, 0])[:, None] + np.array([-1, 0]), 0, len(other) - 1)
+    begin, end = one[:, :1], one[:, 1:]
+    common = np.minimum(end, other[near, 1]) - np.maximum(begin, other[near, 0])
+    whole = np.maximum(end, other[near, 1]) - np.minimum(begin, other[near, 0])
+    return float(np.median((common / whole).max(axis=1))) > _SAME
 
 
 def _activity(step: Step) -> str:
