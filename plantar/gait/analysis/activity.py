@@ -250,7 +250,7 @@ def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dic
         return {}
     at = points[known]
     both = known[1:] & known[:-1]  # a gap has neither a path nor a time
-    pieces, seconds = np.hypot(*np.diff(points, axis=0).T)[both], np.diff(time)[both]
+    pieces, seconds = np.linalg.norm(np.diff(points, axis=0)[both], axis=1), np.diff(time)[both]
     if not len(pieces):
         return {}
     covariance = np.cov(at.T)

@@ -12,7 +12,7 @@ from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.let_go import column_maxima, let_go
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
-from plantar.sides import Side, other_side
+from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["SilentCells", "creep_doubts", "silent_cell_doubts", "silent_cells", "unequal_strides"]
 
@@ -23,6 +23,8 @@ _CARRIES = 0.15
 _AROUND, _GAP = 0.6, 170.0
 """Share of a cell's neighbours that carry, and largest angle in degrees without one, where an unloaded part of a sole
 would not lie: at its edge the angle is 180."""
+_MANY = 0.08
+"""Share of cells that read 0 where the other foot's carry, from which all of these are silent: feet differ by less."""
 _MISSING = 0.01
 """Share of the force that silent cells lack from which it is reported."""
 _FEWEST, _CREEP, _CLEAR = 8, 0.08, 5.0
@@ -70,11 +72,15 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     if other is not None and other.layout is not None and _mirrored(layout, other.layout):
         theirs = column_maxima(other.force) / other.layout.areas
         mirror = theirs > _CARRIES * float(np.percentile(theirs, 90.0))
-    silent = np.zeros(len(layout), dtype=bool)
+    silent = zero & mirror if (zero & mirror).sum() >= _MANY * len(layout) else np.zeros(len(layout), dtype=bool)
     for _ in range(3):  # silent cells beside silent ones are found by those that were found
         loaded = carries | silent
         found = np.array(
-            [i for i in np.flatnonzero(zero & ~silent) if _inside(layout, i, beside[i], loaded, bool(mirror[i]))]
+            [
+                i
+                for i in np.flatnonzero(zero & ~silent).tolist()
+                if _inside(layout, i, beside[i], loaded, bool(mirror[i]))
+            ]
         )
         if not len(found):
             break
@@ -194,8 +200,8 @@ def unequal_strides(feet: Mapping[Side, FootGait]) -> float | None:
     if len(feet) < 2:
         return None
     middles = []
-    for side in ("left", "right"):
-        strides = np.array([step["stride_time_s"] for step in feet[side].steps])  # type: ignore[index]
+    for side in SIDES:
+        strides = np.array([step["stride_time_s"] for step in feet[side].steps])
         strides = strides[np.isfinite(strides)]
         if len(strides) < _STRIDES:
             return None

@@ -90,7 +90,7 @@ def test_the_command_takes_who_walks(tmp_path: Path) -> None:
     np.savez(path, time=recording.time, unit="N", layout_left=layout, left=recording.feet["left"].force)
     out = tmp_path / "out"
     given = ["--participant", "P07", "--mass", "30", "--foot-length", "0.26"]
-    done = CliRunner().invoke(app, ["analyze", str(path), "-o", str(out), "--json", *given])
+    done = CliRunner().invoke(app, ["analyze", str(path), "-o", str(out), "--json", "--figures", *given])
     assert done.exit_code == 0, done.output
     metrics = json.loads((out / "metrics.json").read_text())
     assert metrics["subject"] == {"name": "P07", "mass_kg": 30.0, "foot_length_m": 0.26}

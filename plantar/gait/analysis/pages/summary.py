@@ -41,13 +41,14 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
         feet: The feet that were recorded.
 
     Returns:
-        landings (heel strikes of all feet), stride_time_s (mean of all complete steps of the activity in the means),
+        landings (heel strikes of all feet), stride_time_s (mean of all complete steps, of several
+        activities of those in the means),
         cadence_steps_per_min (two steps in that stride), steady_cadence_steps_per_min (in that of the steps in the
         means), double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
         walking_speed_m_s (means); None where the recording cannot tell.
     """
-    used = {step.activity for gait in feet.values() for step in gait.used if step.activity}
-    steps = [s for gait in feet.values() for s in gait.steps if not used or s.activity in used or not s.activity]
+    several = len({step.activity for gait in feet.values() for step in gait.steps if step.activity}) > 1
+    steps = [s for gait in feet.values() for s in gait.steps if s.used or not several]
     stride = spread([step["stride_time_s"] for step in steps]).mean
     steady = _mean(feet, "stride_time_s")
     return {

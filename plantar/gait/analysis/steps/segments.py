@@ -21,6 +21,11 @@ _FLIGHT, _HALF, _RUN = 0.01, 50.0, 45.0
 """A step of a run has a flight of more than 0.01 s and a stance below half of its stride; of one foot, below 45 %."""
 _SAME = 0.8
 """Share of both feet's contacts that is common where both hop at once; walking has 0.2."""
+_OF_STRIDE = (
+    *("stride_time_s", "swing_time_s", "stance_percent", "swing_percent", "double_support_percent"),
+    *("single_support_percent", "stride_length_m", "stride_velocity_m_s"),
+)
+"""Measures of the stride from a step to the next one of its foot."""
 _IN_TURNS = ("step_time_s", "double_support_percent", "single_support_percent")
 """Measures of feet that step in turns."""
 _SHORTEST = 4
@@ -87,6 +92,10 @@ def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
     out: dict[Side, FootGait] = {}
     for side, gait in feet.items():
         steps = [replace(s, activity=found[side, s.number]) for s in gait.steps]
+        for i, (step, after) in enumerate(pairwise(steps)):
+            if step.activity != after.activity:  # its stride is of neither
+                known = {k: v for k, v in step.measures.items() if k not in _OF_STRIDE}
+                steps[i] = replace(step, measures=known)
         if hops:
             steps = [replace(s, measures={k: v for k, v in s.measures.items() if k not in _IN_TURNS}) for s in steps]
         out[side] = replace(gait, steps=tuple(steps))

@@ -93,8 +93,10 @@ def test_a_walkway(options: dict[str, object]) -> None:
             if k:
                 assert step["step_length_m"] == pytest.approx(STEP, abs=PITCH)
                 assert step["step_width_m"] == pytest.approx(WIDTH, abs=2 * PITCH)
+            if k + 1 < len(strikes):  # a stride begins with its step, in length, time and velocity
                 assert step["stride_length_m"] == pytest.approx(2 * STEP, abs=PITCH)
                 assert step["stride_velocity_m_s"] == pytest.approx(STEP / (STANCE - DOUBLE), rel=0.02)
+                assert step["stride_length_m"] == pytest.approx(step["stride_velocity_m_s"] * step["stride_time_s"])
             assert step.regions["heel"]["peak_force_N"] > 100.0
             assert 0.08 < step["cop_excursion_ap_m"] < 0.2
             assert step["cop_excursion_ml_m"] < 0.04
