@@ -245,7 +245,7 @@ def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dic
         >>> round(found["sway_path_m"], 3), round(found["sway_ap_m"], 4)
         (0.628, 0.0071)
     """
-    known = np.isfinite(points).all(axis=1)
+    known = np.asarray(np.isfinite(points).all(axis=1))
     if known.sum() < 10 or float(np.ptp(time[known])) < _SHORTEST:
         return {}
     at = points[known]
