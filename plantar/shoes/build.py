@@ -9,7 +9,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError
+from plantar.errors import FootError, InputError
+from plantar.gravity import GRAVITY
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.shoes.cad_kernel import load_cadquery
 from plantar.shoes.cells.cell import Cell
@@ -21,8 +22,10 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step
 from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
 from plantar.shoes.plan.load_share import LoadShare, check_load_share, relieved
+from plantar.shoes.plan.observability import observability
 from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
 from plantar.shoes.plan.strength import load_case, strengthened
+from plantar.shoes.plan.touching import Touching, check_touching, softened
 from plantar.shoes.solid.body import bare_floor, mark_outline, mirrored_steps, shoe_steps
 from plantar.shoes.solid.retention import Retention, choose_retention
 from plantar.shoes.solid.tray import build_solid, surface_of
@@ -49,6 +52,9 @@ Rim = Literal["whole", "fine"]
 
 RIMS: tuple[Rim, ...] = ("whole", "fine")
 """All kinds of rim."""
+
+_SMALLER, _LEAST_AREA = 0.72, 100.0  # of a cell that sees too little, and mm^2
+_ACTIVE = 0.146  # of the mean load of a taxel: 0.15 kg of the papers' 86 kg over two soles of 42
 
 Progress = Callable[[float, str], None]
 """Receives the fraction done, 0..1, and what is being done."""
@@ -92,6 +98,7 @@ class ShoeBuild:
         retention: What holds them; None where only the layout was asked for.
         notes: What was detected, assumed and decided.
         kind: "shoe", or "insole": a flat sheet without walls, see `plantar.shoes.insole`.
+        touching: Taxels that touch flat ground where seats scatter; None of an insole.
     """
 
     foot: Foot
@@ -102,6 +109,7 @@ class ShoeBuild:
     retention: Retention | None = None
     notes: tuple[str, ...] = ()
     kind: Literal["shoe", "insole"] = "shoe"
+    touching: Touching | None = None
 
 
 def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
@@ -175,43 +183,87 @@ def build_shoe(
     # The plate under the wall meets the ground, too; the load case may ask for a thicker wall.
     wall = strengthened(foot, foot.sole, p)[0].rim_thickness
     face, reach = foot.passing(p.rim_height), max(overhang, p.clearance + wall - p.border)
-    if cell is not None:
-        fit = fit_cells(
-            face,
-            cell,
-            rib=p.rib,
-            taxels=taxels,
-            overhang=reach if taxels is None else overhang,
-            overhang_max=p.overhang_max,
-            border=p.border,
-        )
-    elif rim == "fine":
-        fit = fit_fine_rim(face, cell_area=cell_area, overhang=reach, border=p.border)
-    else:
-        fit = fit_taxels(
-            face,
-            cell_area=cell_area,
-            taxels=taxels,
-            overhang=reach if taxels is None else overhang,
-            overhang_max=p.overhang_max,
-            border=p.border,
-        )
+    options = {"overhang": reach if taxels is None else overhang, "overhang_max": p.overhang_max, "border": p.border}
+
+    def placed(area: float) -> tuple[TaxelFit, ShoePlan]:
+        if cell is not None:
+            found = fit_cells(face, cell, rib=p.rib, taxels=taxels, **options)
+        elif rim == "fine":
+            found = fit_fine_rim(face, cell_area=area, overhang=reach, border=p.border)
+        else:
+            found = fit_taxels(face, cell_area=area, taxels=taxels, **options)
+        return found, plan_shoe(foot, found, replace(p, border=found.border), name=name)
+
+    fit, left, smaller = _observed(placed, cell_area, fixed=taxels is not None or cell is not None or rim == "fine")
     p = replace(p, border=fit.border)
-    left = plan_shoe(foot, fit, p, name=name)
     p, raised = strengthened(foot, left.contact, p)
     if raised:
         left = plan_shoe(foot, fit, p, name=name)
     p, led = led_parameters(left, p)
+    left, gentle = _sensitive(left, load_case(foot, p).mass)
+    p, soft = softened(left, load_case(foot, p), p)
     p, lowered = relieved(left, load_case(foot, p), p)
-    notes = foot.notes + of_cell + fit.notes + raised + led + lowered + left.notes + _blind_note(left, fit)
-    share = check_load_share(left, load_case(foot, p), p)
+    notes = (
+        foot.notes
+        + of_cell
+        + smaller
+        + fit.notes
+        + gentle
+        + raised
+        + led
+        + soft
+        + lowered
+        + left.notes
+        + _blind_note(left, fit)
+    )
+    load = load_case(foot, p)
+    share, touching = check_load_share(left, load, p), check_touching(left, load, p)
     if layout_only:
         tell(1.0, "layouts fitted")
-        return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=notes)
+        return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=notes, touching=touching)
     retention = choose_retention(foot, left, p)
     steps = shoe_steps(foot, left, retention, p)
     shoes = built_sides(left, steps, p, sides, tell)
-    return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note))
+    return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
+
+
+def _observed(
+    placed: Callable[[float], tuple[TaxelFit, ShoePlan]], cell_area: float, *, fixed: bool
+) -> tuple[TaxelFit, ShoePlan, tuple[str, ...]]:
+    """Cells and plan of a cell area, or of a smaller one by which the center of pressure is seen both ways."""
+    area, problem, last = cell_area, None, None
+    while True:
+        try:
+            last = placed(area)
+            if fixed or observability(last[1]).holds:
+                break
+        except FootError as error:
+            problem = problem or error
+            if fixed:
+                raise
+        if area <= _LEAST_AREA:
+            break
+        area = max(_LEAST_AREA, round(area * _SMALLER))
+    if last is None or not (fixed or observability(last[1]).holds):
+        reason = "" if problem is None else f" ({problem})"
+        raise FootError(
+            f"no cells of {_LEAST_AREA:g} to {cell_area:g} mm^2 see the center of pressure along and across "
+            f"this sole{reason}"
+        )
+    if area == cell_area:
+        return *last, ()
+    text = f"cells of {area:g} instead of {cell_area:g} mm2: larger ones would not see the center of pressure both ways"
+    return *last, (text,)
+
+
+def _sensitive(left: ShoePlan, mass: float) -> tuple[ShoePlan, tuple[str, ...]]:
+    """A plan whose taxels are active below what they carry under a light robot that stands on both feet."""
+    level = _ACTIVE * 0.5 * mass * GRAVITY / len(left.layout)
+    if level > 0.5 * left.layout.force_threshold:
+        return left, ()
+    level = float(f"{level:.2g}")
+    layout = replace(left.layout, thresholds={**left.layout.thresholds, "force": level})
+    return replace(left, layout=layout), (f"taxels are active from {level:g} N on: the robot is light",)
 
 
 def sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:

@@ -7,7 +7,7 @@ from plantar.shoes.cells.cell import Cell
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
-from plantar.shoes.plan.insole_plan import fit_insole, insole_parameters, plan_insole
+from plantar.shoes.plan.insole_plan import fit_insole, insole_foot, insole_parameters, plan_insole
 from plantar.shoes.plan.load_share import check_load_share, relieved
 from plantar.shoes.plan.strength import load_case
 from plantar.shoes.solid.body import insole_steps
@@ -60,6 +60,7 @@ def build_insole(
         ('insole', 6.0, 0.94)
     """
     sides = sides_of(side, rim)
+    foot = insole_foot(foot)
     tell = progress or (lambda fraction, text: None)
     p, of_cell = cell_parameters(cell, parameters or ShoeParameters())
     p, notes = insole_parameters(foot, thickness, p)

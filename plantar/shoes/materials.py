@@ -1,7 +1,8 @@
 """Printed materials: what the strength check and the masses need of them.
 
 Values are typical of the materials' data sheets (PA12: multi-jet fusion and laser sintering; PETG, PLA and TPU of
-95 Shore A: filament); a part that carries a person or an expensive robot deserves the data of its own maker.
+95 Shore A: filament; resin: tough photopolymers). A part that carries a person or an expensive robot deserves the data
+of its own maker.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ class Material:
 
     Attributes:
         name: Its name.
-        process: How it is printed: "powder bed" needs no supports, "filament" lays lines.
+        process: How it is printed where the parameter `process` does not say, see `plantar.shoes.processes`.
         density: Density in g/cm^3.
         modulus: Young's modulus in MPa.
         strength: Tensile strength within a layer in MPa.
@@ -41,10 +42,11 @@ class Material:
 MATERIALS: dict[str, Material] = {
     m.name: m
     for m in (
-        Material("PA12", "powder bed", 1.01, 1700.0, 48.0, 0.85, 0.040),
-        Material("PETG", "filament", 1.27, 2000.0, 45.0, 0.55, 0.025),
-        Material("PLA", "filament", 1.24, 3000.0, 50.0, 0.50, 0.015),
-        Material("TPU", "filament", 1.21, 30.0, 30.0, 0.80, 0.0),
+        Material("PA12", "MJF", 1.01, 1700.0, 48.0, 0.85, 0.040),
+        Material("PETG", "FDM", 1.27, 2000.0, 45.0, 0.55, 0.025),
+        Material("PLA", "FDM", 1.24, 3000.0, 50.0, 0.50, 0.015),
+        Material("TPU", "FDM", 1.21, 30.0, 30.0, 0.80, 0.0),
+        Material("resin", "SLA", 1.18, 1600.0, 42.0, 0.90, 0.015),
     )
 }
 """The printed materials by name."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ from plantar.errors import InputError
 from plantar.files.structured_text import read_json, read_toml
 from plantar.shoes.dimensions import check_dimensions, choice, length, number
 from plantar.shoes.materials import MATERIALS, Material
+from plantar.shoes.processes import PROCESSES, Process
 
 __all__ = ["RETENTIONS", "ShoeParameters", "read_parameters"]
 
@@ -76,12 +77,20 @@ class ShoeParameters:
     density: float = number(0.0, 0.0, 10.0, "g/cm3", "of the printed material; 0 takes the material's")
     pad_density: float = number(1.15, 0.1, 5.0, "g/cm3", "of the pad's silicone")
     skin_density: float = number(1.2, 0.1, 5.0, "g/cm3", "of the taxels, mean of board and silicone")
-    pad_hardness: float = number(40.0, 10.0, 90.0, "Shore A", "of the pad")
+    pad_hardness: float = number(40.0, 10.0, 90.0, "Shore A", "of the pad, where it is no foam")
+    pad_foam: float = number(
+        0.0, 0.0, 300.0, "kPa", "at which the pad's foam is compressed by 25 %; 0: rubber; strengthen may choose foam"
+    )
+    gap_press: float = length(0.0, 0.0, 2.0, "gap a side of what is pushed in, from your coupon; 0: the process's")
+    gap_slide: float = length(0.0, 0.0, 2.0, "gap a side of what slides, from your coupon; 0: the process's")
+    gap_play: float = length(0.0, 0.0, 2.0, "gap a side of what moves freely, from your coupon; 0: the process's")
+    seat_scatter: float = length(0.0, 0.0, 1.0, "standard deviation of the seats' heights; 0: the process's")
     taxel_hardness: float = number(30.0, 10.0, 90.0, "Shore A", "of the taxels' rubber")
     flow: float = number(8.0, 0.5, 100.0, "mm3/s", "material the printer lays down, for the estimate of time")
     material: str = choice("PA12", tuple(MATERIALS), "printed material")
+    process: str = choice("auto", ("auto", *PROCESSES), "how it is printed; auto: as the material usually is")
     retention: str = choice("auto", RETENTIONS, "how the shoe is held on the foot")
-    strengthen: str = choice("yes", ("yes", "no"), "raise floor, wall and pad relief to what the load case needs")
+    strengthen: str = choice("yes", ("yes", "no"), "raise floor, wall, relief and softness of the pad as far as needed")
 
     def __post_init__(self) -> None:
         check_dimensions(self, "shoe parameter")
@@ -136,6 +145,25 @@ class ShoeParameters:
     def printed(self) -> Material:
         """Data of the printed material, with the density given."""
         return MATERIALS[self.material].with_density(self.density)
+
+    @property
+    def pad_material(self) -> str:
+        """What the pad is of, as a maker orders it."""
+        if self.pad_foam > 0.0:
+            return f"foam sheet, {self.pad_foam:g} kPa or less at 25 % (ASTM D1056, D3574)"
+        return f"silicone, about {self.pad_hardness:g} Shore A"
+
+    @property
+    def made_by(self) -> Process:
+        """The printing process, with the gaps and the scatter that are given."""
+        process = PROCESSES[self.printed.process if self.process == "auto" else self.process]
+        given: dict[str, Any] = {
+            "press": self.gap_press,
+            "slide": self.gap_slide,
+            "play": self.gap_play,
+            "scatter": self.seat_scatter,
+        }
+        return replace(process, **{name: value for name, value in given.items() if value > 0.0})
 
     def as_dict(self) -> dict[str, float | str]:
         """All parameters by name."""

@@ -22,7 +22,7 @@ def test_defaults_are_in_their_ranges_and_leave_a_floor() -> None:
             assert value in row["choices"]
         else:
             assert row["low"] <= value <= row["high"]
-            assert row["unit"] in ("mm", "g/cm3", "kg", "-", "mm3/s", "Shore A")
+            assert row["unit"] in ("mm", "g/cm3", "kg", "-", "mm3/s", "Shore A", "kPa")
     assert p.thickness == p.pad_thickness + p.taxel_protrusion + p.pocket_depth + p.floor == 12.0
     assert p.floor >= p.wall_min
 

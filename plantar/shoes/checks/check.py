@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.optional_library import optional_library
 from plantar.shoes.build import Shoe, ShoeBuild
+from plantar.shoes.checks.features import Feature, printed_features
 from plantar.shoes.checks.mounting import Mounting, check_mounting
 from plantar.shoes.checks.printability import Printing, choose_direction, print_hours
 from plantar.shoes.checks.weights import Weights, weigh
@@ -21,9 +22,11 @@ from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.cell_room import lead_rooms
 from plantar.shoes.plan.insole_plan import EVEN_SHARE, even_share
 from plantar.shoes.plan.load_share import LoadShare
+from plantar.shoes.plan.observability import ACROSS, ALONG, ERROR, observability
 from plantar.shoes.plan.pull_off import SNAP_MOST, PullOff
-from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan
 from plantar.shoes.plan.strength import LoadCase, Member, check_strength
+from plantar.shoes.plan.touching import ACTIVE_LEAST, AREA_OFF, COP_OFF
 from plantar.shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
 from plantar.shoes.units import to_mm
 
@@ -118,23 +121,26 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
     watertight = bool(mesh.is_watertight and mesh.is_winding_consistent and mesh.volume > 0.0)
     volume = float(step.Volume())
     difference = 100.0 * abs(float(mesh.volume) / volume - 1.0) if volume > 0.0 else math.inf
-    shoe_kind = build.kind == "shoe"
+    shoe_kind, plan = build.kind == "shoe", _left(shoe, build)
     engraved = ((p.bottom - 0.01, p.bottom + p.scribe + 0.01), (p.thickness - p.mark_depth - 0.01, p.thickness + 0.01))
     wall = thinnest_wall(surface, engraved)
     printing = choose_direction(surface, p)
     mounting = check_mounting(build.foot, shoe.side, surface, build.retention, p) if shoe_kind else None
-    load, members = check_strength(build.foot, build.shoes[0].plan.contact if shoe.side == "left" else _left(shoe), p)
+    load, members = check_strength(build.foot, plan.contact, p)
     members = members if shoe_kind else ()  # an insole bends with the foot and has no wall
     share = build.load_share
     weights = weigh(shoe, build, volume)
     retention = build.retention
     held = retention.pull_off(build.foot, 1e-3 * weights.total, load.mass, p) if retention.places else None
     reach = _reach(shoe.plan, surface)
+    features = printed_features(shoe, build, surface)
     checks = (
         *_solid_checks(step, watertight, int(mesh.body_count), difference),
         Check("thinnest wall, mm", wall >= p.wall_min - 1e-2, round(wall, 3), f"{p.wall_min:g} or more"),
         *_layout_checks(shoe, p, step),
         *_rim_checks(shoe.plan, build),
+        *_feature_checks(features),
+        *_contact_checks(shoe.plan, build),
         *(_insole_checks(shoe, surface, p) if mounting is None else _mounting_checks(mounting, reach, shoe, build)),
         *_share_checks(share),
         *(() if held is None else _holding_checks(held)),
@@ -163,11 +169,13 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
     )
 
 
-def _left(shoe: Shoe) -> Any:
-    """The contact face of the other side's shoe."""
-    import shapely
-
-    return shapely.affinity.scale(shoe.plan.contact, 1.0, -1.0, origin=(0.0, 0.0))
+def _left(shoe: Shoe, build: ShoeBuild) -> ShoePlan:
+    """The plan of the left shoe."""
+    return (
+        shoe.plan
+        if shoe.side == "left"
+        else next((s.plan for s in build.shoes if s.side == "left"), mirrored_plan(shoe.plan))
+    )
 
 
 def _solid_checks(step: Any, watertight: bool, bodies: int, difference: float) -> Iterator[Check]:
@@ -195,6 +203,34 @@ def _rim_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
     if most is not None:
         blind = plan.blind_rim
         yield Check("blind rim beyond the taxels' centres, mm", blind <= most, round(blind, 2), f"{most:g} or less")
+
+
+def _feature_checks(features: tuple[Feature, ...]) -> Iterator[Check]:
+    for f in features:
+        yield Check(f"{f.name} ({f.part}), %", f.holds, round(100.0 * f.share, 1), "90 or more of it in the print")
+
+
+def _contact_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
+    """What the taxels see of the center of pressure, and how many touch the ground with the process's scatter."""
+    if build.kind == "insole":  # which bends to the ground, and to the foot
+        return
+    seen, touching = observability(plan), build.touching
+    least, share = 100.0 * ALONG, 100.0 * seen.along
+    yield Check("taxels' centres over the face's length, %", share >= least, round(share, 1), f"{least:g} or more")
+    least, share = 100.0 * ACROSS, 100.0 * seen.across
+    yield Check("taxels' centres over the face's width, %", share >= least, round(share, 1), f"{least:g} or more")
+    most = ERROR * seen.width
+    name = "error of the center of pressure for a load anywhere on the face, mm"
+    yield Check(name, seen.error <= most, seen.error, f"{most:.1f} or less")
+    if touching is None:
+        return
+    at = f"at half the weight, seats within {touching.scatter:g} mm (1 sigma)"
+    least, share = 100.0 * ACTIVE_LEAST, 100.0 * touching.active
+    yield Check(f"taxels active {at}, %", share >= least, round(share, 1), f"{least:g} or more")
+    least, share = 100.0 * (1.0 - AREA_OFF), 100.0 * touching.area
+    yield Check(f"footprint {at}, %", share >= least, round(share, 1), f"{least:g} or more")
+    good = touching.cop_error <= COP_OFF
+    yield Check(f"center of pressure off {at}, mm", good, touching.cop_error, f"{COP_OFF:g} or less")
 
 
 def _insole_checks(shoe: Shoe, surface: Array, p: ShoeParameters) -> Iterator[Check]:
@@ -225,6 +261,10 @@ def _mounting_checks(m: Mounting, reach: float, shoe: Shoe, build: ShoeBuild) ->
     if build.retention.places:
         above = m.gap_above if math.isfinite(m.gap_above) else 1e3
         yield Check("gap between foot and clips or lugs, mm", above >= 0.05, round(above, 3), "0.05 or more")
+    name = "places where the robot's other links meet print or straps"
+    yield Check(
+        f"{name}, {'as its model moves' if m.links_known else 'shank assumed'}", m.links == 0, float(m.links), "0"
+    )
     yield Check(
         "gap while the shoe is pushed on, mm",
         m.gap_on_the_way >= least,
@@ -284,7 +324,7 @@ def _strength_checks(load: LoadCase, members: tuple[Member, ...], build: ShoeBui
 
 
 def _printing_checks(best: Printing, plan: ShoePlan, p: ShoeParameters) -> Iterator[Check]:
-    powder = p.printed.process == "powder bed"
+    powder = not p.made_by.supports
     most = round(_OVERHANG_SHARE * plan.contact.area)
     yield Check(
         f"overhang beyond 45 degrees, {best.direction}, mm2",

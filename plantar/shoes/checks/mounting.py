@@ -14,16 +14,17 @@ from plantar.layouts.layout import Side
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.outline import cut_below, ring
 from plantar.shoes.geometry.section import cut_segments, section
-from plantar.shoes.geometry.surface import covered_area
 from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.keep_out import keep_out
 from plantar.shoes.solid.body import LEVELS
-from plantar.shoes.solid.retention import Retention
+from plantar.shoes.solid.retention import Retention, strap_meets
 
 __all__ = ["Mounting", "check_mounting"]
 
 _ABOVE = 9  # sections above the wall
 _BESIDE = 8.0  # mm beside a clip or screw, where its window or boss is
-_MANY = 20_000  # triangles, above which the area that they cover is taken for them
+_MANY = 20_000  # triangles, above which the near ones are picked first
+_SLICE = 2.0  # mm of height in which links are held against one section
 _SLIVER = 0.05  # mm that a wall may lean over
 _WALL_SHARE = 0.1  # of a section's area: what is smaller is a clip, no wall
 
@@ -43,6 +44,8 @@ class Mounting:
         support_share: Share of the foot's touching area that lies over the floor, 0..1.
         undercut: Area in mm^2 of wall that hangs over the foot's place, clips and screws left out: a slot below it
             could not be printed.
+        links: Places where other links of the robot meet the print or a strap while the ankle moves.
+        links_known: Whether those are of the robot's model, or a shank that is assumed.
     """
 
     gap: float
@@ -52,6 +55,8 @@ class Mounting:
     floor_gap: float
     support_share: float
     undercut: float
+    links: int
+    links_known: bool
 
 
 def check_mounting(
@@ -97,7 +102,27 @@ def check_mounting(
     touching = foot.support if foot.support is not None and not foot.support.is_empty else foot.sole
     below = section(shoe, floor - p.mark_depth - 0.05)
     share = float(shapely.intersection(touching, below).area / touching.area)
-    return Mounting(gap, play, above, way, abs(lowest), share, _undercut(shoe, retention, p))
+    others = keep_out(foot)
+    met = _links_met(others.links, shoe, p)
+    if retention.kind == "straps":
+        met += sum(
+            strap_meets(others, foot.passing(p.rim_height), q.x, retention.width, p)
+            for q in retention.places
+            if q.side > 0
+        )
+    return Mounting(gap, play, above, way, abs(lowest), share, _undercut(shoe, retention, p), met, others.known)
+
+
+def _links_met(links: Array, shoe: Array, p: ShoeParameters) -> int:
+    """How many points of other links lie in a left shoe."""
+    import shapely
+
+    heights, count = links[:, 2] + p.thickness, 0
+    for low in np.arange(0.0, float(shoe[..., 2].max()), _SLICE).tolist():
+        near = links[(heights > low) & (heights <= low + _SLICE)]
+        if len(near):
+            count += int(shapely.contains_xy(section(shoe, low + 0.5 * _SLICE + 1.3e-4), near[:, 0], near[:, 1]).sum())
+    return count
 
 
 def _undercut(shoe: Array, retention: Retention, p: ShoeParameters) -> float:
@@ -142,8 +167,11 @@ def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
     flat = cut_below(foot.triangles, height)[..., :2]
     if not len(flat):
         return math.inf
-    if len(flat) > _MANY:  # upright triangles, which cover nothing, are met in the sections of `_gap`
-        return float(covered_area(flat).distance(solid))
+    if len(flat) > _MANY:  # those that cannot be the nearest are left out
+        shapely.prepare(solid)
+        far = shapely.distance(solid, shapely.points(flat[:, 0]))
+        reach = far - np.linalg.norm(flat - flat[:, :1], axis=2).max(axis=1)
+        flat = flat[reach <= far.min()]
     tree = shapely.STRtree(shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1)))
     _, distances = tree.query_nearest(solid, return_distance=True)
     return float(distances.min(initial=math.inf))

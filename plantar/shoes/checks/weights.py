@@ -10,6 +10,7 @@ from plantar.shoes.solid.pad import pad_surface, volume_of
 
 __all__ = ["BOARD_UP", "Weights", "weigh"]
 
+_FOAM_DENSITY = 0.32  # g/cm^3, of microcellular foams (PORON 4701-30, data sheet)
 _BOARD_DENSITY = 1.85e-3  # g/mm^3, glass fibre and copper
 BOARD_UP = 12.0
 """Length in mm of board above the shelf."""
@@ -57,7 +58,7 @@ def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
     board = p.board_length * BOARD_UP * p.board_thickness * _BOARD_DENSITY if shoe.plan.heel.board else 0.0
     return Weights(
         printed=round(volume / 1000.0 * p.printed.density, 2),
-        pad=round(pad / 1000.0 * p.pad_density, 2),
+        pad=round(pad / 1000.0 * (_FOAM_DENSITY if p.pad_foam > 0.0 else p.pad_density), 2),
         skin=round(_skin(shoe, p) / 1000.0 * p.skin_density, 2),
         board=round(board, 2),
     )

@@ -34,6 +34,7 @@ class Foot:
         triangles: The foot's surface (n, 3, 3); None where only its outline is known.
         support: What of the sole touches a flat floor, a shapely polygon or multipolygon; None for all of it.
         mass: Mass of the robot in kg, where it is known.
+        links: Points (n, 3) where the robot's other links pass while the ankle moves; None where they are not known.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Foot:
     triangles: NDArray[np.float64] | None = None
     support: Any | None = None
     mass: float | None = None
+    links: NDArray[np.float64] | None = None
 
     def passing(self, height: float) -> Any:
         """Outline of all of the foot up to a height in mm: what passes there while the shoe is pushed on from below."""

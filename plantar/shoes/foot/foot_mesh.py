@@ -35,7 +35,8 @@ UNIT_SIZE: dict[str, float] = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}
 """Length of each unit in mm."""
 
 _SOLE_SHARE = 0.4  # of the silhouette: a body whose lowest band is smaller is round below
-_HEIGHT_MIN = 5.0  # mm
+_HEIGHT_MIN = 0.5  # mm
+_PLATE = 5.0  # mm: a body that is thinner along one axis is a plate
 _TOUCHING = 1.0  # mm: what lies lower touches the floor
 
 Triangles = NDArray[np.float64]
@@ -95,6 +96,7 @@ def foot_from_triangles(
     sole_z: float | None = None,
     forward: Axis | None = None,
     sole_band: float = 5.0,
+    links: Triangles | None = None,
 ) -> Foot:
     """A foot from its triangles; see `foot_from_mesh`.
 
@@ -109,6 +111,7 @@ def foot_from_triangles(
         sole_z: Height of the sole plane in mm.
         forward: Axis that points to the toes.
         sole_band: Height of the sole in mm.
+        links: Points (n, 3) of the robot's other links, in the frame and unit of the triangles.
 
     Returns:
         The left foot.
@@ -123,22 +126,34 @@ def foot_from_triangles(
     if sole_z is not None and not math.isfinite(sole_z):
         raise InputError(f"sole plane is at {sole_z} mm; allowed: a finite height")
     scale, note = unit_scale(float(np.ptp(triangles.reshape(-1, 3), axis=0).max()), unit, file_unit, where)
-    triangles = triangles * scale
+    read, triangles = triangles, triangles * scale
     notes = [note]
     if not is_closed(triangles):
         notes.append("the mesh is not closed; only its outline is used")
     settings: dict[str, Any] = {
         "where": where, "mesh_side": mesh_side, "sole_z": sole_z, "forward": forward, "sole_band": sole_band,
+        "read": read, "links": links,
     }  # fmt: skip
-    if up is not None:
+    if up is None:
+        size = np.ptp(triangles.reshape(-1, 3), axis=0)
+        if size.min() < _PLATE:
+            thin = AXES[2 * int(size.argmin())]
+            notes.append(
+                f"a plate of {size.min():.3g} mm: nothing shows which face is up, its {thin} axis is taken to point up"
+            )
+            return _standing(name, triangles @ rotation_up(thin).T, notes=notes, up_given=True, **settings)
+    else:
         given = [f"the mesh's {up} axis points up, as given"] if up != "z" else []
         return _standing(name, triangles @ rotation_up(up).T, notes=notes + given, up_given=True, **settings)
+    above = None if links is None else links.mean(axis=0) - read.mean(axis=(0, 1))
     try:
         return _standing(name, triangles, notes=notes, **settings)
     except FootError as error:
         if sole_z is not None or "no flat sole" not in str(error):
             raise
         others = [a for a in AXES if a != "z" and flat_share(triangles @ rotation_up(a).T) >= _SOLE_SHARE]
+        if above is not None:  # the links above the foot show where up is
+            others = [a for a in others if rotation_up(a)[2] @ above > 0.7 * np.linalg.norm(above)]
         if len(others) != 1:  # none, or the foot could be any of them
             raise
         notes.append(f"no sole below, seen along z: the mesh's {others[0]} axis is taken to point up")
@@ -155,9 +170,11 @@ def _standing(
     forward: Axis | None,
     sole_band: float,
     notes: list[str],
+    read: Triangles,
+    links: Triangles | None,
     up_given: bool = False,
 ) -> Foot:
-    """The foot from triangles in mm with z up."""
+    """The foot from triangles in mm with z up; the links follow them from where they were read."""
     notes = list(notes)
     if sole_z is None:
         triangles, tilt = levelled(triangles)
@@ -191,6 +208,8 @@ def _standing(
         if plane - lowest > 1e-6:
             notes.append(f"{plane - lowest:.1f} mm of the mesh lie below the sole plane and are ignored")
     triangles = triangles - np.array([0.0, 0.0, plane])
+    if links is not None:
+        links = _moved_along(read, triangles[:, ::-1] if mesh_side == "right" else triangles, links)
     flip = np.array([1.0, 1.0, -1.0])
     triangles = cut_below(triangles * flip, 0.0) * flip
     if not len(triangles):
@@ -200,6 +219,7 @@ def _standing(
     if not _box_holds(box, 0.5):
         middle = np.array([0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])]).round(3)
         triangles = triangles - np.array([*middle, 0.0])
+        links = None if links is None else links - np.array([*middle, 0.0])
         sole = _checked_sole(triangles, sole_band, forward, where)
         notes.append("the mesh's origin lies far from the sole: the layout's origin is the middle of the sole instead")
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
@@ -215,7 +235,15 @@ def _standing(
         tuple(notes),
         lifted,
         support if support.area > 1.0 else None,
+        links=links,
     )
+
+
+def _moved_along(start: Triangles, end: Triangles, points: Triangles) -> Triangles:
+    """Points (n, 3) moved as a surface was, by the affine map between both."""
+    corners = np.column_stack([start.reshape(-1, 3), np.ones(3 * len(start))])
+    move = np.linalg.lstsq(corners, end.reshape(-1, 3), rcond=None)[0]
+    return np.asarray(np.column_stack([points, np.ones(len(points))]) @ move)
 
 
 def _check_height(triangles: Triangles, where: str) -> None:

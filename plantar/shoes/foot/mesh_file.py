@@ -1,4 +1,5 @@
-"""Triangle meshes from files: STL, OBJ and 3MF read here, PLY, OFF and DAE through trimesh, STEP through OpenCascade.
+"""Triangle meshes from files: STL, OBJ and 3MF read here, PLY, OFF and DAE through trimesh, STEP and IGES through
+OpenCascade.
 
 The libraries are called in a process of its own whose memory and time have limits (`plantar.files.confined`).
 """
@@ -25,7 +26,7 @@ __all__ = ["MESH_FORMATS", "MOST_TRIANGLES", "Unit", "read_mesh"]
 Unit = Literal["m", "cm", "mm", "in"]
 """Unit of length of a mesh file."""
 
-MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".dae", ".3mf", ".step", ".stp")
+MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".dae", ".3mf", ".step", ".stp", ".iges", ".igs")
 """File endings that are read."""
 
 MOST_TRIANGLES = 1_200_000
@@ -86,6 +87,8 @@ def _read(file: Path, kind: str) -> tuple[NDArray[np.float64], Unit | None]:
         return triangles, cast(Unit, unit)
     if kind in (".step", ".stp"):
         return _read_step(file), "mm"
+    if kind in (".iges", ".igs"):
+        return _read_confined(file, ".iges", *_BY_OPENCASCADE), "mm"
     if kind == ".dae":
         return _read_confined(file, kind, *_BY_PYCOLLADA), "m"
     if kind == ".off":

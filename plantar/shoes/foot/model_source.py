@@ -27,7 +27,7 @@ from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from plantar.shoes.foot.urdf_text import BELOW, urdf_for_mujoco
 from plantar.shoes.geometry.primitives import primitive
 
-__all__ = ["FARTHEST", "BodyPlace", "ModelSource", "read_model_source"]
+__all__ = ["FARTHEST", "BodyPlace", "ModelSource", "geom_surface", "read_model_source"]
 
 _LARGEST = 100e6  # bytes of a mesh
 FARTHEST = 1e6
@@ -187,7 +187,7 @@ class ModelSource:
             geom.group = _ELSEWHERE
         part = [geom for body in _fixed_to(spec.body(name)) for geom in body.geoms]
         for geom in part:
-            geom.group = _COLLIDING if geom.contype or geom.conaffinity else _DRAWN
+            geom.group = _COLLIDING if _collides(geom) else _DRAWN
             geom.contype = geom.conaffinity = 0  # no convex hull of a mesh is needed then
         _delete(spec, [geom for geom in spec.geoms if geom.group == _ELSEWHERE])
         count = len(part)
@@ -209,10 +209,43 @@ class ModelSource:
         for g in range(model.ngeom):
             if model.geom_type[g] in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
                 continue
-            local = _surface(model, g, f"{self.file}: <geom name='{model.geom(g).name}'>")
+            local = geom_surface(model, g, f"{self.file}: <geom name='{model.geom(g).name}'>")
             turn = data.geom_xmat[g].reshape(3, 3)
             (drawn if model.geom_group[g] == _DRAWN else colliding).append(local @ turn.T + data.geom_xpos[g] - origin)
         return drawn, colliding
+
+    def links_above(self, name: str, count: int) -> tuple[Any, Any]:
+        """The model with the shapes of the links above a body alone: drawn ones, or what collides where none are.
+
+        Args:
+            name: The body.
+            count: Of links that move against each other; what is fixed beside the body is taken, too.
+
+        Returns:
+            Model and data of MuJoCo at the zero pose.
+
+        Raises:
+            FootError: If a mesh cannot be read.
+        """
+        import mujoco
+
+        spec = self.spec()
+        own = {body.name for body in _fixed_to(spec.body(name))}
+        kept, link = set(), _moving(spec.body(name))
+        for _ in range(count + 1):
+            kept |= {body.name for body in _fixed_to(link)}
+            if link.parent is None or link.parent.name == "world":
+                break
+            link = _moving(link.parent)
+        drawn = {g.parent.name for g in spec.geoms if not _collides(g)}
+        spare = [g for g in spec.geoms if g.parent.name in drawn and _collides(g)]
+        _delete(spec, [*(g for g in spec.geoms if g.parent.name not in kept - own and g not in spare), *spare])
+        for geom in spec.geoms:
+            geom.contype = geom.conaffinity = 0
+        self._give_meshes(spec, read_all=False)
+        for mesh in spec.meshes:
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+        return self._placed(spec)
 
     def _few_enough(self, model: Any, name: str) -> None:
         """Refuse shapes of too many triangles before they are made: a mesh may be used many times."""
@@ -320,6 +353,17 @@ def _fixed_to(body: Any) -> Iterator[Any]:
             yield from _fixed_to(child)
 
 
+def _moving(body: Any) -> Any:
+    """The body that moves and that a body is fixed to, or is."""
+    while not body.joints and body.parent is not None and body.parent.name != "world":
+        body = body.parent
+    return body
+
+
+def _collides(geom: Any) -> bool:
+    return bool(geom.contype or geom.conaffinity)
+
+
 def _delete(spec: Spec, elements: list[Any]) -> None:
     for element in elements:
         spec.delete(element)
@@ -336,7 +380,7 @@ def _weighed_by_shapes(spec: Spec, body: Any) -> bool:
     )
 
 
-def _surface(model: Any, geom: int, where: str) -> Array:
+def geom_surface(model: Any, geom: int, where: str) -> Array:
     """Triangles (n, 3, 3) of a shape in its own frame in m."""
     import mujoco
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 from plantar.shoes.foot.model_source import FARTHEST, BodyPlace, read_model_source
+from plantar.shoes.foot.swept_links import swept_points
 
 __all__ = ["MODEL_FORMATS", "BodyGeometry", "read_foot_body", "side_of_name"]
 
@@ -36,12 +37,14 @@ class BodyGeometry:
         side: Side that the body's name tells, None where it does not.
         mass: Mass of the robot in kg, None where it cannot be told.
         notes: What was read.
+        links: Points (n, 3) in m of the links above it while the ankle moves; None where they are not known.
     """
 
     triangles: Array
     side: Literal["left", "right"] | None
     mass: float | None
     notes: tuple[str, ...]
+    links: Array | None = None
 
 
 def side_of_name(name: str) -> Literal["left", "right"] | None:
@@ -90,7 +93,8 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
     triangles = _together(shapes, where)
     mass, note = source.mass(body)
     told = f"body '{body}': {len(shapes)} {'drawn' if drawn else 'colliding'} shape(s), in m as models are"
-    return BodyGeometry(triangles, side_of_name(body), mass, (told, note))
+    links, swept = swept_points(source, body, triangles)
+    return BodyGeometry(triangles, side_of_name(body), mass, (told, note, swept), links)
 
 
 def _names_shown(bodies: dict[str, BodyPlace], wanted: str) -> str:

@@ -90,7 +90,8 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
         found = read_foot_body(path, source.body)
         side = cast(Any, source.mesh_side or found.side or "left")
         where = f"{path}, body '{source.body}'"
-        foot = foot_from_triangles(path.stem, found.triangles, where=where, file_unit="m", mesh_side=side, **options)
+        options |= {"file_unit": "m", "mesh_side": side, "links": found.links}
+        foot = foot_from_triangles(path.stem, found.triangles, where=where, **options)
         return replace(foot, mass=found.mass, notes=(*found.notes, *foot.notes))
     if source.body is not None:
         raise InputError(f"--body is for a robot's model ({', '.join(MODEL_FORMATS)}); {path} is none")

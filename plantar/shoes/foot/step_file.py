@@ -1,4 +1,4 @@
-"""STEP files through OpenCascade: called in a process of its own, see `plantar.files.confined`.
+"""STEP and IGES files through OpenCascade: called in a process of its own, see `plantar.files.confined`.
 
 Of OpenCascade's Python modules only those are loaded that read a file: cadquery, which loads them all, takes twice the
 time and memory.
@@ -20,7 +20,7 @@ _CHORD, _ANGLE = 0.05, 0.2  # share of an edge, and rad: how far triangles may l
 
 
 def triangles_of_step(path: Path) -> dict[str, NDArray[Any]]:
-    """Triangles in mm of all shapes of a STEP file; its own unit is converted while it is read.
+    """Triangles in mm of all shapes of a STEP or IGES file; its own unit is converted while it is read.
 
     Args:
         path: The file.
@@ -35,9 +35,10 @@ def triangles_of_step(path: Path) -> dict[str, NDArray[Any]]:
     with optional_library("OCP", "shoes"):
         from OCP.BRepMesh import BRepMesh_IncrementalMesh
         from OCP.IFSelect import IFSelect_RetDone
+        from OCP.IGESControl import IGESControl_Reader
         from OCP.Interface import Interface_Static
         from OCP.STEPControl import STEPControl_Reader
-    reader = STEPControl_Reader()
+    reader = IGESControl_Reader() if path.suffix.lower() in (".iges", ".igs") else STEPControl_Reader()
     Interface_Static.SetCVal_s("xstep.cascade.unit", "MM")
     if reader.ReadFile(str(path)) != IFSelect_RetDone:
         raise ValueError("OpenCascade finds no shapes in it")

@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 
-__all__ = ["convex_outline", "corner_numbers", "covered_area", "is_closed"]
+__all__ = ["convex_outline", "corner_numbers", "covered_area", "is_closed", "surface_points"]
 
 _GRID = 1e-3  # mm
 _MOST_EDGES = 60_000  # left over: more come of triangles that do not join
 _MOST_CROSSED = 40_000_000  # edges times faces that they enclose
+_SQUARE = 1.0  # mm
+_MOST_TIMES = 40.0  # that triangles cover an area over each other
 _DIRECTIONS = 32  # in which points are sought that lie farthest out
 _FEW = 2000  # points whose hull is found at once
 
@@ -101,7 +103,7 @@ def covered_area(flat: Array) -> Any:
         A shapely polygon or multipolygon, possibly empty.
 
     Raises:
-        FootError: If most of them do not join: of so many no surface is made, and to unite them takes minutes.
+        FootError: If they do not join and cover the same area many times: a crowd is no surface.
     """
     import shapely
 
@@ -113,13 +115,40 @@ def covered_area(flat: Array) -> Any:
         return shapely.Polygon()
     edges, times = _left_over(flat)
     if len(edges) > _MOST_EDGES:
-        raise FootError("its triangles overlap without joining; give a surface")
+        return _united(flat)
     lines = shapely.linestrings(edges)
     faces = shapely.get_parts(shapely.polygonize([shapely.union_all(lines, grid_size=_GRID)]))
     if len(faces) * len(edges) > _MOST_CROSSED:
-        raise FootError("its triangles overlap without joining; give a surface")
+        return _united(flat)
     inside = _winding(shapely.get_coordinates(shapely.point_on_surface(faces)), edges, times) > 0
     return shapely.union_all(faces[inside])
+
+
+def _united(flat: Array) -> Any:
+    """What triangles (n, 3, 2) that do not join cover; holes of less than a millimetre count as covered.
+
+    Squares of a grid whose neighbours are all met are taken as covered, so that only the triangles at the border are
+    united one by one.
+    """
+    import shapely
+
+    parts = shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1))
+    if shapely.area(parts).sum() > _MOST_TIMES * convex_outline(flat.reshape(-1, 2)).area:
+        raise FootError("its triangles overlap without joining; give a surface")
+    low = flat.min(axis=(0, 1)) - 4.0 * _SQUARE
+    size = tuple(((flat.max(axis=(0, 1)) - low) / _SQUARE + 5.0).astype(int))
+    met = np.zeros(size, dtype=bool)
+    points = surface_points(np.concatenate([flat, np.zeros((*flat.shape[:2], 1))], axis=2), 0.5 * _SQUARE)[:, :2]
+    met[tuple(((points - low) / _SQUARE).astype(int).T)] = True
+    inner = met.copy()
+    for i in range(-2, 3):
+        for j in range(-2, 3):
+            inner &= np.roll(met, (i, j), axis=(0, 1))
+    corners = low + _SQUARE * np.argwhere(inner)
+    middle = shapely.union_all(shapely.box(*corners.T, *(corners + _SQUARE).T)) if len(corners) else shapely.Polygon()
+    shapely.prepare(middle)
+    parts = parts[~shapely.covers(middle, parts)]
+    return shapely.union_all([middle, *parts], grid_size=_GRID)
 
 
 def _left_over(flat: Array) -> tuple[Array, Numbers]:
@@ -151,3 +180,24 @@ def _winding(points: Array, edges: Array, times: Numbers) -> Numbers:
         up, down = (ay <= y) & (by > y) & (side > 0.0), (ay > y) & (by <= y) & (side < 0.0)
         out[i : i + step] = ((up.astype(np.int64) - down) * times).sum(axis=1)
     return out
+
+
+def surface_points(triangles: Array, spacing: float) -> Array:
+    """Points (n, 3) all over a surface, about so far apart, its corners among them.
+
+    Args:
+        triangles: Triangles (k, 3, 3).
+        spacing: In their unit.
+
+    Returns:
+        The points.
+    """
+    size = np.linalg.norm(np.stack([triangles[:, i] - triangles[:, i - 1] for i in range(3)]), axis=-1).max(axis=0)
+    steps = np.clip(np.ceil(size / spacing), 1, 120).astype(int)
+    out = [triangles.reshape(-1, 3)]
+    for count in np.unique(steps[steps > 1]):
+        i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1))
+        i, j = i[i + j <= count] / count, j[i + j <= count] / count
+        a, b, c = np.moveaxis(triangles[steps == count], 1, 0)
+        out.append((a[:, None] + i[:, None] * (b - a)[:, None] + j[:, None] * (c - a)[:, None]).reshape(-1, 3))
+    return np.concatenate(out)

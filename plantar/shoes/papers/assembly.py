@@ -13,7 +13,7 @@ from plantar.pages.page import Section, figure, page, row, table
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.checks.check import ShoeCheck
 from plantar.shoes.checks.weights import BOARD_UP
-from plantar.shoes.papers.bill import Part
+from plantar.shoes.papers.bill import WINDOW, Part
 from plantar.shoes.papers.picture import rendered_png
 from plantar.shoes.plan.wiring import channel_lines, length_of, wire_lines
 from plantar.shoes.solid.pad import mould_surface, pad_surface, prism_surface, taxel_surfaces
@@ -92,7 +92,7 @@ def _steps(
     yield "Try the fit with a coupon", _coupon(shoe, build, views)
     yield "Print", _print(shoe, build, checks, views)
     if build.parameters.pad_thickness > 0.0:
-        yield "Cast or print the pad", _pad(shoe, build, checks, views)
+        yield "Make the pad", _pad(shoe, build, checks, views)
     yield "Put the taxels into their pockets", _taxels(shoe, build, views)
     if shoe.plan.connectors:
         yield "Wire them", _wires(shoe, build, views)
@@ -127,7 +127,7 @@ def _coupon(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
 
 
 def _print(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views: _Views) -> str:
-    p, material = build.parameters, build.parameters.printed
+    p, made = build.parameters, build.parameters.made_by
     rows = []
     for side, check in checks.items():
         best = check.printing[0]
@@ -137,16 +137,19 @@ def _print(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views:
     head = ("File", "Direction", "Size on the bed", "Volume in cm³", "Mass in g", "Hours, about")
     best = checks[shoe.side].printing[0]
     supports = "A powder bed needs no supports."
-    if material.process != "powder bed":
+    if made.supports:
         supports = (
             "No supports are needed." if best.overhang <= 0.0 else
             f"{best.overhang:.0f} mm² lean over by more than 45 degrees: support them from the bed alone."
         )  # fmt: skip
-        supports += f" Ceilings of the pockets are bridges of up to {p.bridge_max:g}. Print solid, or with 5 outlines."
+        supports += f" Ceilings of the pockets are bridges of up to {p.bridge_max:g}, which may sag by {made.sag:g}."
+    gaps = f"press {made.press:g}, slide {made.slide:g}, play {made.play:g}"
     return _step(
         [
-            f"Material: {_words(p.material)}, {_words(material.process)}. Direction: {_words(best.direction)}. "
-            f"{_words(supports)}",
+            f"Material: {_words(p.material)}, {made.name}. Direction: {_words(best.direction)}. {_words(supports)} "
+            f"Then: {_words(made.finish)}.",
+            f"Gaps a side: {gaps}; seats within {made.scatter:g} (1 sigma); it may shrink by {made.shrinkage:g} % and "
+            f"spread by {made.foot:g} on the bed. A coupon of your printer replaces these (--set gap_slide=...).",
             f"Walls are {min(c.min_wall_mm for c in checks.values()):g} or thicker. The files are in mm; the 3MF says "
             "so itself, the STEP is for changes in CAD.",
         ],
@@ -158,6 +161,19 @@ def _print(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views:
 
 def _pad(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views: _Views) -> str:
     p, weight = build.parameters, checks[shoe.side].weights.pad
+    if p.pad_foam > 0.0:
+        return _step(
+            [
+                f"Cut a {_words(p.pad_material)}, {p.pad_thickness:g} thick, to the outline of "
+                f"<code>pad_{shoe.side}.stl</code>, and strips of it, {p.pad_rim_height:g} thick, for the rim. A "
+                f"two-part foam of that firmness may be cast in <code>mould_{shoe.side}.stl</code> instead.",
+                f"Cut holes of {WINDOW:g} at the taxels' centres where infrared sensors look out (layer WINDOWS of "
+                f"<code>cells_{shoe.side}.dxf</code>).",
+                "Rubber would be too hard: where the seats scatter, few taxels would touch the ground.",
+            ],
+            views.of_mould(),
+            "The pad above its mould",
+        )
     return _step(
         [
             f"Either print <code>mould_{shoe.side}.stl</code> in any material, wax it, and pour in "
@@ -172,7 +188,7 @@ def _pad(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views: _
 
 
 def _taxels(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
-    plan, p = shoe.plan, build.parameters
+    plan, p, made = shoe.plan, build.parameters, build.parameters.made_by
     count, patches = len(shoe.layout), len(plan.connectors)
     cut = int((build.fit.shares < 1.0 - 1e-6).sum())
     kinds = f", {cut} of them smaller than a whole one (cells_{shoe.side}.dxf has each outline)" if cut else ""
@@ -190,7 +206,8 @@ def _taxels(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
     return _step(
         [
             f"{count} taxels{groups} for each foot{kinds}. A head stands out by {p.taxel_protrusion:g}, a base goes "
-            f"{p.pocket_depth:g} deep.",
+            f"{p.pocket_depth:g} deep and is {made.sag + 2.0 * made.scatter:.2g} lower: heads rest on the ribs, and no "
+            "base on a ceiling, which sags.",
             f"Glue the bases in by their rims with the heads along the grooves.{begin}"
             + (
                 " Follow the order of the next step, so that each wire is laid before its pocket is shut."

@@ -11,9 +11,14 @@ from plantar.csv_table import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.checks.weights import BOARD_UP, Weights
 from plantar.shoes.plan.cell_room import tail_lines
+from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.units import to_mm
 
-__all__ = ["Part", "bill_of_parts", "bill_text"]
+__all__ = ["WINDOW", "Part", "bill_of_parts", "bill_text"]
+
+
+WINDOW = 5.0
+"""Diameter in mm of a hole in the pad through which a taxel's infrared sensor looks."""
 
 
 @dataclass(frozen=True)
@@ -62,16 +67,18 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     if p.pad_thickness > 0.0:
         parts.append(
             Part(
-                f"pad, {side}", 1, f"silicone, about {p.pad_hardness:g} Shore A",
+                f"pad, {side}", 1, p.pad_material,
                 f"{outline} x {p.pad_thickness + p.pad_rim_height:g} mm", weights.pad,
-                f"cast, or cut from sheet and rim, to pad_{side}.stl; glued to the taxels, replaced when worn",
+                f"cut or cast to pad_{side}.stl, {_window(plan)}; glued to the taxels, replaced when worn",
             )
         )  # fmt: skip
     cut = int((build.fit.shares < 1.0 - 1e-6).sum())
     patches = f"in {len(plan.connectors)} patch(es)" if plan.connectors else "wired by themselves"
     note = patches + (f"; {cut} of them trimmed at the rim" if cut else "")
     height = p.taxel_protrusion + p.pocket_depth
-    size = f"{build.fit.cell_area:g} mm2 x {height:g} mm"
+    made = p.made_by
+    base = f"base {made.slide:g} mm smaller a side than its pocket, {made.sag + 2.0 * made.scatter:.2g} mm lower"
+    size = f"{build.fit.cell_area:g} mm2 x {height:g} mm, {base}"
     cell = plan.cell
     if cell is None:
         parts.append(Part("taxel", len(shoe.layout), "skin", size, weights.skin, note))
@@ -91,6 +98,12 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
         parts.append(Part("cable", len(plan.connectors), "flat", length, None, "patch to heel, in the channel"))
     parts += _holding(build, high_y - low_y)
     return parts
+
+
+def _window(plan: ShoePlan) -> str:
+    """What a pad needs for sensors that look through it."""
+    proximity = "proximity" in plan.layout.modalities
+    return f"holes of {WINDOW:g} mm at the taxels' centres where infrared looks out" if proximity else "no holes"
 
 
 def _cable(shoe: Shoe) -> float:

@@ -77,6 +77,7 @@ class ShoeReport:
             "blind_rim_mm": round(first.plan.blind_rim, 2),
             "taxel_overhang_mm": round(fit.overhang, 3),
             "thickness_mm": round(build.parameters.thickness, 3),
+            "touching": None if build.touching is None else asdict(build.touching),
             "notes": list(build.notes or build.foot.notes),
         }
         if self.checks:
@@ -224,8 +225,7 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
         ),
     ]
     if p.pad_thickness > 0.0:
-        rubber = f"rubber of {p.pad_hardness:g} Shore A"
-        bodies.append(NamedBody("pad", rubber, "#333333", pad_surface(shoe.plan, p)))
+        bodies.append(NamedBody("pad", p.pad_material, "#333333", pad_surface(shoe.plan, p)))
     write_text(target / names[0], cells_dxf(shoe, build))
     write_assembly(bodies, f"{shoe.layout.name} {side}", target / names[1])
     return names

@@ -10,6 +10,7 @@ import numpy as np
 from plantar.csv_table import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.geometry.outline import ring
+from plantar.shoes.papers.bill import WINDOW
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.wiring import cable_outlines, channel_lines, hole_outline, length_of, wire_lines
 from plantar.shoes.units import to_mm
@@ -65,9 +66,9 @@ def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
         build: What it belongs to.
 
     Returns:
-        The text; layers CELLS (heads), POCKETS (room for the bases), OUTLINE (contact face), and KEEPOUT: ports,
-        channel and hole of the cable, places of clips, lugs or screws, where no board may be. Of a sheet ROWS and
-        COLUMNS, its electrodes.
+        The text; layers CELLS (heads), POCKETS (room for the bases), BASES, WINDOWS (holes of the pad), OUTLINE
+        (contact face), and KEEPOUT: ports, channel and hole of the cable, places of clips, lugs or screws, where no
+        board may be. Of a sheet ROWS and COLUMNS, its electrodes.
     """
     import shapely
 
@@ -82,6 +83,9 @@ def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
             keep_out.append(wall.intersection(shapely.box(place.x - half, 0.0, place.x + half, side * 1e3)))
     layers: dict[str, tuple[Any, ...]] = {"CELLS": plan.cells, "POCKETS": plan.pockets}
     layers |= {"OUTLINE": (plan.contact,), "KEEPOUT": tuple(keep_out)}
+    if plan.cell is None:
+        layers["BASES"] = tuple(q.buffer(-p.made_by.slide, join_style="mitre") for q in plan.pockets)
+        layers["WINDOWS"] = tuple(shapely.Point(c).buffer(0.5 * WINDOW) for c in to_mm(shoe.layout.positions[:, :2]))
     if plan.lines is not None:
         layers |= _electrodes(shoe)
     lines = ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"]

@@ -12,16 +12,13 @@ from numpy.typing import NDArray
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
 
-__all__ = ["LIP", "PLAY", "POST", "Heel", "find_heel", "holder_depth"]
+__all__ = ["LIP", "POST", "Heel", "find_heel", "holder_depth"]
 
 LIP = 1.5
 """Rail behind the board."""
 
 POST = 2.5
 """Rail beside the board."""
-
-PLAY = 0.3
-"""Gap between board and rail."""
 
 _TURNS = (0, 10, -10, 20, -20, 30, -30, 40, -40, 50, -50, 60, -60)  # degrees from straight back
 _TURN_COST = 0.03  # mm of reach that a degree of turning is worth
@@ -71,7 +68,8 @@ class Heel:
 
 def holder_depth(parameters: ShoeParameters) -> float:
     """How far the board's holder reaches behind the wall, in mm."""
-    return parameters.board_gap + parameters.board_thickness + PLAY + LIP
+    p = parameters
+    return p.board_gap + p.board_thickness + 2.0 * p.made_by.slide + LIP
 
 
 def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, str | None]:
@@ -87,7 +85,7 @@ def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, st
     """
     import shapely
 
-    half = 0.5 * parameters.board_length + POST + 0.5 * PLAY
+    half = 0.5 * parameters.board_length + POST + parameters.made_by.slide
     depth = holder_depth(parameters)
     points = ring(rim)
     best: tuple[float, float, Heel] | None = None
@@ -111,6 +109,11 @@ def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, st
     _, reach, heel = best
     if parameters.board_length <= 0.0:
         return replace(heel, board=False), None
+    across = shapely.affinity.rotate(rim, -heel.turn, origin=(heel.x, heel.y), use_radians=True).bounds
+    wide = 2.0 * min(heel.y - across[1], across[3] - heel.y) - 2.0 * _REAR
+    if wide < 2.0 * half:
+        note = f"no holder for the connection board: it is {2.0 * half:.0f} mm wide, this heel has room for {wide:.0f}"
+        return replace(heel, board=False), f"{note} (a shorter board_length may fit)"
     if reach > parameters.reach_max:
         note = (
             f"no holder for the connection board: behind this heel it would reach {reach:.1f} mm beyond the foot "

@@ -25,6 +25,7 @@ __all__ = [
     "INSOLE_THICKNESS",
     "even_share",
     "fit_insole",
+    "insole_foot",
     "insole_parameters",
     "person_mass",
     "plan_insole",
@@ -37,6 +38,7 @@ EVEN_SHARE = 0.80
 """Least share of an even pressure that an insole's cells carry."""
 
 _SHARES = {"pad_thickness": 1 / 6, "taxel_protrusion": 1 / 6, "pocket_depth": 1 / 4}  # the rest is the floor
+_UP_TO, _ROUND = 15.0, 8.0  # mm of the foot's height, and half the width of a gap that is filled or a spur that is not
 _STATURE, _BODY_MASS_INDEX = 6.6, 24.0  # body height over foot length; kg/m^2
 
 
@@ -48,6 +50,23 @@ def person_mass(length: float) -> float:
         70.7
     """
     return round(_BODY_MASS_INDEX * (1e-3 * _STATURE * length) ** 2, 1)
+
+
+def insole_foot(foot: Foot) -> Foot:
+    """A foot whose sole is what an insole is cut to: the outline of its lowest 15 mm, arch and gaps of toes filled.
+
+    The lowest 5 mm of a scan are its footprint: without the arch, the toes apart.
+
+    Args:
+        foot: The left foot; one without a surface stays.
+    """
+    if foot.triangles is None:
+        return foot
+    outline = foot.passing(min(_UP_TO, foot.height))
+    smooth = outline.buffer(_ROUND).buffer(-2.0 * _ROUND).buffer(_ROUND)
+    if smooth.geom_type != "Polygon" or smooth.is_empty:
+        return foot
+    return replace(foot, sole=tidy(smooth.simplify(0.1)))
 
 
 def insole_parameters(

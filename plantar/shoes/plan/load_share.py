@@ -10,8 +10,14 @@ with the shape factor S = loaded area / (perimeter x thickness), and with E from
 
     E = 0.0981 (56 + 7.62336 H) / (0.137505 (254 - 2.54 H))  in MPa              (Gent 1958)
 
-k falls with the hardness (Lindley, "Engineering design with natural rubber", table 3). Springs do not pull. The print
-sinks and tilts until forces and moments meet the load's; what is in the springs of the taxels is their share.
+k falls with the hardness (Lindley, "Engineering design with natural rubber", table 3). A pad of foam has no shape
+factor; its cells hold gas, so that it carries a pressure s at a compression per thickness of e with
+
+    s = E e / (1 - e)     and the secant modulus     s / e = E + s
+
+which fits the four figures of a polyethylene foam's data sheet (Plastazote LD33: 40, 75, 115, 175 kPa at 25, 40, 50,
+60 %) with E = 116 kPa to 4 %; E is three times the pressure at 25 %, by which foams are sold. Springs do not pull. The
+print sinks and tilts until forces and moments meet the load's; what is in the springs of the taxels is their share.
 
 Gent: "On the relation between indentation hardness and Young's modulus", Trans. IRI 34, 1958. Gent, Lindley: "The
 compression of bonded rubber blocks", Proc. IMechE 173, 1959.
@@ -31,7 +37,15 @@ from plantar.shoes.plan.pad_outline import pad_rim
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.strength import LoadCase
 
-__all__ = ["LoadShare", "apparent_modulus", "check_load_share", "relieved", "shore_modulus"]
+__all__ = [
+    "LoadShare",
+    "apparent_modulus",
+    "check_load_share",
+    "pad_modulus",
+    "relieved",
+    "shore_modulus",
+    "taxel_stiffness",
+]
 
 _POINTS = 3000  # springs of a sole
 _HARD = 1e3  # N/mm^3: print on the ground, without a pad
@@ -90,23 +104,51 @@ def apparent_modulus(hardness: float, area: float, perimeter: float, thickness: 
     return shore_modulus(hardness) * (1.0 + 2.0 * factor * shape**2)
 
 
-def _taxel_stiffness(plan: ShoePlan, p: ShoeParameters) -> float:
-    """Pressure over compression of taxel and pad in series, of a median cell, in N/mm^3; of films and sheets the body,
-    the pad's land below it and the pad's sheet."""
-    blocks = plan.lands or plan.cells
+def pad_modulus(parameters: ShoeParameters, area: float, perimeter: float, thickness: float, pressure: float) -> float:
+    """Pressure in MPa over compression per thickness of a layer of the pad.
+
+    Args:
+        parameters: Hardness of the rubber, or pressure at 25 % of the foam.
+        area: Loaded area in mm^2.
+        perimeter: Its border in mm.
+        thickness: Of the layer in mm, above 0.
+        pressure: On it in MPa; of foam the modulus grows with it.
+
+    Returns:
+        The modulus in MPa.
+    """
+    if parameters.pad_foam > 0.0:
+        return 3e-3 * parameters.pad_foam + pressure
+    return apparent_modulus(parameters.pad_hardness, area, perimeter, thickness)
+
+
+def taxel_stiffness(plan: ShoePlan, parameters: ShoeParameters, pressure: float) -> float:
+    """Pressure over compression of taxel and pad in series, of a median cell; of films and sheets the body, the pad's
+    land below it and the pad's sheet.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+        pressure: On the cells in MPa.
+
+    Returns:
+        The stiffness in N/mm^3.
+    """
+    p, blocks = parameters, plan.lands or plan.cells
     area = float(np.median([c.area for c in blocks]))
     perimeter = float(np.median([c.length for c in blocks]))
     height, hardness = p.taxel_protrusion + p.pocket_depth, p.taxel_hardness
     soft = 0.0
     if plan.cell is not None:
         height -= plan.cell.thickness
-        hardness = p.pad_hardness if plan.lands and p.pad_thickness > 0.0 else hardness
         if plan.cell.stiffness:
             soft = float(np.median([c.area for c in plan.cells])) / plan.cell.stiffness
     if height > 0.0:
-        soft += height / apparent_modulus(hardness, area, perimeter, height)
+        own = plan.lands and p.pad_thickness > 0.0
+        of_head = pad_modulus(p, area, perimeter, height, pressure) if own else 0.0
+        soft += height / (of_head or apparent_modulus(hardness, area, perimeter, height))
     if p.pad_thickness > 0.0:
-        soft += p.pad_thickness / apparent_modulus(p.pad_hardness, area, perimeter, p.pad_thickness)
+        soft += p.pad_thickness / pad_modulus(p, area, perimeter, p.pad_thickness, pressure)
     return 1.0 / soft
 
 
@@ -125,7 +167,8 @@ def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tupl
     if p.strengthen == "no":
         return p, ()
     cells = sum(c.area for c in plan.cells)
-    needed = _RESERVE * load.force / (p.load_share * cells) / _taxel_stiffness(plan, p)
+    pressure = load.force / (p.load_share * cells)
+    needed = _RESERVE * pressure / taxel_stiffness(plan, p, pressure)
     relief = max(p.pad_relief, math.ceil(needed / _STEP - 1e-6) * _STEP)
     # Where the taxels stand on one side of a foothold the print tilts towards its other.
     while relief < p.taxel_protrusion and check_load_share(plan, load, replace(p, pad_relief=relief)).half < _HALF:
@@ -148,7 +191,7 @@ def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters)
     Returns:
         The shares.
     """
-    springs = _Springs.of(plan, parameters)
+    springs = _Springs.of(plan, parameters, load.force / sum(c.area for c in plan.cells))
     x, y = springs.points.T
     low_x, low_y, high_x, high_y = plan.contact.bounds
     middle_x, middle_y = 0.5 * (low_x + high_x), 0.5 * (low_y + high_y)
@@ -171,7 +214,7 @@ class _Springs:
     stiffness: Array
 
     @classmethod
-    def of(cls, plan: ShoePlan, p: ShoeParameters) -> _Springs:
+    def of(cls, plan: ShoePlan, p: ShoeParameters, pressure: float) -> _Springs:
         import shapely
 
         step = math.sqrt(plan.contact.area / _POINTS)
@@ -184,10 +227,12 @@ class _Springs:
         beside = _HARD
         if p.pad_thickness > 0.0:
             across = plan.contact.area, plan.contact.length
-            beside = apparent_modulus(p.pad_hardness, *across, p.pad_thickness) / p.pad_thickness
+            beside = pad_modulus(p, *across, p.pad_thickness, pressure) / p.pad_thickness
         thick = p.pad_thickness + p.pad_rim_height
-        rim_stiffness = 0.0 if rim.is_empty else apparent_modulus(p.pad_hardness, rim.area, rim.length, thick) / thick
-        stiffness = np.where(taxel, _taxel_stiffness(plan, p), np.where(raised, rim_stiffness, beside)) * step**2
+        rim_stiffness = 0.0 if rim.is_empty else pad_modulus(p, rim.area, rim.length, thick, pressure) / thick
+        stiffness = (
+            np.where(taxel, taxel_stiffness(plan, p, pressure), np.where(raised, rim_stiffness, beside)) * step**2
+        )
         return cls(points[inside], taxel[inside], gap[inside], stiffness[inside])
 
     def share(self, held: NDArray[np.bool_], force: float) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step
-from plantar.shoes.plan.heel import LIP, PLAY, POST, holder_depth
+from plantar.shoes.plan.heel import LIP, POST, holder_depth
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.units import to_mm
 
@@ -191,26 +191,26 @@ def wiring_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[list[Block
     if not heel.board:
         return [], []
     half = 0.5 * p.board_length
-    back, outer = -holder_depth(p), half + POST + 0.5 * PLAY
-    slot_low = back + LIP
+    play = p.made_by.slide
+    back, outer = -holder_depth(p), half + POST + play
     low_x, _, high_x, _ = plan.rim.bounds
-    inner = 0.2 * (high_x - low_x)  # well inside: what reaches into the foot's place is cut away
+    length = high_x - low_x
+    inner = 0.2 * length  # well inside: what reaches into the foot's place is cut away
+    inside = plan.contact.buffer(-_WITHIN)  # no edge along another, which the kernel might miss by a hair
 
-    def block(x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]) -> Block:
-        # Behind the wall as it is; inside only what meets the plate.
-        shape = heel.placed(shapely.box(x[0], y[0], x[1], y[1]))
-        if x[1] > 0.0:
-            inside = plan.contact.buffer(-_WITHIN)  # no edge along another, which the kernel might miss by a hair
-            shape = shape.intersection(heel.placed(shapely.box(x[0], y[0], 2.0 * _WITHIN, y[1])).union(inside))
+    def block(y: tuple[float, float], z: tuple[float, float]) -> Block:
+        # Behind the plate as it is, up to where the plate is as wide; farther in only what meets the plate.
+        full = _WITHIN
+        for v in y:
+            start, end = heel.point(back, v), heel.point(0.5 * length, v)
+            full = max(full, back + _WITHIN + shapely.Point(start).distance(shapely.LineString([start, end]) & inside))
+        behind, on = (heel.placed(shapely.box(back, y[0], x, y[1])) for x in (full, max(inner, full)))
+        shape = on & (behind | inside)
         # Not on the grid: edges of blocks that lie along each other would leave a hair between them.
         return Block(max(getattr(shape, "geoms", [shape]), key=lambda g: g.area), *z)
 
-    shelf = block((back, inner), (-outer, outer), (p.bottom, p.thickness))
-    posts = [
-        block((back, inner), ends, (p.thickness - 1.0, p.rim_top))
-        for ends in ((half - POST, outer), (-outer, POST - half))
-    ]
-    play = 0.5 * PLAY
-    slot = block((slot_low, -p.board_gap), (-half - play, half + play), (p.thickness, p.rim_top + 1.0))
-    hole = Block(hole_outline(plan, p), p.bottom - 1.0, p.thickness + 1.0)
-    return [shelf, *posts], [Step("cut", "slot of the connection board and hole of the cable", (slot, hole))]
+    shelf = block((-outer, outer), (p.bottom, p.thickness))
+    posts = [block(y, (p.thickness - 1.0, p.rim_top)) for y in ((half - POST, outer), (-outer, POST - half))]
+    slot = heel.placed(shapely.box(back + LIP, -half - play, -p.board_gap, half + play))
+    cuts = (Block(slot, p.thickness, p.rim_top + 1.0), Block(hole_outline(plan, p), p.bottom - 1.0, p.thickness + 1.0))
+    return [shelf, *posts], [Step("cut", "slot of the connection board and hole of the cable", cuts)]

@@ -11,13 +11,15 @@ import numpy as np
 from plantar.errors import FootError
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.outline import grown, tidy
+from plantar.shoes.geometry.surface import surface_points
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step, box_block
+from plantar.shoes.plan.keep_out import KeepOut, keep_out
 from plantar.shoes.plan.pull_off import SNAP_MOST, PullOff, pull_off
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.strength import load_case
 
-__all__ = ["Retention", "choose_retention", "retention_steps"]
+__all__ = ["Retention", "choose_retention", "retention_steps", "strap_meets"]
 
 _LUG_END = 5.0  # mm of lug before and behind a slot
 _BAR = 4.0  # mm of lug above a slot
@@ -26,6 +28,8 @@ _ARM_GAP = 1.2  # mm between a clip's arm and the wall beside it
 _LEAST_ARM = 8.0  # mm: a shorter arm is too stiff
 _ROOT = 6.0  # mm of an arm's root within the plate
 _HEAVY = 1.4e-6  # kg/mm^3: worn mass over contact face and thickness, wall and skin counted
+_SAMPLES = 1.5  # mm between points on the foot
+_ROUND = 8.0  # mm that a wall may bend away along a lug
 _PLAY = 0.2  # mm between a clip's hook and the foot's edge
 
 
@@ -101,15 +105,17 @@ def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> 
         FootError: If clips are asked for and the foot has no edge for them.
     """
     p = parameters
-    low, _, high, _ = plan.foot.bounds
-    length, middle = high - low, 0.5 * (low + high)
+    length = plan.foot.bounds[2] - plan.foot.bounds[0]
     if p.retention == "none":
         return Retention("none", (), 0.0, 0.0, "nothing holds the shoe but the fit, as asked for")
     if p.retention == "screws":
-        places = tuple(
-            _straightest(plan, middle, length, share, side, p) for share in (-0.25, 0.25) for side in (1, -1)
+        return Retention(
+            "screws",
+            _screw_places(plan, p),
+            p.screw_diameter,
+            0.0,
+            "four clamping screws through the wall, as asked for",
         )
-        return Retention("screws", places, p.screw_diameter, 0.0, "four clamping screws through the wall, as asked for")
     reason = "as asked for"
     if p.retention in ("auto", "clips"):
         clips, reason = _clips(foot, plan, p)
@@ -118,10 +124,69 @@ def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> 
         if p.retention == "clips":
             raise FootError(f"no clips: {reason}; use straps")
     width = round(min(p.strap_width, length / 6.0), 1)
-    shares = (-0.2, 0.24) if length >= 6.0 * p.strap_width + 4.0 * _LUG_END else (0.0,)
-    places = tuple(_Place(round(middle + s * length, 3), side) for s in shares for side in (1, -1))
-    text = "a strap" if len(shares) == 1 else "two straps"
+    places = _strap_places(foot, plan, width, p)
+    if not places:
+        reason = f"{reason}; the robot's other links leave no room for a strap"
+        if p.retention == "straps":
+            raise FootError(f"no straps: {reason}; use screws")
+        return Retention("screws", _screw_places(plan, p), p.screw_diameter, 0.0, f"four clamping screws: {reason}")
+    text = "a strap" if len(places) == 2 else "two straps"
     return Retention("straps", places, width, 0.0, f"lugs for {text} of {width:g} mm: {reason}")
+
+
+def _screw_places(plan: ShoePlan, p: ShoeParameters) -> tuple[_Place, ...]:
+    """Two pairs, each where the wall runs most nearly along the foot."""
+    low, _, high, _ = plan.foot.bounds
+    return tuple(
+        _straightest(plan, 0.5 * (low + high), high - low, share, side, p)
+        for share in (-0.25, 0.25)
+        for side in (1, -1)
+    )
+
+
+def _strap_places(foot: Foot, plan: ShoePlan, width: float, p: ShoeParameters) -> tuple[_Place, ...]:
+    """Lugs of two straps, or one on a short foot, where neither they nor the straps are in the way of other links: at
+    the usual places, or else as far apart as the links leave room."""
+    low, _, high, _ = plan.foot.bounds
+    length, middle = high - low, 0.5 * (low + high)
+    two = length >= 6.0 * p.strap_width + 4.0 * _LUG_END
+    usual = [round(middle + share * length, 3) for share in ((-0.2, 0.24) if two else (0.0,))]
+    others = keep_out(foot)
+    free = [x for x in usual if strap_meets(others, plan.foot, x, width, p) == 0]
+    if len(free) < len(usual):
+        half, y = 0.5 * width + _LUG_END, plan.foot.centroid.y
+        tries = [round(x, 3) for x in np.arange(low + half, high - half, 2.0).tolist()]
+        tries = [x for x in tries if max(_wall_line(plan.foot, x, s, half, y)[1] for s in (1, -1)) < _ROUND]
+        free = [x for x in tries if strap_meets(others, plan.foot, x, width, p) == 0]
+        near = [min(free, key=lambda x: abs(x - wanted)) for wanted in usual if free]
+        apart = width + 2.0 * _LUG_END + _SLOT_PLAY
+        near = near if len(near) < 2 or near[1] - near[0] >= apart else [min(free), max(free)]
+        free = near if len(near) < 2 or near[1] - near[0] >= apart else near[1:]
+    return tuple(_Place(x, side) for x in free for side in (1, -1))
+
+
+def strap_meets(others: KeepOut, outline: Any, x: float, width: float, parameters: ShoeParameters) -> int:
+    """How many points of the robot's other links a strap and its lugs would be in the way of.
+
+    Args:
+        others: Where these pass.
+        outline: Of the left foot below the wall's upper edge, a shapely polygon.
+        x: Middle of the strap along the foot in mm.
+        width: Of the strap in mm.
+        parameters: Dimensions.
+
+    Returns:
+        The number.
+    """
+    p, y = parameters, outline.centroid.y
+    half, top = 0.5 * (width + _SLOT_PLAY) + _LUG_END, p.rim_height + p.strap_thickness + _SLOT_PLAY + _BAR + 1.0
+    count, ends = 0, []
+    for side in (-1, 1):
+        edge = _wall_line(outline, x, side, half, y)[0]
+        out = edge + side * (p.clearance + p.strap_thickness + p.rim_thickness)
+        count += others.meets((x - half, min(edge, out), 0.0), (x + half, max(edge, out), top))
+        ends.append(out)
+    return count + others.strap_meets(x, width, (ends[0], ends[1]), p.rim_height + 1.0, p.strap_thickness)
 
 
 def _straightest(plan: ShoePlan, middle: float, length: float, share: float, side: int, p: ShoeParameters) -> _Place:
@@ -137,7 +202,7 @@ def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | N
         return None, "the foot's upper side is not known"
     low, _, high, _ = plan.foot.bounds
     length, middle = high - low, 0.5 * (low + high)
-    samples = _surface_points(foot.triangles)
+    samples, others = surface_points(foot.triangles, _SAMPLES), keep_out(foot)
     outline = foot.passing(min(foot.height, p.clip_height_max))
     places, strain = [], 0.0
     for share in (-0.27, 0.27):
@@ -149,6 +214,11 @@ def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | N
             if edge > p.clip_height_max:
                 return None, f"the foot's upper edge lies {edge:.0f} mm high, above clip_height_max"
             arm = edge + 0.5 * _hook_height(p)
+            y = _wall_line(outline, x, side, 0.5 * p.clip_width, plan.foot.centroid.y)[0]
+            inner, outer = sorted((y - side * p.clip_hook, y + side * (p.clearance + p.clip_thickness)))
+            box = ((x - 0.5 * p.clip_width, inner, 0.0), (x + 0.5 * p.clip_width, outer, edge + _hook_height(p)))
+            if others.meets(*box):
+                return None, "another link of the robot passes where a clip would hold"
             if edge < _LEAST_ARM:
                 return None, f"the foot's upper edge lies {edge:.0f} mm high, too low for an arm that bends"
             strain = max(strain, 1.5 * p.clip_thickness * p.clip_hook / arm**2)
@@ -167,19 +237,6 @@ def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | N
     if held.snap > SNAP_MOST:
         return None, f"a clip would take {held.snap:.0f} N to snap on, a person pushes with {SNAP_MOST:g} N"
     return clips, ""
-
-
-def _surface_points(triangles: Any) -> Any:
-    """Points (n, 3) all over a surface, about 1.5 mm apart."""
-    size = np.linalg.norm(np.stack([triangles[:, i] - triangles[:, i - 1] for i in range(3)]), axis=-1).max(axis=0)
-    steps = np.clip(np.ceil(size / 1.5), 1, 120).astype(int)
-    out = [triangles.reshape(-1, 3)]
-    for count in np.unique(steps):
-        i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1))
-        i, j = i[i + j <= count] / count, j[i + j <= count] / count
-        a, b, c = np.moveaxis(triangles[steps == count], 1, 0)
-        out.append((a[:, None] + i[:, None] * (b - a)[:, None] + j[:, None] * (c - a)[:, None]).reshape(-1, 3))
-    return np.concatenate(out)
 
 
 def _window(x: float, side: int, half: float, y: float) -> Any:

@@ -13,7 +13,9 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
-from plantar.shoes.foot.foot_mesh import foot_from_mesh
+from plantar.shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
+
+from ..foot_family import rounded
 
 Shape = Callable[..., NDArray[np.float64]]
 Writer = Callable[..., Path]
@@ -81,10 +83,8 @@ def test_bodies_that_are_no_foot_are_refused(box: Shape, stl: Writer) -> None:
         foot_from_mesh(stl(trimesh.creation.icosphere(radius=60.0).triangles))
     with pytest.raises(FootError, match="is a block, not a foot"):
         foot_from_mesh(stl(box((0, 100), (0, 100), (0, 100))))
-    with pytest.raises(FootError, match=r"0\.5 mm high"):
-        foot_from_mesh(stl(box((0, 200), (0, 100), (0, 0.5))))
-    with pytest.raises(FootError, match=r"4 mm high .* allowed: a foot's body of 5 mm or more"):
-        foot_from_mesh(stl(box((0, 200), (0, 100), (0, 4.0))))
+    with pytest.raises(FootError, match=r"0\.4 mm high .* allowed: a foot's body of 0\.5 mm or more"):
+        foot_from_mesh(stl(box((0, 200), (0, 100), (0, 0.4))))
     for scale in (1.0, 1e-3):
         with pytest.raises(FootError, match="fits neither m nor mm; allowed: a foot of 60 to 450 mm"):
             foot_from_mesh(stl(box((0, 5000), (0, 2000), (0, 900)) * scale))
@@ -98,6 +98,21 @@ def test_bodies_that_are_no_foot_are_refused(box: Shape, stl: Writer) -> None:
         foot_from_mesh(stl(box((0, 200), (0, 80), (0, 60))), sole_z=-500.0)
     with pytest.raises(InputError, match="allowed: x, -x, y, -y"):
         foot_from_mesh(stl(box((0, 200), (0, 80), (0, 60))), forward="z")  # type: ignore[arg-type]
+
+
+def test_a_plate_is_a_foot_whichever_way_it_lies(box: Shape, stl: Writer) -> None:
+    plate = box((-60, 140), (-50, 50), (0, 2.0))
+    for order in ((0, 1, 2), (0, 2, 1)):
+        foot = foot_from_mesh(stl(plate[..., order]))
+        assert (round(foot.sole.area), foot.height) == (20_000, 2.0)
+        assert any("a plate of 2 mm" in note for note in foot.notes)
+
+
+def test_a_surface_whose_triangles_do_not_join_has_the_outline_of_one_that_does() -> None:
+    foot = rounded(160, 20)
+    apart = foot + np.random.default_rng(0).normal(0.0, 0.005, (len(foot), 1, 3))
+    soles = [foot_from_triangles("a", t, where="a").sole for t in (foot, apart)]
+    assert soles[0].symmetric_difference(soles[1]).area < 0.002 * soles[0].area
 
 
 def test_a_square_flat_foot_is_a_foot(box: Shape, stl: Writer) -> None:

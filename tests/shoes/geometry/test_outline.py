@@ -104,10 +104,8 @@ def test_a_fine_mesh_keeps_its_waist() -> None:
 def test_a_crowd_of_triangles_is_no_surface() -> None:
     random = np.random.default_rng(0)
     middle = random.uniform(-1.0, 1.0, (30_000, 1, 3)) * [100.0, 50.0, 1.0]
-    for size in (1.0, 30.0):
-        crowd = middle + random.uniform(-size, size, (30_000, 3, 3))
-        with pytest.raises(FootError, match="give a surface"):
-            touching(crowd, 1e3)
+    with pytest.raises(FootError, match="give a surface"):
+        touching(middle + random.uniform(-30.0, 30.0, (30_000, 3, 3)), 1e3)
 
 
 def test_a_fine_surface_is_joined_as_a_coarse_one() -> None:

@@ -106,7 +106,7 @@ def test_the_boards_outlines_are_closed_in_mm_and_free_of_the_ways(
         shape = shapely.Polygon([v.dxf.location.vec2 for v in line.vertices])
         assert shape.is_valid
         shapes.setdefault(line.dxf.layer, []).append(shape)
-    assert set(shapes) == {"CELLS", "POCKETS", "OUTLINE", "KEEPOUT"}
+    assert set(shapes) == {"CELLS", "POCKETS", "OUTLINE", "KEEPOUT", "BASES", "WINDOWS"}
     face = shapes["OUTLINE"][0].buffer(1e-3)
     assert all(face.covers(cell) for cell in shapes["CELLS"])
     assert all(any(cell.covers(pocket) for cell in shapes["CELLS"]) for pocket in shapes["POCKETS"])

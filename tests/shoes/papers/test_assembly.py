@@ -58,7 +58,7 @@ def test_counts_and_lengths_are_those_of_the_files(exported: tuple[ShoeReport, P
         f"{min(wires):.0f} to {max(wires):.0f} long",
         f"{lead:.0f} long",
         "Draw 1 strap(s)",
-        "Material: PA12, powder bed",
+        "Material: PA12, MJF",
         "tare",
     ):
         assert words in text, words

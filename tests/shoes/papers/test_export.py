@@ -64,7 +64,7 @@ def test_the_layout_tells_a_simulator_of_the_shoe(exported: tuple[ShoeReport, Pa
         weights = report.weights[side]
         assert told["mass"] == pytest.approx(weights.total / 1000, abs=1e-6)
         assert told["mass_printed"] == pytest.approx(report.checks[side].mass_g / 1000, abs=1e-5)
-        assert weights.pad == pytest.approx(pad.volume / 1000 * 1.15, rel=1e-3)
+        assert weights.pad == pytest.approx(pad.volume / 1000 * 0.32, rel=1e-3)
         assert told["connectors"] == [int(layout.ids[i]) for i in report.build.shoes[0].plan.connectors]
         assert len(told["cable_route"]) == len(layout) - len(told["connectors"])
 

@@ -19,7 +19,7 @@ def test_a_straight_heel_has_it_straight_behind() -> None:
     heel, note = find_heel(foot.buffer(3.5, join_style="mitre"), foot, P)
     assert heel == Heel(-83.5, 5.0, 0.0, True)
     assert note is None
-    assert holder_depth(P) == pytest.approx(2.2 + 1.6 + 0.3 + 1.5)
+    assert holder_depth(P) == pytest.approx(2.2 + 1.6 + 2.0 * 0.3 + 1.5)
 
 
 def test_a_slanted_heel_turns_it() -> None:

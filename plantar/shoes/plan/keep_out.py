@@ -1,0 +1,126 @@
+"""Where the robot's other links pass, and whether a strap, a lug or a clip would be in their way. Lengths in mm.
+
+Of a robot's model the links above the foot are swept over the ankle's range. Of a foot alone the shank is not known: it
+is taken to stand on the block on top of the foot, or on the ankle at the origin, and to lean by 20 degrees every way.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.shoes.foot.foot import Foot
+from plantar.shoes.geometry.surface import convex_outline, surface_points
+
+__all__ = ["KeepOut", "keep_out"]
+
+_SPACING = 2.0  # mm between points on the foot
+_ROOM = 2.0  # mm between a link and what is printed or strapped
+_SHANK = 0.1  # of the foot's length: radius of a shank that is not known
+_BLOCK, _UPPER = (
+    0.6,
+    0.1,
+)  # of the foot's length, and of its height: a shorter uppermost part is what the shank stands on
+_LEANS, _TALL = math.tan(math.radians(20.0)), 60.0  # of a shank that is not known
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class KeepOut:
+    """Points that other links of the robot pass through, and the foot below them.
+
+    Attributes:
+        links: Points (n, 3) in mm above the sole plane.
+        surface: Points (k, 3) of the foot; None where only its outline is known.
+        known: Whether the links are those of the robot's model.
+    """
+
+    links: Array
+    surface: Array | None
+    known: bool
+
+    @property
+    def note(self) -> str:
+        """Where the links are from."""
+        return "" if self.known else "the shank is taken to stand on the ankle: no robot's model says where it passes"
+
+    def meets(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> int:
+        """How many points lie in a box with a room of 2 mm around it."""
+        a, b = np.array(low) - _ROOM, np.array(high) + _ROOM
+        return int(((self.links > a) & (self.links < b)).all(axis=1).sum())
+
+    def strap_meets(self, x: float, width: float, lugs: tuple[float, float], slot: float, thickness: float) -> int:
+        """How many points lie below or in a strap that is drawn over the foot.
+
+        Args:
+            x: Middle of the strap along the foot.
+            width: Its width.
+            lugs: y of the slots, right and left.
+            slot: Their height above the sole plane.
+            thickness: Of the strap.
+
+        Returns:
+            The number; the strap lies on the upper hull of slots and foot.
+        """
+        half = 0.5 * width
+        inside = (
+            (np.abs(self.links[:, 0] - x) < half + _ROOM) & (self.links[:, 1] > lugs[0]) & (self.links[:, 1] < lugs[1])
+        )
+        near = self.links[inside]
+        if self.surface is None or not len(near):
+            return len(near)
+        below = self.surface[np.abs(self.surface[:, 0] - x) < half]
+        ends = np.array([[lugs[0], slot], [lugs[1], slot]])
+        path = _upper_hull(np.concatenate([below[:, 1:], ends]))
+        return int((near[:, 2] < np.interp(near[:, 1], *path.T) + thickness + _ROOM).sum())
+
+
+def _upper_hull(points: Array) -> Array:
+    """The upper side of the convex hull of points (n, 2), from left to right."""
+    hull: list[Any] = []
+    for point in points[np.lexsort((points[:, 1], points[:, 0]))]:
+        while len(hull) > 1 and _turns_left(hull[-2], hull[-1], point):
+            hull.pop()
+        hull.append(point)
+    return np.array(hull)
+
+
+def _turns_left(a: Array, b: Array, c: Array) -> bool:
+    return bool((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) >= 0.0)
+
+
+def keep_out(foot: Foot) -> KeepOut:
+    """Where other links pass around a foot.
+
+    Args:
+        foot: The left foot.
+
+    Returns:
+        The points.
+    """
+    surface = None if foot.triangles is None else surface_points(foot.triangles, _SPACING)
+    if foot.links is not None:
+        return KeepOut(foot.links, surface, True)
+    import shapely
+
+    low, _, high, _ = foot.sole.bounds
+    length, top = high - low, min(foot.height, 60.0)
+    shank = shapely.Point(0.0, 0.0).buffer(_SHANK * length)
+    if surface is not None:
+        upper = surface[surface[:, 2] > (1.0 - _UPPER) * foot.height, :2]
+        block = convex_outline(upper)
+        if np.ptp(upper[:, 0]) < _BLOCK * length and block.geom_type == "Polygon":
+            shank = block
+    grid = []
+    for height in np.arange(0.0, _TALL, 4.0).tolist():
+        outline = shank.buffer(height * _LEANS)
+        x, y = (np.arange(outline.bounds[i], outline.bounds[i + 2] + 4.0, 4.0) for i in (0, 1))
+        xy = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        kept = xy[shapely.contains_xy(outline, xy[:, 0], xy[:, 1])]
+        grid.append(np.column_stack([kept, np.full(len(kept), top + height)]))
+    return KeepOut(np.concatenate(grid), surface, False)

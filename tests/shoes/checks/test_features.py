@@ -1,0 +1,66 @@
+"""The feature reader: finds what a good shoe has, and misses what is cut away from one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+from plantar.shoes import ShoeReport, build_shoe
+from plantar.shoes.checks.features import printed_features
+from plantar.shoes.foot.foot import foot_from_outline
+from plantar.shoes.plan.block import Block, Step
+from plantar.shoes.plan.wiring import wiring_steps
+from plantar.shoes.solid.tray import build_solid, surface_of
+
+
+def missing(report: ShoeReport, cut: Block | None = None, add: Block | None = None) -> set[str]:
+    """Features that the left shoe lacks once a block was cut from it, or added."""
+    shoe = report.build.shoes[0]
+    solid = shoe.solid
+    for kind, block in (("cut", cut), ("add", add)):
+        if block is not None:
+            other = build_solid((Step("add", "block", (block,)),))
+            solid = solid.cut(other) if kind == "cut" else solid.fuse(other)
+    surface = np.concatenate([surface_of(s) for s in solid.Solids()])
+    return {f.name for f in printed_features(shoe, report.build, surface) if not f.holds}
+
+
+def test_each_feature_is_missed_where_it_is_not_there(exported: tuple[ShoeReport, Path]) -> None:
+    report, _ = exported
+    build = report.build
+    plan, p = build.shoes[0].plan, build.parameters
+    assert missing(report) == set()
+    low_x, low_y, high_x, high_y = plan.contact.bounds
+    everywhere = shapely.box(low_x - 60, low_y - 60, high_x + 60, high_y + 60)
+    behind = shapely.box(low_x - 60, low_y - 60, plan.heel.x - 0.1, high_y + 60)
+    assert missing(report, cut=Block(behind, p.thickness + 1.0, p.rim_top + 5)) == {"rails at both ends of the board"}
+    assert "shelf below the board" in missing(report, cut=Block(behind, 0.0, p.thickness - 0.2))
+    above = Block(everywhere, p.thickness + build.retention.top(p) - 3.5, p.rim_top + 60.0)  # type: ignore[union-attr]
+    assert missing(report, cut=above) == {"bar above each slot"}
+    pocket = plan.pockets[-1].buffer(-3.0)
+    assert missing(report, add=Block(pocket, p.bottom, p.ceiling + 1.0)) >= {"pocket of each"}
+    assert missing(report, cut=Block(pocket, p.bottom, p.thickness + 1.0)) == {"ceiling over each pocket"}
+    i, j = plan.route[0]
+    port = shapely.Point(plan.port(i, j)[0].mean(axis=0)).buffer(8.0)
+    assert "way from each pocket to the heel" in missing(report, add=Block(port, p.bottom, p.ceiling + 1.0))
+
+
+@pytest.mark.parametrize("radius", [20.0, 40.0, 47.0])
+def test_round_heels_have_their_rails(radius: float) -> None:
+    """Both posts reach the board's ends behind the plate, whatever the heel's radius."""
+    box = shapely.box(-80.0, -47.5, 160.0, 47.5)
+    outline = box.buffer(-radius).buffer(radius, quad_segs=32) if radius < 47.0 else (
+        shapely.Point(-32.5, 0.0).buffer(47.5, quad_segs=32) | shapely.box(-32.5, -47.5, 160.0, 47.5)
+    )  # fmt: skip
+    build = build_shoe(foot_from_outline("a", outline), side="left", layout_only=True)
+    plan, p = build.shoes[0].plan, build.parameters
+    blocks, steps = wiring_steps(plan, p)
+    slot = steps[0].blocks[0].low  # type: ignore[union-attr]
+    for post in blocks[1:]:
+        assert isinstance(post, Block)
+        behind = post.low.difference(slot) & plan.heel.placed(shapely.box(-30.0, -60.0, 0.0, 60.0))
+        assert behind.area > 20.0
+        assert (post.low & plan.rim).area > 20.0
