@@ -9,7 +9,12 @@ from __future__ import annotations
 import math
 import re
 import warnings
+<<<<<<< HEAD
 from collections.abc import Iterator
+=======
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+>>>>>>> 6a0873e (Keep MuJoCo in the one reader of models)
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -27,12 +32,13 @@ from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from plantar.shoes.foot.urdf_text import BELOW, urdf_for_mujoco
 from plantar.shoes.geometry.primitives import primitive
 
-__all__ = ["FARTHEST", "BodyPlace", "ModelSource", "geom_surface", "read_model_source"]
+__all__ = ["FARTHEST", "BodyPlace", "ModelSource", "read_model_source"]
 
 _LARGEST = 100e6  # bytes of a mesh
 FARTHEST = 1e6
 """Distance in m beyond which no shape reaches."""
 
+_UNLIMITED = 0.6  # rad to either side of a joint without limits
 _LEAST = 1e-9  # kg and kg m^2: MuJoCo wants bodies that move to have some
 _READ_BY_MUJOCO = (".stl", ".obj", ".msh")
 _NOT_NEEDED: tuple[str, ...] = (
@@ -42,6 +48,9 @@ _NOT_NEEDED: tuple[str, ...] = (
 _COLLIDING, _DRAWN, _ELSEWHERE = 0, 1, 2  # groups of geoms
 
 Array = NDArray[np.float64]
+Poses = Callable[[Iterable[float]], list[tuple[Array, Array]]]
+"""Gives the rotation (3, 3) and place (3,) of shapes for angles of joints."""
+
 Spec = Any
 """A `mujoco.MjSpec`."""
 
@@ -209,20 +218,22 @@ class ModelSource:
         for g in range(model.ngeom):
             if model.geom_type[g] in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
                 continue
-            local = geom_surface(model, g, f"{self.file}: <geom name='{model.geom(g).name}'>")
+            local = _surface(model, g, f"{self.file}: <geom name='{model.geom(g).name}'>")
             turn = data.geom_xmat[g].reshape(3, 3)
             (drawn if model.geom_group[g] == _DRAWN else colliding).append(local @ turn.T + data.geom_xpos[g] - origin)
         return drawn, colliding
 
-    def links_above(self, name: str, count: int) -> tuple[Any, Any]:
-        """The model with the shapes of the links above a body alone: drawn ones, or what collides where none are.
+    def links_above(self, name: str, count: int) -> tuple[list[Array], list[tuple[float, float]], Poses]:
+        """Shapes of the links above a body, drawn ones or what collides where none are, and how the ankle moves them.
 
         Args:
             name: The body.
             count: Of links that move against each other; what is fixed beside the body is taken, too.
 
         Returns:
-            Model and data of MuJoCo at the zero pose.
+            Triangles (n, 3, 3) in m of each shape; the ranges in rad of the last two hinges above the body; and what
+            gives each shape's rotation (3, 3) and place (3,) for angles of these, about the body's origin and turned as
+            at the zero pose.
 
         Raises:
             FootError: If a mesh cannot be read.
@@ -245,7 +256,24 @@ class ModelSource:
         self._give_meshes(spec, read_all=False)
         for mesh in spec.meshes:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
-        return self._placed(spec)
+        model, data = self._placed(spec)
+        flat = (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
+        geoms = [g for g in range(model.ngeom) if model.geom_type[g] not in flat]
+        foot = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
+        joints, start = _hinges_above(model, foot), data.xmat[foot].reshape(3, 3).copy()
+
+        def poses(angles: Iterable[float]) -> list[tuple[Array, Array]]:
+            data.qpos[model.jnt_qposadr[joints]] = list(angles)
+            mujoco.mj_kinematics(model, data)
+            turn = start @ data.xmat[foot].reshape(3, 3).T
+            return [
+                (turn @ data.geom_xmat[g].reshape(3, 3), turn @ (data.geom_xpos[g] - data.xpos[foot])) for g in geoms
+            ]
+
+        ranges = [(float(low), float(high)) for low, high in model.jnt_range[joints]]
+        free = [not (model.jnt_limited[j] and low < high) for j, (low, high) in zip(joints, ranges, strict=True)]
+        ranges = [(-_UNLIMITED, _UNLIMITED) if any_ else given for any_, given in zip(free, ranges, strict=True)]
+        return [_surface(model, g, str(self.file)) for g in geoms], ranges, poses
 
     def _few_enough(self, model: Any, name: str) -> None:
         """Refuse shapes of too many triangles before they are made: a mesh may be used many times."""
@@ -353,6 +381,18 @@ def _fixed_to(body: Any) -> Iterator[Any]:
             yield from _fixed_to(child)
 
 
+def _hinges_above(model: Any, body: int) -> list[int]:
+    """The last two hinges above a body, the nearest first."""
+    import mujoco
+
+    joints: list[int] = []
+    while body > 0 and len(joints) < 2:
+        first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+        joints += [j for j in range(first, first + count) if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE][::-1]
+        body = int(model.body_parentid[body])
+    return joints[:2]
+
+
 def _moving(body: Any) -> Any:
     """The body that moves and that a body is fixed to, or is."""
     while not body.joints and body.parent is not None and body.parent.name != "world":
@@ -380,7 +420,7 @@ def _weighed_by_shapes(spec: Spec, body: Any) -> bool:
     )
 
 
-def geom_surface(model: Any, geom: int, where: str) -> Array:
+def _surface(model: Any, geom: int, where: str) -> Array:
     """Triangles (n, 3, 3) of a shape in its own frame in m."""
     import mujoco
 
