@@ -9,12 +9,7 @@ from __future__ import annotations
 import math
 import re
 import warnings
-<<<<<<< HEAD
-from collections.abc import Iterator
-=======
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
->>>>>>> 6a0873e (Keep MuJoCo in the one reader of models)
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
