@@ -89,6 +89,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *(
             "units",
             "order",
+            "processes",
             "materials",
             "dimensions",
             "parameters",
