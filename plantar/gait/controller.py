@@ -59,6 +59,8 @@ from plantar.gait.propose.slope_inside import SlopeInside, inward_distance
 from plantar.gait.propose.ssp_opt import touching_distance
 from plantar.gait.propose.step_adjustment import StepAdjustment
 from plantar.gait.propose.step_timing import StepTiming
+from plantar.gait.safety.shell import SafetyShell
+from plantar.gait.safety.standing_command import standing_command
 from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.kernels.base.vectors import matrix, vector, vector2
 from plantar.kernels.gait import lean_correction
@@ -186,6 +188,13 @@ class WalkingController:
         self._ground = CoMHeight(ground, period, _FOLLOWS_GROUND / settings.body.beat)
         self.guard, self.conformity = self._for_unknown_ground(middles)
         self._proposers = self._asked(start, middles)
+        self.shell: SafetyShell | None = self._guarded(start)
+
+    def _guarded(self, start: Start) -> SafetyShell:
+        """What guards the tick; a controller whose `shell` is None runs without."""
+        s, layouts = self.settings, self.layouts
+        stands = standing_command(start.feet, self.plan, layouts, s.mass * GRAVITY, s.com_height, start.time - 1.0)
+        return SafetyShell(self._ticked, stands, layouts, None, s.period, s.mass, s.body.leg, s.com_height)
 
     def identified(self) -> dict[str, object]:
         """What was identified of the robot's differences from its model, for a run's summary."""
@@ -273,9 +282,14 @@ class WalkingController:
 
     @property
     def safe_state(self) -> str | None:
-        """The state in which it stays because it cannot go on, None while it walks: "no way on", where no footstep is
-        left that may be stepped on, and it stands; "blind", where encoders or IMU have said nothing for too long, and
-        "lost", where the CoM would have to be farther beside the feet than it is high: it holds its last command."""
+        """The state in which it stays because it cannot go on, None while it walks (docs/safety.md).
+
+        "no way on": no footstep is left that may be stepped on, and it stands; "blind": encoders, IMU or soles cannot
+        be taken, and "lost": the CoM would have to be farther beside the feet than it is high: it holds its last
+        command; "late": times are no numbers; "fallen": its feet are let go of.
+        """
+        if self.shell is not None and self.shell.state is not None:
+            return self.shell.state
         if self._hearing.blind:
             return "blind"
         if self._lost:
@@ -291,7 +305,11 @@ class WalkingController:
         return (*sides, last) if looks and last is not None and last not in sides else sides
 
     def step(self, sensors: Sensors) -> Command:
-        """One control tick: sensors in, command out; one that is blind or lost commands what it did last."""
+        """One control tick: sensors in, command out; it never raises while its `shell` guards it."""
+        return self._ticked(sensors) if self.shell is None else self.shell.step(sensors)
+
+    def _ticked(self, sensors: Sensors) -> Command:
+        """A tick of sensors that can be; one that is blind or lost commands what it did last."""
         told = (sensors.joint_positions, sensors.gyro, sensors.accelerometer)
         heard = self._hearing.heard(told)
         if heard is None or self._lost:

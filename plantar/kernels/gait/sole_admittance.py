@@ -66,6 +66,8 @@ class SoleAdmittance:
         now, goal = memory.values(measured), memory.values(wanted)
         # Only fz, tx and ty: a sole turns and lifts for these; friction carries the other three.
         fz, tx, ty = now[2], now[3], now[4]
+        if not (fz - fz == 0.0 and tx - tx == 0.0 and ty - ty == 0.0):
+            return 0.0  # a wrench that is no number turns nothing
         if self.stands:
             fz = self.fz + self.share * (fz - self.fz)
             tx = self.tx + self.share * (tx - self.tx)

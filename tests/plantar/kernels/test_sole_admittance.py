@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -58,3 +59,19 @@ def test_what_fades_ends_at_none():
         for _ in range(400):
             foot.fade()
         assert not correction(foot).any()
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("axis", [2, 3, 4])
+def test_a_wrench_that_is_no_number_turns_nothing(axis: int, value: float) -> None:
+    sole, wanted = sole_admittance.SoleAdmittance(0.005, 0.2, 0.01, 1.0, 10.0, 0.08, 0.02), np.zeros(6)
+    sound = np.array([0.0, 0.0, 400.0, 5.0, -5.0, 0.0])
+    sole.turn(sound, wanted)
+    before = sole.roll, sole.pitch
+    bad = sound.copy()
+    bad[axis] = value
+    assert sole.turn(bad, wanted) == 0.0
+    assert (sole.roll, sole.pitch) == before
+    sole.turn(sound, wanted)
+    assert abs(sole.roll) < 0.01
+    assert np.isfinite(sole.pitch)

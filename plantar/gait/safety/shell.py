@@ -1,0 +1,252 @@
+"""The safety shell around a controller's tick: a command at every tick, from sensors and times of any kind.
+
+It looks at what comes in (time, encoders and IMU, soles, each against the others) and at what goes out. A controller
+whose sensors are sound and whose targets do not jump runs as it would alone, to the last bit. docs/safety.md lists the
+states, what the robot does in each, and how it leaves them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.command import Command, FootTarget, Sensors
+from plantar.gait.plan.phases import PhaseKind
+from plantar.gait.safety.target_limits import TargetLimits
+from plantar.gait.safety.tick_clock import TickClock
+from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.lip import GRAVITY
+from plantar.sensing.reading import Reading
+from plantar.sides import Side, other_side
+
+__all__ = ["SafetyShell"]
+
+_STUCK = 0.12  # s for which sensors may report the very same: a train of 0.1 s is walked through
+_SILENT = 0.06  # s for which a reading that cannot be taken is bridged by the last one that could
+_LATE = 0.15  # s of times that cannot be taken, until the state is "late"
+_UNLOADED, _WEIGHTLESS = 0.3, 0.04  # weight on both soles below which one must be silent, and for how long in s
+_FALLEN = 0.5  # cosine of the trunk's tilt, and share of its height, below which a robot has fallen
+_LIMP = 0.5  # s in which a fallen robot's feet are let go of
+
+Readings = Mapping[Side, Reading]
+
+
+class SafetyShell:
+    """Guards the tick of a controller.
+
+    Args:
+        tick: The controller's own tick.
+        start: Command until the first sound reading.
+        layouts: Sole layout of each side.
+        joints: Number of joint angles.
+        period: Control period in s.
+        mass: Mass of the robot in kg.
+        leg: Length of a leg in m.
+        com_height: Height in m of the CoM over the soles.
+
+    Attributes:
+        state: "fallen", "blind" or "late", None while none holds; "fallen" and "blind" stay, "late" ends with the first
+            time that can be taken.
+        errors: Exceptions of the tick that it caught.
+    """
+
+    def __init__(
+        self,
+        tick: Callable[[Sensors], Command],
+        start: Command,
+        layouts: Mapping[Side, SoleLayout],
+        joints: int | None,
+        period: float,
+        mass: float,
+        leg: float,
+        com_height: float,
+    ) -> None:
+        self._tick = tick
+        self._last = start
+        self._begun = False
+        self._period = period
+        self._weight = mass * GRAVITY
+        self._height = com_height
+        self._counts = {side: len(layouts[side]) for side in layouts}
+        self._clock = TickClock(period)
+        self._limits = TargetLimits(period, leg, math.sqrt(leg / GRAVITY), self._weight)
+        self._joints = joints
+        self._body: BodyCheck | None = None
+        self._soles = SoleCheck(self._weight)
+        self._stuck = round(_STUCK / period)
+        self._bridged = round(_SILENT / period)
+        self._silent = self._unloaded = 0
+        self._sound: Sensors | None = None
+        self._lost: Side | None = None
+        self._limp = 1.0
+        self.state: str | None = None
+        self.errors = 0
+
+    def step(self, sensors: Sensors) -> Command:
+        """One control tick; it never raises.
+
+        Args:
+            sensors: What was read, or came instead.
+
+        Returns:
+            The command: of the controller, or of the state that holds.
+        """
+        try:
+            command = self._stepped(sensors)
+        except Exception:  # of any kind: a robot that walks needs a command
+            self.errors += 1
+            command = self._bridge(None)
+        self._last = command
+        return command
+
+    def _stepped(self, sensors: Sensors) -> Command:
+        time = self._clock.time_of(float(sensors.time))
+        if self.state in ("fallen", "blind"):
+            return self._held()
+        self.state = "late" if self._clock.odd * self._period > _LATE else None
+        if self.state == "late":
+            return self._held()
+        if self._is_fallen():
+            self.state = "fallen"
+            return self._held()
+        problem = self._problem(sensors)
+        if problem:
+            return self._bridge(time)
+        readings = self._readings(sensors)
+        if readings is None:
+            return self._bridge(time)
+        if time != sensors.time or readings is not sensors.readings:
+            sensors = sensors.changed(time=time, readings=readings)
+        self._silent = 0
+        return self._commanded(sensors)
+
+    def _commanded(self, sensors: Sensors) -> Command:
+        command = self._tick(sensors)
+        self._sound = sensors
+        if not self._begun:
+            self._begun = True
+            return command
+        return self._limits.limited(self._last, command)
+
+    def _bridge(self, time: float | None) -> Command:
+        """A tick without a reading that can be taken: on with the last one for a moment, then blind."""
+        self._silent += 1
+        if self._silent > self._bridged and self._begun:
+            self.state = "blind"
+        if self.state is None and time is not None and self._sound is not None:
+            return self._limits.limited(self._last, self._tick(self._sound.changed(time=time)))
+        return self._held()
+
+    def _held(self) -> Command:
+        """The last command, without what was new then; a fallen robot's feet are let go of."""
+        last = self._last
+        if self.state != "fallen":
+            return last.changed(footholds=(), moved_steps=())
+        before = self._limp
+        self._limp = max(0.0, before - self._period / _LIMP)
+        share = self._limp / before if before > 0.0 else 0.0
+        feet: dict[Side, FootTarget] = {
+            side: FootTarget(foot.position, foot.rotation, share * foot.force, foot.center_of_pressure)
+            for side, foot in last.feet.items()
+        }
+        return last.changed(feet=feet, footholds=(), moved_steps=())
+
+    def _problem(self, sensors: Sensors) -> int:
+        """What is wrong with encoders and IMU; 0 for nothing. What is no number is the controller's to bridge."""
+        joints, gyro, accelerometer = sensors.joint_positions, sensors.gyro, sensors.accelerometer
+        if self._body is None:
+            self._joints = len(joints) if self._joints is None else self._joints
+            self._body = BodyCheck(self._joints, self._stuck)
+        if len(joints) != self._joints or len(gyro) != 3 or len(accelerometer) != 3:
+            return 1
+        found = self._body.check(joints, gyro, accelerometer)
+        moves = self._last.phase.kind != PhaseKind.STANDING
+        return found if found < 3 or moves else 0
+
+    def _readings(self, sensors: Sensors) -> Readings | None:
+        """What the soles report, each under its own side; what a silent one carries follows from the other.
+
+        Returns:
+            The very same where nothing is wrong; None where both are silent.
+        """
+        readings, soles, counts = sensors.readings, self._soles, self._counts
+        left, right = _sound(readings, "left", counts["left"]), _sound(readings, "right", counts["right"])
+        if left is None or right is None:
+            lost: Side | None = "left" if left is None else "right"
+            return None if left is right else self._replaced(sensors, readings, lost)
+        soles.update(left.force, counts["left"], right.force, counts["right"])
+        if soles.swapped:
+            if counts["left"] != counts["right"]:
+                return None
+            readings = {"left": right, "right": left}
+        if self._both_silent(soles):
+            return None
+        lost = self._silent_sole(soles, sensors.accelerometer)
+        return readings if lost is None else self._replaced(sensors, readings, lost)
+
+    def _both_silent(self, soles: SoleCheck) -> bool:
+        """Whether both soles report the very same for long, or nothing while the robot is carried."""
+        silent = self._unloaded * self._period > _WEIGHTLESS and soles.left + soles.right < 0.05 * self._weight
+        if silent and self._last.phase.stance is None:  # of a foot in the air it is right to report nothing
+            return True
+        both = min(soles.left_same, soles.right_same) >= self._stuck and soles.left + soles.right > 0.0
+        return both and self._last.phase.kind != PhaseKind.STANDING
+
+    def _silent_sole(self, soles: SoleCheck, accelerometer: NDArray[np.float64]) -> Side | None:
+        """The sole that reports nothing, or the very same, while the robot is carried."""
+        weight, phase = self._weight, self._last.phase
+        if phase.kind != PhaseKind.STANDING:
+            if soles.left_same >= self._stuck and soles.left > 0.05 * weight:
+                return "left"
+            if soles.right_same >= self._stuck and soles.right > 0.05 * weight:
+                return "right"
+        if self._lost is not None:
+            own = soles.left if self._lost == "left" else soles.right
+            if own > 0.1 * weight:
+                self._lost = None
+            return self._lost
+        carried = 0.6 * GRAVITY < math.hypot(*accelerometer.tolist()) < 1.6 * GRAVITY
+        self._unloaded = self._unloaded + 1 if carried and soles.left + soles.right < _UNLOADED * weight else 0
+        if self._unloaded * self._period > _WEIGHTLESS:
+            self._lost = phase.stance or ("left" if soles.left < soles.right else "right")
+        return self._lost
+
+    def _replaced(self, sensors: Sensors, readings: Readings, lost: Side | None) -> Readings | None:
+        """The readings with that of a silent sole: evenly what the other one does not carry."""
+        if lost is None:
+            return readings
+        other = other_side(lost)
+        reading = readings[other]
+        total = float(np.nansum(reading.force))
+        if self._last.phase.stance == other and total < _UNLOADED * self._weight:
+            return None  # both are silent
+        rest = self._weight - total
+        rest = rest if rest > 0.15 * self._weight and self._last.phase.swing != lost else 0.0
+        count = self._counts[lost]
+        found: dict[Side, Reading] = {
+            other: reading,
+            lost: Reading(reading.time, np.full(count, rest / count)),
+        }
+        return found
+
+    def _is_fallen(self) -> bool:
+        """Whether the trunk lies, or hangs between the feet."""
+        state = self._last.state
+        if not self._begun:
+            return False
+        left, right = state.positions_sole["left"].item(2), state.positions_sole["right"].item(2)
+        height = state.com.item(2) - min(left, right)
+        return state.rotation_base_to_world.item(8) < _FALLEN or height < _FALLEN * self._height
+
+
+def _sound(readings: Readings, side: Side, count: int) -> Reading | None:
+    """The reading of a sole; None where there is none of its size, or no taxel reports a number."""
+    reading = readings.get(side)
+    if reading is None or len(reading.force) != count:
+        return None
+    first = reading.force.item(0)
+    return None if first != first and np.isnan(reading.force).all() else reading

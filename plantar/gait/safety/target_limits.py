@@ -1,0 +1,93 @@
+"""How far targets may move in a tick: a legged body does not jump, whatever its controller was given."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.command import Command, FootTarget
+from plantar.kernels.safety.plausible import farthest
+from plantar.sides import SIDES, Side
+
+__all__ = ["TargetLimits"]
+
+_FOOT, _COM = 1.15, 0.45  # leg/beat: fastest targets of a foot and of the CoM
+_TURN = 2.4  # rad/beat of a sole or the torso
+_FORCE = 4.5  # weight/beat of the force on a foot
+
+
+class TargetLimits:
+    """Moves targets by no more than a limit in a tick.
+
+    Args:
+        period: Control period in s.
+        leg: Length of a leg in m.
+        beat: Time unit of the body in s, the root of leg over gravity.
+        weight: Weight in N.
+    """
+
+    def __init__(self, period: float, leg: float, beat: float, weight: float) -> None:
+        share = period / beat
+        self._foot, self._com = _FOOT * leg * share, _COM * leg * share
+        self._turn, self._force = _TURN * share, _FORCE * weight * share
+
+    def limited(self, before: Command, now: Command) -> Command:
+        """A command whose targets are not farther from those of the tick before than the limits.
+
+        Args:
+            before: Command of the tick before.
+            now: Command of this tick.
+
+        Returns:
+            The very same where no target moves farther; else one with targets on the way.
+        """
+        left, right = now.feet["left"], now.feet["right"]
+        was_left, was_right = before.feet["left"], before.feet["right"]
+        if (
+            farthest(before.com, now.com, 3) <= self._com
+            and farthest(was_left.position, left.position, 3) <= self._foot
+            and farthest(was_right.position, right.position, 3) <= self._foot
+            and farthest(was_left.rotation, left.rotation, 9) <= self._turn
+            and farthest(was_right.rotation, right.rotation, 9) <= self._turn
+            and farthest(before.rotation_torso, now.rotation_torso, 9) <= self._turn
+            and farthest(was_left.force, left.force, 3) <= self._force
+            and farthest(was_right.force, right.force, 3) <= self._force
+        ):
+            return now
+        feet: Mapping[Side, FootTarget] = {side: self._foot_of(before.feet[side], now.feet[side]) for side in SIDES}
+        return now.changed(
+            com=_moved(before.com, now.com, self._com),
+            rotation_torso=_turned(before.rotation_torso, now.rotation_torso, self._turn),
+            feet=feet,
+        )
+
+    def _foot_of(self, before: FootTarget, now: FootTarget) -> FootTarget:
+        return FootTarget(
+            _moved(before.position, now.position, self._foot),
+            _turned(before.rotation, now.rotation, self._turn),
+            _moved(before.force, now.force, self._force),
+            now.center_of_pressure if np.isfinite(now.center_of_pressure).all() else before.center_of_pressure,
+        )
+
+
+def _moved(before: NDArray[np.float64], now: NDArray[np.float64], most: float) -> NDArray[np.float64]:
+    """A vector on the way from one to another, no coordinate farther than a limit; where it was if one is none."""
+    way = now - before
+    largest = float(np.abs(way).max())
+    if not np.isfinite(largest):
+        return before
+    return now if largest <= most else before + (most / largest) * way
+
+
+def _turned(before: NDArray[np.float64], now: NDArray[np.float64], most: float) -> NDArray[np.float64]:
+    """A rotation on the way from one to another: the sum of both by shares, made orthogonal again."""
+    largest = float(np.abs(now - before).max())
+    if not np.isfinite(largest):
+        return before
+    if largest <= most:
+        return now
+    u, _, v = np.linalg.svd(before + (most / largest) * (now - before))
+    turn = u @ v
+    return turn if np.linalg.det(turn) > 0.0 else before

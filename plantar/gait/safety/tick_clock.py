@@ -1,0 +1,68 @@
+"""The time of control ticks: monotone, and plausible, whatever a robot's clock reports."""
+
+from __future__ import annotations
+
+import math
+
+__all__ = ["TickClock"]
+
+_NEAR = 0.5  # periods that a tick may come early or late by and still be taken as it is
+_FOLLOWED = 0.1  # s that a clock may be off by and still be followed, slowly
+_DRAWN = 0.02  # share of an error that a tick follows
+_MOST_DRAWN = 0.2  # periods by which a tick is longer or shorter for that
+
+
+class TickClock:
+    """Follows the time that ticks report.
+
+    A tick is expected one period after the last one. A time that is near that is taken as it is; one that is a little
+    off, of a clock with jitter, draws the ticks towards it slowly; one that is far off is another zero of the clock.
+
+    Args:
+        period: Control period in s.
+
+    Attributes:
+        odd: Ticks in a row whose time could not be taken.
+
+    Example:
+        >>> clock = TickClock(0.005)
+        >>> [round(clock.time_of(t), 4) for t in (1.0, 1.005, math.nan, 6.015, 6.02)], clock.odd
+        ([1.0, 1.005, 1.01, 1.015, 1.02], 0)
+    """
+
+    def __init__(self, period: float) -> None:
+        self._period = period
+        self._last: float | None = None
+        self._offset = 0.0
+        self.odd = 0
+
+    def time_of(self, reported: float) -> float:
+        """The time of a tick.
+
+        Args:
+            reported: Time in s that it reports.
+
+        Returns:
+            Time in s, later than that of the tick before.
+        """
+        if self._last is None:
+            self._last = reported if math.isfinite(reported) else 0.0
+            self._offset = 0.0 if math.isfinite(reported) else math.nan
+            return self._last
+        expected = self._last + self._period
+        error = reported + self._offset - expected
+        if abs(error) <= _NEAR * self._period:
+            self.odd = 0
+            self._last = reported + self._offset
+            return self._last
+        if not math.isfinite(reported):
+            self.odd += 1
+        elif abs(error) <= _FOLLOWED:
+            self.odd = 0
+            most = _MOST_DRAWN * self._period
+            expected += min(max(_DRAWN * error, -most), most)
+        else:
+            self.odd += 1
+            self._offset = expected - reported
+        self._last = expected
+        return expected

@@ -1,0 +1,1 @@
+"""What the safety shell checks at every tick."""

@@ -1,0 +1,155 @@
+"""Kernel of the safety shell: whether what a robot's sensors report can be, and how far commands move in a tick.
+
+Plain Python that also compiles ahead of time (`plausible.pxd` gives the C types). `plantar.gait.safety` is the public
+face.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..base import memory
+
+__all__ = ["BodyCheck", "SoleCheck", "farthest"]
+
+_FAST = 0.25  # rad that a joint's angle may change by in a tick: 50 rad/s at 200 Hz
+_TURNED = 12.0  # rad: beyond, no joint of a leg has an angle
+_SPIN = 20.0  # rad/s: faster, no robot turns that is on its feet
+_SHOCK = 400.0  # m/s^2
+
+
+class BodyCheck:
+    """Whether joint angles and IMU can be, one tick after the other.
+
+    Args:
+        joints: Number of joint angles.
+        frozen: Ticks after which sensors that report the very same bits are stuck.
+
+    Attributes:
+        imu_same: Ticks for which the IMU has reported the same.
+        joints_same: Ticks for which all joints have.
+    """
+
+    def __init__(self, joints, frozen):
+        self.joints = joints
+        self.frozen = frozen
+        self.begun = False
+        self.imu_same = self.joints_same = 0
+        self.kept = np.zeros(joints + 6)
+
+    def check(self, joints, gyro, accelerometer):
+        """What is wrong with a reading whose arrays are of the right sizes; NaN is not this check's.
+
+        Args:
+            joints: Joint angles (k,) in rad.
+            gyro: Angular velocity (3,) in rad/s.
+            accelerometer: Specific force (3,) in m/s^2.
+
+        Returns:
+            0 for nothing, 1 for a joint angle and 2 for an IMU that cannot be, 3 for a stuck IMU, 4 for stuck joints.
+        """
+        q, w, a = memory.values(joints), memory.values(gyro), memory.values(accelerometer)
+        kept, n = memory.room(self.kept), self.joints
+        found = 0
+        same = self.begun
+        for i in range(n):
+            value = q[i]
+            if math.fabs(value) >= _TURNED or (self.begun and math.fabs(value - kept[i]) >= _FAST):
+                return 1
+            if value != kept[i]:
+                same = False
+        self.joints_same = self.joints_same + 1 if same else 0
+        spin, shock, same = 0.0, 0.0, self.begun
+        for i in range(3):
+            spin += w[i] * w[i]
+            shock += a[i] * a[i]
+            if w[i] != kept[n + i] or a[i] != kept[n + 3 + i]:
+                same = False
+            kept[n + i], kept[n + 3 + i] = w[i], a[i]
+        if spin >= _SPIN * _SPIN or shock >= _SHOCK * _SHOCK or (spin == 0.0 and shock == 0.0):
+            return 2
+        self.imu_same = self.imu_same + 1 if same else 0
+        for i in range(n):
+            kept[i] = q[i]
+        self.begun = True
+        if self.imu_same >= self.frozen:
+            found = 3
+        elif self.joints_same >= self.frozen:
+            found = 4
+        return found
+
+
+class SoleCheck:
+    """What the soles carry, and whether they can, one tick after the other.
+
+    Args:
+        weight: Weight of the robot in N.
+
+    Attributes:
+        left: Force in N on the left sole, of the taxels that report one.
+        right: Force on the right sole.
+        left_same: Ticks for which the left sole has reported the same force.
+        right_same: Ticks for which the right one has.
+        swapped: Whether the soles have exchanged what they report.
+    """
+
+    def __init__(self, weight):
+        self.weight = weight
+        self.left = self.right = -1.0
+        self.left_same = self.right_same = 0
+        self.swapped = False
+
+    def update(self, left, left_count, right, right_count):
+        """Take the forces of a tick: those on n taxels of each sole, as the wires bring them.
+
+        Returns:
+            0.
+        """
+        new_left, new_right = _total(memory.values(left), left_count), _total(memory.values(right), right_count)
+        if self.swapped:
+            new_left, new_right = new_right, new_left
+        old_left, old_right, near = self.left, self.right, 0.06 * self.weight
+        if (
+            old_left >= 0.0
+            and math.fabs(old_left - old_right) > 0.25 * self.weight
+            and math.fabs(new_left - old_right) < near
+            and math.fabs(new_right - old_left) < near
+        ):
+            self.swapped = not self.swapped
+            new_left, new_right = new_right, new_left
+        self.left_same = self.left_same + 1 if new_left == old_left else 0
+        self.right_same = self.right_same + 1 if new_right == old_right else 0
+        self.left, self.right = new_left, new_right
+        return 0
+
+
+def farthest(before, now, count):
+    """The largest change of a number in a tick.
+
+    Args:
+        before: Numbers of the tick before.
+        now: Numbers of this one.
+        count: How many there are.
+
+    Returns:
+        The change; NaN where a number is none.
+    """
+    a, b = memory.values(before), memory.values(now)
+    largest = 0.0
+    for i in range(count):
+        change = math.fabs(a[i] - b[i])
+        if not change <= largest:
+            largest = change
+    return largest
+
+
+def _total(force, count):
+    """The sum of the forces that are numbers."""
+    total = 0.0
+    for i in range(count):
+        value = force[i]
+        if value == value:
+            total += value
+    return total
