@@ -1,6 +1,6 @@
 """A run as a 3D viewer shows it: topics of Foxglove's schemas in its recording.
 
-They are drawn from what is there at a tick anyway: nothing is computed for them that could change the run.
+They are drawn from what a tick has anyway, so that drawing cannot change the run.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from plantar.sim.model.world import World
 __all__ = ["FULL_COLOUR", "DrawnRun", "change_text", "scale_colours"]
 
 _FRAMES = 0.02  # s between two messages of where bodies are
-_SOLES = 0.04  # s between two of what soles feel and of the balance
+_SOLES = 0.04  # s between two readings of the soles and of the balance
 _CORNERS = 12  # of a support polygon that is drawn; it seldom has more
 _CELL, _THICK = 0.92, 2e-3  # of a taxel's cell, and m: how wide and how thick it is drawn
 _ARROW = 0.5  # leg: length of an arrow that stands for the robot's weight
@@ -70,8 +70,8 @@ def scale_colours(largest: float) -> NDArray[np.float64]:
 class DrawnRun:
     """Writes a run's topics for viewers.
 
-    "/tf" says where the bodies, the soles ("sole_left", "sole_right") and the CoM ("center_of_mass") are,
-    "/scene/world" what they and the ground look like, "/scene/soles" what each sole feels, "/scene/balance" CoM, ZMP
+    "/tf" has the poses of the bodies, the soles ("sole_left", "sole_right") and the CoM ("center_of_mass"),
+    "/scene/world" their shapes and the ground, "/scene/soles" the forces on each sole, "/scene/balance" CoM, ZMP
     and support polygon, "/scene/footsteps" the plan, and "/log" why it changed.
 
     Args:
@@ -272,22 +272,22 @@ def change_text(applied: AppliedChange) -> str:
         applied: The change.
     """
     change = applied.change
-    said = [f"step {change.step}: {change.reason}"]
+    parts = [f"step {change.step}: {change.reason}"]
     known = [moved for moved in applied.moved if moved.before is not None]
     for moved in known[:1]:
         assert moved.before is not None
         by = 1e3 * (moved.x - moved.before.x), 1e3 * (moved.y - moved.before.y)
-        said.append(f"footstep {moved.step} moved by {by[0]:+.0f} mm forward and {by[1]:+.0f} mm to the left")
+        parts.append(f"footstep {moved.step} moved by {by[0]:+.0f} mm forward and {by[1]:+.0f} mm to the left")
     if len(known) > 1:
-        said.append(f"{len(known) - 1} more footstep(s) after it")
+        parts.append(f"{len(known) - 1} more footstep(s) after it")
     if len(applied.moved) > len(known):
-        said.append(f"{len(applied.moved) - len(known)} new footstep(s)")
+        parts.append(f"{len(applied.moved) - len(known)} new footstep(s)")
     if change.vrp is not None:
-        said.append(f"VRP at ({change.vrp[0]:.3f}, {change.vrp[1]:.3f}) m")
+        parts.append(f"VRP at ({change.vrp[0]:.3f}, {change.vrp[1]:.3f}) m")
     if change.longer:
-        said.append(
+        parts.append(
             f"single support {'longer' if change.longer > 0.0 else 'shorter'} by {1e3 * abs(change.longer):.0f} ms"
         )
     if applied.delay > 0.0:
-        said.append(f"double support longer by {1e3 * applied.delay:.0f} ms")
-    return "; ".join(said)
+        parts.append(f"double support longer by {1e3 * applied.delay:.0f} ms")
+    return "; ".join(parts)

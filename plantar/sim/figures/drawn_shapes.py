@@ -74,7 +74,7 @@ def _colour(model: Any, geom: int) -> tuple[float, ...]:
 
 
 def _primitives(model: Any, geom: int) -> list[Part]:
-    """What is drawn of a geom; nothing of height fields and of what MuJoCo itself does not draw."""
+    """What is drawn of a geom; height fields, and what MuJoCo itself does not draw, are left out."""
     kind, colour = int(model.geom_type[geom]), _colour(model, geom)
     a, b, c = map(float, model.geom_size[geom])
     position = tuple(map(float, model.geom_pos[geom]))

@@ -1,4 +1,4 @@
-"""The video of a run: the world, the forces on its soles, and what these feel."""
+"""The video of a run: the world, the forces on its soles, and their taxels."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Film:
         """Add a frame of the world as it is now.
 
         Args:
-            readings: What each sole feels; nothing is drawn of it where a sole is missing.
+            readings: Readings of the soles; a sole that is missing is not drawn.
         """
         layouts = self._world.robot.layouts
         if set(readings) != set(layouts):

@@ -42,10 +42,10 @@ def draw_guide(run: Recording) -> Any:
     axes[0].set_ylabel("from the start, x [m]")
     axes[0].legend(ncol=5, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
     touch = run.topics["/touch"]
-    felt = touch.fields["felt"][:, :2]
+    measured = touch.fields["felt"][:, :2]
     for i, name in enumerate(("x (forward)", "y (left)")):
         colour = COLOURS["cop"] if i == 0 else COLOURS["left"]
-        axes[1].plot(touch.time, felt[:, i], color=colour, lw=1.4, alpha=0.6, label=f"felt, {name}")
+        axes[1].plot(touch.time, measured[:, i], color=colour, lw=1.4, alpha=0.6, label=f"measured, {name}")
         axes[1].plot(touch.time, touch.fields["force"][:, i], color=COLOURS["truth"], lw=0.5)
     axes[1].set_ylabel("force on the arm [N]\n(thin: true)")
     axes[1].legend(ncol=2, fontsize=8)

@@ -22,7 +22,7 @@ _STEPS_A_PANEL = 6
 
 
 def draw_pushes(run: Recording) -> Any:
-    """CoM, DCM, VRP, ZMP and footsteps over time, beside the force that the skin felt (K Fig. 7 and 14).
+    """CoM, DCM, VRP, ZMP and footsteps over time, and the force that the skin measured (K Fig. 7 and 14).
 
     Args:
         run: A recording with "/touch".
@@ -161,14 +161,14 @@ def _draw_footholds(axis: Any, run: Recording, side: Any, begin: float, end: flo
 
 
 def _draw_force(axis: Any, run: Recording, i: int) -> None:
-    """The force that the skin felt along an axis, and the true one, on a scale of their own."""
+    """The force that the skin measured along an axis, and the true one, on a scale of their own."""
     touch = run.topics["/touch"]
     other = axis.twinx()
     other.fill_between(touch.time, touch.fields["felt"][:, i], color=COLOURS["active"], alpha=0.45, lw=0)
     other.plot(touch.time, touch.fields["force"][:, i], color=COLOURS["right"], lw=0.5)
     largest = max(1.0, float(np.abs(touch.fields["force"]).max(initial=0.0)))
     other.set_ylim(-2.5 * largest, 2.5 * largest)
-    other.set_ylabel("force felt by the skin [N]\n(line: true)", fontsize=8)
+    other.set_ylabel("force on the skin, measured [N]\n(line: true)", fontsize=8)
 
 
 def _pushed_spans(run: Recording) -> list[tuple[float, float]]:

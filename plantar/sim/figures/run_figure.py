@@ -55,7 +55,7 @@ def plot_landing_forces(recordings: Mapping[str, str | Path | Recording], path: 
     """Draw the ground force on each foot over time, one panel a run, for comparison (T Fig. 51 and 55).
 
     Args:
-        recordings: Runs by what shall stand beside their panels.
+        recordings: Runs by the titles of their panels.
         path: PNG to write.
 
     Returns:

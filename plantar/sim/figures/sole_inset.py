@@ -1,4 +1,4 @@
-"""What the soles feel, drawn into the corner of a video: taxels in colours, CoP, and the last seconds of each force."""
+"""The soles' readings, drawn into the corner of a video: taxels in colours, CoP, and the last seconds of each force."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _COP = (217, 26, 77)
 
 
 class SoleInset:
-    """Draws both soles, seen from above with the toes up, and beside them their forces.
+    """Draws both soles, seen from above with the toes up, and their forces.
 
     Args:
         layouts: The soles.
@@ -66,7 +66,7 @@ class SoleInset:
 
         Args:
             picture: RGB picture (height, width, 3), changed in place.
-            readings: What each sole feels.
+            readings: Readings of the soles.
             time: Time in s.
         """
         cv2 = self._cv2

@@ -1,4 +1,4 @@
-"""Figures of the ZMP from the skin beside that from the ankles (T Fig. 42-43)."""
+"""Figures of the ZMP from the skin against that from the ankles (T Fig. 42-43)."""
 
 from __future__ import annotations
 

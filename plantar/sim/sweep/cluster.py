@@ -28,7 +28,7 @@ _LOGS = ("distributed", "distributed.client", "tornado", "tornado.application", 
 class ClusterWorkers:
     """The workers of a Dask scheduler.
 
-    Dask itself begins the run of a dead worker again on another one, as often as its setting `allowed-failures` says.
+    Dask itself begins the run of a dead worker again on another one, as often as its setting `allowed-failures` allows.
 
     Args:
         address: Address of the scheduler, as tcp://host:8786 or tls://host:8786.
@@ -41,7 +41,7 @@ class ClusterWorkers:
     def __init__(self, address: str) -> None:
         with optional_library("distributed", "cluster"):
             from distributed import Client, KilledWorker, Security
-        for name in _LOGS:  # what they have to say of a scheduler that is gone, one line says
+        for name in _LOGS:  # one line replaces what they report of a scheduler that is gone
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
         address = check_address(address)
         files = tls_files() if address.startswith("tls://") else {}
@@ -125,7 +125,7 @@ class ClusterWorkers:
         return [(task, row)]
 
     def _check(self) -> None:
-        """Raise where nothing more will come."""
+        """Raise where no more will come."""
         now = time.monotonic()
         if self._error is not None:
             raise self._error
@@ -144,6 +144,6 @@ class ClusterWorkers:
                 self._answered = time.monotonic()
                 if self._threads:
                     self._manned = self._answered
-            except Exception:  # whatever a client meets whose scheduler is gone; `_check` tells
+            except Exception:  # any error of a client whose scheduler is gone; `_check` reports it
                 self._threads = 0
             self._closed.wait(1.0)

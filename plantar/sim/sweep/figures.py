@@ -81,7 +81,7 @@ def bars_of(points: Sequence[Mapping[str, Any]], scene: str) -> Any:
 def _limits(plan: LimitSearch, limits: Sequence[Mapping[str, Any]], rows: Rows) -> Any:
     """Outcomes along the setting, the curve that they make likely, and the limit's interval; a row a grid point."""
     figure, axes = new_figure(7.0, 0.8 + 2.9 * len(limits), len(limits), squeeze=False)
-    for axis, point, told in zip(axes[:, 0], plan.sweep.points(), limits, strict=True):
+    for axis, point, found in zip(axes[:, 0], plan.sweep.points(), limits, strict=True):
         keys = [key for key in plan.tried(point, rows) if not rows[key]["error"]]
         curve = plan.curve(keys, rows)
         values = np.array([plan.limit.value(key[0][-1]) for key in keys])
@@ -91,14 +91,14 @@ def _limits(plan: LimitSearch, limits: Sequence[Mapping[str, Any]], rows: Rows) 
         _groups(axis, values, completed)
         axis.plot(values, np.where(completed, 104.0, -4.0), "|", color=COLOURS["reference"], label="a run")
         words = ", ".join(f"{k}={v}" for k, v in settings_of(point).items()) or plan.sweep.scene
-        if told["limit"] is None:
-            axis.set_title(f"{words}: no limit in this range, {told['runs']} runs", fontsize=9)
+        if found["limit"] is None:
+            axis.set_title(f"{words}: no limit in this range, {found['runs']} runs", fontsize=9)
         else:
-            low, high = told["interval"]
+            low, high = found["interval"]
             axis.axvspan(low, high, color=COLOURS["active"], alpha=0.35, linewidth=0, label="95 % interval")
-            unit = f" {told['unit']}" if told["unit"] else ""
+            unit = f" {found['unit']}" if found["unit"] else ""
             axis.set_title(
-                f"{words}: limit {told['limit']:.3g}{unit} ({low:.3g} to {high:.3g}), {told['runs']} runs", fontsize=9
+                f"{words}: limit {found['limit']:.3g}{unit} ({low:.3g} to {high:.3g}), {found['runs']} runs", fontsize=9
             )
         axis.set_ylim(-8.0, 108.0)
         axis.set_ylabel("completed runs [%]")
@@ -145,9 +145,9 @@ def _map(plan: Plan, rows: Rows) -> Any:
             if len(here):
                 shares[i, j] = 100.0 * here.mean()
                 low, high = wilson_interval(int(here.sum()), len(here))
-                told = f"{int(here.sum())}/{len(here)}\n{100 * low:.0f}-{100 * high:.0f} %"
+                found = f"{int(here.sum())}/{len(here)}\n{100 * low:.0f}-{100 * high:.0f} %"
                 colour = "#ffffff" if shares[i, j] < 50.0 else "#111111"
-                axis.text(j, i, told, ha="center", va="center", fontsize=7, color=colour)
+                axis.text(j, i, found, ha="center", va="center", fontsize=7, color=colour)
     image = axis.imshow(shares, cmap="viridis", vmin=0.0, vmax=100.0, origin="lower", aspect="auto")
     figure.colorbar(image, label="completed runs [%]")
     axis.set_xticks(range(len(names_x)), names_x, fontsize=7)
@@ -186,9 +186,9 @@ def _distributions(points: Sequence[Mapping[str, Any]], rows: Rows, scene: str) 
                 continue
             values = np.array([float(row[column]) for row in here])
             good = np.array([row["completed"] == "True" for row in here])
-            beside = i + 0.3 * (np.arange(len(values)) / max(len(values) - 1, 1) - 0.5)
-            axis.plot(beside[good], values[good], ".", color=COLOURS["polygon"], markersize=4)
-            axis.plot(beside[~good], values[~good], "x", color=COLOURS["right"], markersize=4)
+            spread = i + 0.3 * (np.arange(len(values)) / max(len(values) - 1, 1) - 0.5)
+            axis.plot(spread[good], values[good], ".", color=COLOURS["polygon"], markersize=4)
+            axis.plot(spread[~good], values[~good], "x", color=COLOURS["right"], markersize=4)
             axis.hlines(np.median(values), i - 0.3, i + 0.3, color=COLOURS["truth"], linewidth=1.2)
         axis.set_ylabel(_SHOWN[column], fontsize=8)
         axis.set_xticks(range(len(points)), names, fontsize=7)

@@ -1,4 +1,4 @@
-"""What the rows of a sweep depend on beside its settings: the content of files, and versions."""
+"""What the rows of a sweep depend on besides its settings: the content of files, and versions."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
         now: Inputs as they are.
 
     Returns:
-        What changed, in words; empty where nothing did.
+        What changed, in words; empty for no change.
 
     Example:
         >>> changes({"plantar": "1.0", "layout a": "9f"}, {"plantar": "1.1", "layout a": "e0"})

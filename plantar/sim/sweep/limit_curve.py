@@ -1,7 +1,7 @@
 """Where the outcome of runs turns over along a setting: how sure their outcomes make of it.
 
 The share of runs that are completed is taken for a logistic curve of the setting, between a lapse and one less the
-lapse: some runs fail, or are completed, for reasons that have nothing to do with the setting. The limit is where half
+lapse: some runs fail, or are completed, for reasons other than the setting. The limit is where half
 of the runs are completed. What is known of limit, width and lapse is a probability over a grid of them. Before the
 first run it is flat in the limit, in the logarithm of the width and over three lapses. The limit is in its interval
 with a probability of 95 %, whatever width and lapse are. (Kontsevich and Tyler, Bayesian adaptive estimation of
@@ -31,7 +31,7 @@ _GROUP, _GROUPS = 10, 20  # least runs of a group by which a curve is held again
 
 @dataclass(frozen=True, eq=False)
 class LimitCurve:
-    """What outcomes say of a limit.
+    """What outcomes show of a limit.
 
     Attributes:
         rising: Whether more runs are completed at larger values.
@@ -95,7 +95,7 @@ class LimitCurve:
         return rising if self.rising else 1.0 - rising
 
     def agreement(self, values: Sequence[float], completed: Sequence[bool]) -> float:
-        """Probability that runs of this very curve are as far from it as these: tiny where no one curve tells them.
+        """Probability that runs of this very curve are as far from it as these: tiny where no curve explains them.
 
         So it is where the seed chooses what the limit depends on, as the side of a push: half of the runs are then
         completed somewhere between several limits. Chi square of groups of ten runs or more, by value, after Pearson.
@@ -105,7 +105,7 @@ class LimitCurve:
             completed: Whether it was completed.
 
         Returns:
-            The probability, 0 to 1; 1 with less than 40 runs, which cannot tell.
+            The probability, 0 to 1; 1 with less than 40 runs, which are too few.
         """
         if len(values) < 4 * _GROUP:
             return 1.0
@@ -140,7 +140,7 @@ class LimitCurve:
 
 
 def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, high: float) -> LimitCurve:
-    """Find what the outcomes of runs say of a limit.
+    """Find what the outcomes of runs show of a limit.
 
     Args:
         values: The setting's value in each run.
@@ -149,7 +149,7 @@ def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, 
         high: Largest one.
 
     Returns:
-        What they say. Where they do not tell whether more runs are completed at larger values or at smaller ones, the
+        What they show. Where they do not show whether more runs are completed at larger values or at smaller ones, the
         likelier of the two.
 
     Raises:
@@ -167,7 +167,7 @@ def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, 
     up, down = _log_likelihoods(tried, good, bad, limits, widths)
     rising = bool(np.logaddexp.reduce(up, axis=None) >= np.logaddexp.reduce(down, axis=None))
     mass = np.cumsum(_normalised(up if rising else down).sum((0, 2)))
-    # Once more where the limit is, with steps as fine as what is to be told.
+    # Once more where the limit is, with steps as fine as the answer.
     first = int(np.searchsorted(mass, _NEGLIGIBLE)) - 1
     last = int(np.searchsorted(mass, 1.0 - _NEGLIGIBLE)) + 1
     fine = np.linspace(limits[max(first, 0)], limits[min(last, _LIMITS - 1)], _LIMITS)

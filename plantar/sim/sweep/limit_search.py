@@ -1,4 +1,4 @@
-"""Where does it break: runs along one setting, where they tell most of its limit, until that is known well enough."""
+"""Where does it break: runs along one setting, where they show most of its limit, until that is known well enough."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ everywhere: the runs of a search do not depend on who ran them."""
 
 _ENDS = 4  # runs at each end of the range before any between
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # its multiples fill (0, 1) evenly, whatever a seed's remainder chooses
-_TURNING = 0.15  # part of the way from all to none, at either side, that is left out: runs there tell little
+_TURNING = 0.15  # part of the way from all to none, at either side, that is left out: runs there show little
 _SURE = 0.95
 
 
@@ -96,7 +96,7 @@ class LimitSearch:
             "limits": for each grid point its settings, the setting that was searched ("setting", "unit", "range"), its
             "limit", the 95 % "interval" of that and the interval's "width" as a share of the limit (None where the
             limit is not in the range), whether it is known well enough ("reached"), whether larger values hold
-            ("rising"), how well one curve tells the runs ("agreement", `LimitCurve.agreement`), runs, completed, and
+            ("rising"), how well one curve explains the runs ("agreement", `LimitCurve.agreement`), runs, completed, and
             the errors of runs that could not be.
         """
         return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
@@ -105,8 +105,8 @@ class LimitSearch:
         """How far the search is, 0 to 1, and in words: the runs that are needed go with the square of 1 / width."""
         widths = [_width(self.curve(self.tried(point, rows), rows)) for point in self.sweep.points()]
         widest = max(widths)
-        told = f"{100.0 * widest:.0f} %" if widest < 10.0 else "its range"
-        return min(1.0, (self.within / widest) ** 2), f"{len(rows)} rows (limit known within {told})"
+        words = f"{100.0 * widest:.0f} %" if widest < 10.0 else "its range"
+        return min(1.0, (self.within / widest) ** 2), f"{len(rows)} rows (limit known within {words})"
 
     def tried(self, point: Sequence[str], rows: Rows) -> list[Key]:
         """Keys of the runs of a grid point that ended.
@@ -122,7 +122,7 @@ class LimitSearch:
         return sorted((key for key in rows if key[0][:-1] == values), key=lambda key: key[1])
 
     def curve(self, keys: Sequence[Key], rows: Rows) -> LimitCurve:
-        """What the outcomes of some runs say; those that could not be say nothing.
+        """What the outcomes of some runs show; those that could not be run are left out.
 
         Args:
             keys: Keys of the runs.
@@ -155,7 +155,7 @@ class LimitSearch:
                     curve = self.curve(keys, rows)
                     if self._enough(curve):
                         return
-                # All over the curve's flank: runs at the limit alone do not tell how steep the curve is.
+                # All over the curve's flank: runs at the limit alone do not show how steep the curve is.
                 part = _TURNING + (1.0 - 2.0 * _TURNING) * (number * _GOLDEN % 1.0)
                 value = curve.turned(part, self.limit.low, self.limit.high)
             run = (*point, f"{self.limit.name}={self.limit.text(value)}"), seed

@@ -21,7 +21,7 @@ _PLACE = 1 << 20  # where Windows locks a byte: behind the owner's name, which s
 def locked(folder: Path) -> Iterator[None]:
     """Hold a folder's lock.
 
-    The lock is of the open file, not of its being there: a file that a killed process left behind locks nobody out.
+    The lock is of the open file, not of its being there: a file that a killed process left behind locks none out.
 
     Args:
         folder: An existing folder.
@@ -60,7 +60,7 @@ def _acquire(path: Path) -> int:
                     f"{path.parent} cannot be locked ({error.strerror}); choose a folder on another disk with -o"
                 ) from None
             raise
-        os.close(handle)  # its owner has just ended and deleted it: whoever comes next makes another one
+        os.close(handle)  # its owner has just ended and deleted it: the next process makes another one
 
 
 def _lock(handle: int) -> bool:

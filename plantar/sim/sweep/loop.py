@@ -50,14 +50,14 @@ def run_sweep(
         progress: Called with the fraction done and a text.
 
     Returns:
-        What the plan's `found` says of all rows, and "runs", "resumed", "files".
+        What the plan's `found` gives for all rows, and "runs", "resumed", "files".
 
     Raises:
         InputError: If the folder cannot be written, holds the results of another sweep, or another process writes to
             it; if no scheduler answers; if a file that runs depend on has changed since the sweep began, also where
             it began earlier or a worker runs.
         WorkerError: If the workers cannot go on. What was kept is in the text.
-        SweepStopped: A KeyboardInterrupt after Ctrl-C or SIGTERM that says what was kept.
+        SweepStopped: A KeyboardInterrupt after Ctrl-C or SIGTERM that names what was kept.
     """
     if workers < 1:
         raise InputError(f"number of workers is {workers}; allowed: 1 or more")

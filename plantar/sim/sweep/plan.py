@@ -37,7 +37,7 @@ class Plan(Protocol):
         """A sweep with the same axes, whose points were checked."""
 
     def identity(self) -> dict[str, Any]:
-        """What all rows of one table must share, beside the content of files: JSON values by name."""
+        """What all rows of one table must share, besides the content of files: JSON values by name."""
 
     def runs(self, rows: Rows) -> Iterator[Run | None]:
         """The runs in an order that depends on outcomes alone; None while outcomes have to be waited for.
@@ -166,7 +166,7 @@ class Sweep:
             rows: Rows of all runs.
 
         Returns:
-            "points": for each what `point_told` says.
+            "points": for each what `point_told` gives.
         """
         return {
             "points": [
@@ -214,7 +214,7 @@ class Sweep:
         return self.opened(point).robot
 
     def identity(self) -> dict[str, Any]:
-        """What all rows of one table must share, beside the content of files: JSON values by name.
+        """What all rows of one table must share, besides the content of files: JSON values by name.
 
         Points and seeds may be added to a table; other scenes, settings or axes may not.
         """

@@ -49,7 +49,7 @@ def plan_from_texts(
         RobotError: If the robot is unknown or its file not valid.
     """
     if limit is not None and random:
-        raise InputError("a limit is searched along one setting; leave out --random, or use --grid beside --limit")
+        raise InputError("a limit is searched along one setting; leave out --random, or use --grid along with --limit")
     count = seeds if seeds is not None else 1 if limit is None else _MOST
     sweep = Sweep.from_texts(scene, grid, count, robot, settings, first_seed)
     if limit is not None:

@@ -70,11 +70,11 @@ class RandomSearch:
             "points": for each grid point its settings, runs, completed, the 95 % interval of their share, how many runs
             failed each criterion ("reasons"), and the errors of runs that could not be.
         """
-        told: dict[tuple[str, ...], list[Any]] = {point: [] for point in self.sweep.points()}
+        ran_at: dict[tuple[str, ...], list[Any]] = {point: [] for point in self.sweep.points()}
         for point, seed in self.runs(rows):
             if (row := rows.get(key_of(point, seed))) is not None:
-                told[point[: len(self.sweep.grid)]].append(row)
-        return {"points": [point_told(point, ran) for point, ran in told.items()]}
+                ran_at[point[: len(self.sweep.grid)]].append(row)
+        return {"points": [point_told(point, ran) for point, ran in ran_at.items()]}
 
     def progress(self, rows: Rows) -> tuple[float, str]:
         """How far the runs are, 0 to 1, and in words."""

@@ -1,4 +1,4 @@
-"""The runs of a table, and what tells them apart."""
+"""The runs of a table, and what distinguishes them."""
 
 from __future__ import annotations
 

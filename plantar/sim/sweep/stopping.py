@@ -27,7 +27,7 @@ class SweepStopped(KeyboardInterrupt):
 
 
 class StopNote:
-    """Which signal asked for a stop. Those that come after it change nothing: a sweep that stops is not stopped.
+    """Which signal asked for a stop. Later ones are ignored: the sweep is already stopping.
 
     Attributes:
         number: The first signal, or 0 as long as none came.
@@ -67,7 +67,7 @@ class StopNote:
 
 @contextmanager
 def stop_noted() -> Iterator[StopNote]:
-    """Handle both signals as long as this lasts. Threads other than the main one cannot: nothing changes there."""
+    """Handle both signals as long as this lasts. Threads other than the main one cannot, and are left alone."""
     note = StopNote()
     before = {}
     if threading.current_thread() is threading.main_thread():

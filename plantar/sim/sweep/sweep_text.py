@@ -21,11 +21,11 @@ def sweep_text(result: Mapping[str, Any], scene: str) -> str:
     Returns:
         Lines.
     """
-    lines = [_limit_text(told, scene) for told in result.get("limits", ())]
+    lines = [_limit_text(found, scene) for found in result.get("limits", ())]
     for point in result.get("points", ()):
         why = ", ".join(f"{criterion.replace('_', ' ')} {count}" for criterion, count in point["reasons"].items())
-        told = f"{point['completed']} of {point['runs']} completed{f'; failed by: {why}' if why else ''}"
-        lines.append(f"{_name(point, scene)}: {told}")
+        found = f"{point['completed']} of {point['runs']} completed{f'; failed by: {why}' if why else ''}"
+        lines.append(f"{_name(point, scene)}: {found}")
     return "\n".join([*lines, *(f"  {name}" for name in result["files"])])
 
 
@@ -46,23 +46,23 @@ def sweep_errors(result: Mapping[str, Any], scene: str) -> list[str]:
     ]
 
 
-def _limit_text(told: Mapping[str, Any], scene: str) -> str:
-    low, high = told["range"]
-    unit = f" {told['unit']}" if told["unit"] else ""
-    counted = f"{told['completed']} of {told['runs']} runs completed"
-    if told["limit"] is None:
-        return f"{_name(told, scene)}: no limit of {told['setting']} from {low:g} to {high:g}{unit}; {counted}"
-    begin, end = told["interval"]
-    enough = "" if told["reached"] else "; more seeds are needed to know it as well as was asked for"
-    holds = "larger" if told["rising"] else "smaller"
+def _limit_text(found: Mapping[str, Any], scene: str) -> str:
+    low, high = found["range"]
+    unit = f" {found['unit']}" if found["unit"] else ""
+    counted = f"{found['completed']} of {found['runs']} runs completed"
+    if found["limit"] is None:
+        return f"{_name(found, scene)}: no limit of {found['setting']} from {low:g} to {high:g}{unit}; {counted}"
+    begin, end = found["interval"]
+    enough = "" if found["reached"] else "; more seeds are needed to know it as well as was asked for"
+    holds = "larger" if found["rising"] else "smaller"
     odd = ""
-    if told["agreement"] < _ODD:
+    if found["agreement"] < _ODD:
         odd = (
-            f"; no one limit tells these runs (p = {told['agreement']:.0e}): if the seed chooses what it depends on, "
-            "as the side of a push, fix that by --set or --grid"
+            f"; no single limit explains these runs (p = {found['agreement']:.0e}): if the seed chooses what it "
+            "depends on, as the side of a push, fix that by --set or --grid"
         )
     return (
-        f"{_name(told, scene)}: half of the runs are completed at {told['setting']} {told['limit']:.3g}{unit}, "
+        f"{_name(found, scene)}: half of the runs are completed at {found['setting']} {found['limit']:.3g}{unit}, "
         f"95 % interval {begin:.3g} to {end:.3g}{unit}; {holds} values hold; {counted}{enough}{odd}"
     )
 

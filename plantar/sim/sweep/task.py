@@ -60,7 +60,7 @@ class Task:
         robot: Robot to use instead of the scene's, or None.
         settings: "key=value" settings.
         seed: Seed.
-        inputs: What `inputs_of` found for scene and robot when the sweep began; empty where nobody looked.
+        inputs: What `inputs_of` found for scene and robot when the sweep began; empty where it was not asked.
     """
 
     scene: str

@@ -11,7 +11,7 @@ from plantar.sim.sweep.grid import canonical
 
 __all__ = ["ValueRange"]
 
-_STEPS = 1000  # at least so many values are told apart
+_STEPS = 1000  # at least so many values are distinguished
 _END = re.compile(r"\s*(?P<number>[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)\s*(?P<unit>[^\d\s].*)?", re.IGNORECASE)
 
 

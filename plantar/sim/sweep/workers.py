@@ -16,7 +16,7 @@ from plantar.sim.sweep.task import Row, Task, failed, run_task
 __all__ = ["TRIES", "LocalWorkers", "Workers"]
 
 TRIES = 3
-"""How often a run is begun before its row says that its workers died."""
+"""How often a run is begun before its row reports that its workers died."""
 
 _STARTS = 3  # workers in a row that end before they are ready: no other will do better
 
@@ -160,7 +160,7 @@ class _Worker:
             self.connection.send(task)
 
     def end(self) -> str:
-        """Take leave of a process that died, and say how it did."""
+        """Take leave of a process that died, and report how it did."""
         self.connection.close()
         self.process.join(5.0)
         code = self.process.exitcode

@@ -79,3 +79,18 @@ def test_a_leaning_trunk_takes_load_off_the_hips() -> None:
         assert simulation.run()["completed"]
         loads.append(float(np.percentile(torques, 90)))
     assert loads[1] < loads[0] - 4.0
+
+
+def test_triangles_are_compared_and_lines_are_not(h1) -> None:
+    """A sole that a corner of the ground carries stands on three corners."""
+    truth = object.__new__(FootholdTruth)
+    triangle = np.array([[0.0, 0.0], [0.06, 0.0], [0.0, 0.06]])
+    truth._world = SimpleNamespace(robot=h1)
+    truth._only_level, truth._found = True, {}
+    for step, (true, found) in enumerate([(triangle, triangle + [0.03, 0.04]), (triangle[:2], triangle)]):
+        truth._under = lambda side, true=true: true
+        truth.update((SimpleNamespace(side="left", step=step, polygon=found),))
+    told = truth.summary()
+    assert told["centroid_error_m"] == {"median": 0.05, "p95": 0.05}
+    whole = area(h1.layouts["left"].outline)
+    assert told["area_ratio_found"] == told["area_ratio_true"] == [round(0.0018 / whole, 3)]

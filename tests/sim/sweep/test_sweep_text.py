@@ -35,6 +35,6 @@ def test_a_limit_that_no_one_curve_tells_is_doubted():
     told = {"settings": {}, "setting": "impulse", "unit": "N s", "range": [5.0, 60.0], "limit": 37.0, "rising": False}
     told |= {"interval": [34.0, 39.0], "reached": False, "runs": 491, "completed": 250, "errors": []}
     doubted = sweep_text({"limits": [told | {"agreement": 7e-13}], "files": []}, "push")
-    assert "no one limit tells these runs (p = 7e-13)" in doubted
+    assert "no single limit explains these runs (p = 7e-13)" in doubted
     assert "--grid" in doubted
     assert "no one limit" not in sweep_text({"limits": [told | {"agreement": 0.01}], "files": []}, "push")
