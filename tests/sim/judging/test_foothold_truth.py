@@ -1,8 +1,12 @@
 """Scenes on partial footholds, and what was found of them against the ground's true geometry."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from plantar.geometry.polygon import area
+from plantar.sim.judging.foothold_truth import FootholdTruth
 from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
 
