@@ -91,7 +91,7 @@ def test_triangles_are_compared_and_lines_are_not(h1) -> None:
     triangle = np.array([[0.0, 0.0], [0.06, 0.0], [0.0, 0.06]])
     truth._world = SimpleNamespace(robot=h1)
     truth._only_level, truth._found = True, {}
-    for step, (true, found) in enumerate([(triangle, triangle + [0.03, 0.04]), (triangle[:2], triangle)]):
+    for step, (true, found) in enumerate([(triangle, triangle + np.array([0.03, 0.04])), (triangle[:2], triangle)]):
         truth._under = lambda side, true=true: true
         truth.update((SimpleNamespace(side="left", step=step, polygon=found),))
     told = truth.summary()
