@@ -226,7 +226,7 @@ def test_one_analysis(installed, tmp_path):
         load = [100.0 if (time + 0.2 + shift) % 1.0 < 0.6 and time > 0.8 else 0.0 for shift in (0.0, 0.5)]
         lines.append("\t".join([f"{time:.3f}", *[f"{load[0]:.1f}"] * cells, *[f"{load[1]:.1f}"] * cells]))
     (tmp_path / "walk.asc").write_text("\n".join(lines) + "\n")
-    done = run(installed / "plantar", "analyze", "walk.asc", "--json", "-o", "out", cwd=tmp_path)
+    done = run(installed / "plantar", "analyze", "walk.asc", "--json", "--figures", "-o", "out", cwd=tmp_path)
     result = json.loads(done.stdout)
     assert result["frames"] == 7 * rate
     assert result["rate_hz"] == pytest.approx(rate)
