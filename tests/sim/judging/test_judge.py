@@ -1,0 +1,79 @@
+"""What justifies a move of a footstep, and which geoms are ground."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from plantar.sim.judging.judge import Judge, is_ground
+from plantar.sim.judging.plain_ground import PlainGround
+from plantar.sim.judging.step_count import Stand
+from plantar.sim.model.world import build_world
+from plantar.sim.terrain import Ground, Motion, Solid
+
+SOLE = np.array([[-0.1, -0.05], [0.15, -0.05], [0.15, 0.05], [-0.1, 0.05]])
+WAY = (0.2, -0.17, 0.0)
+"""Of a right foot after a left one."""
+
+
+def judge(pushed: tuple[float, ...] = (), *solids: Solid) -> Judge:
+    made = object.__new__(Judge)
+    made.world = SimpleNamespace(body=SimpleNamespace(beat=0.25))  # type: ignore[assignment]
+    made.ground = PlainGround(Ground(solids, 0.0, 0.8), {"left": SOLE, "right": SOLE}, 0.1)
+    made._pushed = list(pushed)
+    return made
+
+
+def justified(made: Judge, before: tuple[float, float, float] = (1.0, 0.085, 0.0), time: float = 10.0) -> bool:
+    return made._justified(Stand("right", time, (0.0, 0.0, 0.0)), WAY, before)
+
+
+def test_nothing_justifies_a_move_on_plain_ground() -> None:
+    assert not justified(judge())
+    made = judge()
+    made.ground = None
+    assert not justified(made)
+
+
+@pytest.mark.parametrize(
+    ("time", "counts"), [(9.9, True), (10.0, True), (6.3, True), (6.2, False), (10.01, False), (0.0, False)]
+)
+def test_a_push_justifies_it_within_three_steps_and_not_afterwards(time: float, counts: bool) -> None:
+    assert justified(judge((time,))) == counts
+    assert justified(judge((0.0, time, 20.0))) == counts
+
+
+def block(x: float, y: float) -> Solid:
+    return Solid("box", (0.03, 0.03, 0.02), np.array([x, y, 0.02]))
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "counts"),
+    [(1.2, -0.085, True), (1.45, -0.085, True), (1.55, -0.085, False), (1.0, 0.085, True), (0.6, 0.085, False)],
+    ids=["under it", "before its toe", "further ahead", "under the foot before", "behind that one"],
+)
+def test_ground_justifies_it_where_it_was_planned_or_where_the_foot_before_stands(
+    x: float, y: float, counts: bool
+) -> None:
+    assert justified(judge((), block(x, y))) == counts
+
+
+def test_the_planned_place_is_seen_from_the_foot_before_as_it_truly_stands() -> None:
+    turned = (1.0, 0.085, np.pi / 2.0)  # the way leads to (1.17, 0.285) then
+    assert justified(judge((), block(1.17, 0.285)), turned)
+    assert not justified(judge((), block(1.2, -0.3)), turned)
+
+
+def test_the_floor_and_what_moves_of_the_ground_are_ground_and_the_robot_is_not(h1: Any) -> None:
+    moving = Solid("box", (0.1, 0.1, 0.02), np.array([3.0, 0.0, 0.02]), motions=(Motion(1.0, 1.0, np.ones(3)),))
+    world = build_world(h1, Ground((block(2.0, 0.0), moving), 0.0, 0.8))
+    model, mask = world.model, is_ground(world)
+    root = model.body_rootid[world.torso]
+    of_robot = model.body_rootid[model.geom_bodyid] == root
+    assert of_robot.sum() > 4
+    assert (mask == ~of_robot).all()
+    for side in ("left", "right"):
+        assert not mask[list(world.sole_geoms[side])].any()
