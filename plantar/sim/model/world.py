@@ -156,7 +156,7 @@ class World:
         gyro: Address of the gyro in sensordata.
         accelerometer: Address of the accelerometer in sensordata.
         ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
-        touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
+        touch: Address in sensordata of the normal force on each sole, of whatever presses on it; for benches.
         leg_contact: Address in sensordata of whether one leg touches the other: above 0; likewise.
         body: How large the robot is, by its file.
         period: Time step of the physics in s.

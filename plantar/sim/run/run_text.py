@@ -111,6 +111,12 @@ def _body(summary: Summary) -> list[str]:
     if summary["impacts_N"]:
         impacts = sorted(summary["impacts_N"])
         lines.append(f"  landing impact: median {impacts[len(impacts) // 2]:.0f} N, largest {impacts[-1]:.0f} N")
+    drift = summary["drift"]
+    if drift is not None:
+        lines.append(
+            f"  from foothold to foothold the walk drifted by {1e3 * drift['position_m']:.0f} mm and "
+            f"{drift['heading_deg']:.1f} deg on {drift['way_m']:.1f} m"
+        )
     final = summary["final"]
     lines.append(
         f"  at the end {1e3 * final['position_error_m']:.1f} mm and {final['heading_error_deg']:.2f} deg off the plan, "

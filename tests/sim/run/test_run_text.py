@@ -29,6 +29,7 @@ def test_what_went_wrong_is_told(summary: dict[str, Any]) -> None:
         "fell": True,
         "reasons": [{"criterion": "torque_limit", "value": 1, "limit": 0, "text": "too weak"}],
         "zmp_margin_min_m": None,
+        "drift": None,
         "impacts_N": [],
         "torque_limit": {"share_of_time": 0.1, "joints": {f"j{k}": 0.01 * k for k in range(5)}},
         "joint_speed": None,
@@ -36,6 +37,8 @@ def test_what_went_wrong_is_told(summary: dict[str, Any]) -> None:
         "figures": ["plots/feet.png"],
     }
     text = run_text(bad)
+    assert "drifted" not in text
+    assert "the walk drifted by" in run_text(summary)
     for words in (
         "FELL",
         "not completed, torque limit: too weak",
