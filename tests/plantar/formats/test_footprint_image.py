@@ -25,7 +25,9 @@ def canvas(feet: int = 1, background: int = 255) -> np.ndarray:
     return np.full((640, 320 * feet, 3), background, dtype=np.uint8)
 
 
-def draw_foot(image: np.ndarray, middle: float, side: str, colour: tuple[int, int, int], toes: bool = True) -> None:
+def draw_foot(
+    image: np.ndarray, middle: float, side: str, colour: tuple[int, int, int], toes: bool = True, arch: bool = False
+) -> None:
     """A foot of 240 mm, toes up: heel, lateral midfoot, ball, and toes apart from it."""
     medial = 1.0 if side == "left" else -1.0  # in the image to the right of a left foot
 
@@ -35,7 +37,8 @@ def draw_foot(image: np.ndarray, middle: float, side: str, colour: tuple[int, in
 
     disc(35, 0, 35, 26)
     x0, x1 = sorted((middle - medial * 32 / MM, middle - medial * 2 / MM))
-    cv2.rectangle(image, (round(x0), round(600 - 160 / MM)), (round(x1), round(600 - 30 / MM)), colour, -1)
+    if not arch:
+        cv2.rectangle(image, (round(x0), round(600 - 160 / MM)), (round(x1), round(600 - 30 / MM)), colour, -1)
     disc(155, 0, 38, 45)
     if toes:
         disc(222, 24, 18, 12)
@@ -46,6 +49,17 @@ def draw_foot(image: np.ndarray, middle: float, side: str, colour: tuple[int, in
 def save(path: Path, image: np.ndarray) -> Path:
     assert cv2.imwrite(str(path), image)
     return path
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_foot_without_a_midfoot_is_one_foot(tmp_path: Path, side: str) -> None:
+    image = canvas()
+    draw_foot(image, 160, side, (60, 60, 160), arch=True)
+    result = analyse_recording(save(tmp_path / "print.png", image), tmp_path / "out", mm_per_pixel=MM)
+    (name,) = result["feet"]
+    assert name == side
+    assert result["feet"][name]["footprint"]["length_m"] == pytest.approx(0.24, abs=0.003)
+    assert result["feet"][name]["footprint"]["arch_index"] < 0.1  # the ball alone reaches into the middle third
 
 
 @pytest.mark.parametrize("suffix", ["png", "jpg", "tif", "bmp"])

@@ -1,0 +1,45 @@
+"""What holds of any walk, over made ones of feet and of a robot's soles."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.spread import spread
+from plantar.gait.analysis.study.statistics import student_quantile
+
+from .walks import made_walk
+
+
+@pytest.mark.parametrize("kind", ["insole", "robot"])
+@pytest.mark.parametrize("noise", [0.0, 0.3])
+def test_physical_bounds(kind: str, noise: float) -> None:
+    recording = replace(made_walk(strides=4, rate=50.0, noise=noise).recording, kind=kind)  # type: ignore[arg-type]
+    steps = [step for gait in analyse_feet(recording).values() for step in gait.steps]
+    assert len(steps) == 8
+    for step in steps:
+        both = step["double_support_percent"] + step["single_support_percent"]
+        if np.isfinite(both):
+            assert both == pytest.approx(step["stance_percent"])
+            assert step["stance_percent"] + step["swing_percent"] == pytest.approx(100.0)
+        area = step["footprint_area_m2"]
+        assert step["force_time_integral_area_Pas"] * area == pytest.approx(step["impulse_Ns"])
+        assert step["mean_force_N"] * step["contact_time_s"] == pytest.approx(step["impulse_Ns"])
+        assert 0.0 < step["mean_pressure_Pa"] <= step["mean_pressure_max_Pa"] <= step["peak_pressure_Pa"]
+        assert step["pressure_time_integral_cell_Pas"] <= step["pressure_time_integral_Pas"]
+        if kind == "robot":
+            assert 0.0 <= step["cop_margin_polygon_m"] <= step["cop_margin_polygon_mean_m"]
+
+
+def test_angles_have_a_circular_mean() -> None:
+    found = spread([175.0, -175.0, 179.0, -179.0], circular=True)
+    assert abs(abs(found.mean or 0.0) - 180.0) < 1e-6
+    assert (found.sd or 0.0) < 6.0
+
+
+@pytest.mark.parametrize(("freedom", "true"), [(1.0, 12.706204736), (2.0, 4.30265272991), (3.0, 3.18244630528)])
+def test_students_quantile_of_small_samples(freedom: float, true: float) -> None:
+    assert student_quantile(0.975, freedom) == pytest.approx(true, rel=1e-9)
