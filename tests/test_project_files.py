@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 import sys
@@ -62,3 +63,33 @@ def test_the_citation_names_this_version_and_licence() -> None:
 def test_the_licences_of_all_dependencies_are_told() -> None:
     done = subprocess.run([sys.executable, "tools/licences.py", "--check"], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("workflow", WORKFLOWS, ids=lambda w: w.stem)
+def test_actions_are_pinned_by_their_hash_and_say_their_version(workflow: Path) -> None:
+    used = re.findall(r"uses: (.*)", workflow.read_text(encoding="utf-8"))
+    assert used
+    assert [line for line in used if not re.fullmatch(r"[\w./-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", line)] == []
+
+
+def test_the_bill_of_materials_names_all_that_is_pinned(tmp_path: Path) -> None:
+    subprocess.run([sys.executable, "tools/sbom.py", str(tmp_path / "a.json")], cwd=ROOT, check=True)
+    bill = json.loads((tmp_path / "a.json").read_text())
+    names = {component["name"].lower() for component in bill["components"]}
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    lines = [*project["dependencies"], *(x for e in project["optional-dependencies"].values() for x in e)]
+    direct = {re.split(r"[\[<>=~! ]", line)[0].lower() for line in lines}
+    assert direct - {"plantar"} <= names
+    assert all(component["licenses"][0]["license"] for component in bill["components"])
+
+
+def test_no_declared_floor_has_a_published_vulnerability() -> None:
+    # CVE-2026-23528 (distributed), CVE-2025-66034 (fonttools), CVE-2025-47273 (setuptools): fixed from these on.
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    text = " ".join(
+        [*project["build-system"]["requires"], *map(str, project["project"]["optional-dependencies"].values())]
+    )
+    for name, fixed in (("distributed", (2026, 1, 1)), ("fonttools", (4, 60, 2)), ("setuptools", (78, 1, 1))):
+        floors = re.findall(rf"{name}>=([\d.]+)", text)
+        assert floors
+        assert all(tuple(map(int, floor.split("."))) >= fixed for floor in floors)

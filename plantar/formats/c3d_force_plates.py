@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FormatError
-from plantar.files.confined import confined
+from plantar.files.gate import read_apart
 from plantar.files.input_file import check_input, open_input
 from plantar.formats.force_plates import Plate, feet_of_plates
 from plantar.formats.format import Format, ReadOptions
@@ -27,8 +27,6 @@ from plantar.sides import SIDES, Side
 __all__ = ["FORMAT"]
 
 _LARGEST, _HEAD = 256e6, 1 << 16  # bytes
-_MEMORY, _MEMORY_A_BYTE = 250e6, 64.0  # ezc3d takes 48 times the file
-_SECONDS, _SECONDS_A_BYTE = 10.0, 3e-6
 _TILT = 0.97
 """Least cosine of the angle between a plate's normal and the laboratory's vertical: 14 degrees, a ramp."""
 _TO_Z_UP = {0: [1, 2, 0], 1: [2, 0, 1], 2: [0, 1, 2]}
@@ -51,13 +49,12 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     """
     if find_spec("ezc3d") is None:
         raise DependencyError("ezc3d", "formats")
-    size = check_input(path, FormatError, _LARGEST)
+    check_input(path, FormatError, _LARGEST)
     with open_input(path, FormatError) as stream:
         head = stream.read(_HEAD)
     if len(head) < 512 or head[1] != 0x50:
         raise FormatError(f"{path}: not a C3D file that can be read (no C3D header)")
-    limits = {"memory": _MEMORY + _MEMORY_A_BYTE * size, "seconds": _SECONDS + _SECONDS_A_BYTE * size}
-    held = confined("plantar.formats.c3d_content:content_of_file", path, FormatError, "a C3D file", **limits)
+    held = read_apart("c3d", path, FormatError)
     rate = options.rate_hz or float(held["rate"])
     count = int(held["plates"])
     if count == 0:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError, InputError
-from plantar.files.confined import confined
+from plantar.files.gate import read_apart
 from plantar.files.image_size import stated_size
 from plantar.files.input_file import read_input
 from plantar.formats.format import Format
@@ -26,7 +26,6 @@ _MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"II*\0", b"MM\0*", b"BM")
 _LARGEST = 250e6
 """Most bytes of a file, and of an image once it is decoded: 83 million pixels in colour."""
 _IMAGE = "not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)"
-_LIMITS = {"memory": 1.5e9, "seconds": 20.0}
 _SCAN, _MOST_SCANNED = b"\xff\xda", 2e9
 """What begins each scan of a JPEG, and how many pixels all of them may go over."""
 _WORKING = 1600
@@ -109,7 +108,7 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
 def _decoded(path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
     """The image as BGR over white, upright whatever its bit depth, and how much it was reduced by."""
     _refuse_large(path, data)
-    held = confined("plantar.formats.footprint_image:decoded_image", path, FormatError, "an image", **_LIMITS)
+    held = read_apart("image", path, FormatError)
     image = np.asarray(held["image"])
     if image.ndim != 3 or min(image.shape[:2]) < 16:
         raise FormatError(f"{path}: {_IMAGE}")

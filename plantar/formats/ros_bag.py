@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FormatError
-from plantar.files.confined import confined
+from plantar.files.gate import read_apart
 from plantar.files.input_file import check_input, is_file
 from plantar.files.structured_text import JSON_MOST
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
@@ -34,8 +34,6 @@ _LEAST_CELLS, _MOST_CELLS = 3, 20_000
 """Numbers in an array that may be a sole: a picture has more."""
 _DEPTH = 3
 _FOLDERS = "metadata.yaml"
-_MEMORY, _MEMORY_A_BYTE = 300e6, 30.0
-_SECONDS, _SECONDS_A_BYTE = 10.0, 2e-6
 
 
 def _recognises(head: bytes) -> bool:
@@ -60,9 +58,7 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
         raise FormatError(f"{path}: cannot be read (a folder that is no ROS 2 bag)")
     if find_spec("rosbags") is None:
         raise DependencyError("rosbags", "formats")
-    size = _size(path)
-    limits = {"memory": _MEMORY + _MEMORY_A_BYTE * size, "seconds": _SECONDS + _SECONDS_A_BYTE * size}
-    held = confined("plantar.formats.ros_bag:series_of_bag", path, FormatError, "a ROS bag", **limits)
+    held = read_apart("bag", path, FormatError, _size(path))
     series = {name: (held[f"{name}:times"], held[f"{name}:values"]) for name in held["names"].tolist()}
     if not series:
         raise FormatError(

@@ -1,7 +1,7 @@
 """Triangle meshes from files: STL, OBJ and 3MF read here, PLY, OFF and DAE through trimesh, STEP and IGES through
 OpenCascade.
 
-The libraries are called in a process of its own whose memory and time have limits (`plantar.files.confined`).
+The libraries are called in a process of its own whose memory and time have limits (`plantar.files.gate`).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FootError
-from plantar.files.confined import confined
+from plantar.files.gate import read_apart
 from plantar.files.input_file import check_input, read_input
 from plantar.shoes.foot.obj_file import triangles_of_obj
 from plantar.shoes.foot.package_3mf import triangles_of_3mf
@@ -34,9 +34,6 @@ MOST_TRIANGLES = 1_200_000
 
 _LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
 # Library, function, and how much memory in bytes and time in s it may take: at least, and for each byte of the file.
-_BY_TRIMESH = ("trimesh", "plantar.shoes.foot.trimesh_file:triangles_of_trimesh", (330e6, 20.0), (2.5, 2.5e-7))
-_BY_PYCOLLADA = ("collada", "plantar.shoes.foot.trimesh_file:triangles_of_trimesh", (330e6, 20.0), (30.0, 2e-6))
-_BY_OPENCASCADE = ("OCP", "plantar.shoes.foot.step_file:triangles_of_step", (330e6, 30.0), (3.0, 1e-6))
 
 
 def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit | None]:
@@ -88,13 +85,13 @@ def _read(file: Path, kind: str) -> tuple[NDArray[np.float64], Unit | None]:
     if kind in (".step", ".stp"):
         return _read_step(file), "mm"
     if kind in (".iges", ".igs"):
-        return _read_confined(file, ".iges", *_BY_OPENCASCADE), "mm"
+        return _read_apart(file, "iges", "OCP"), "mm"
     if kind == ".dae":
-        return _read_confined(file, kind, *_BY_PYCOLLADA), "m"
+        return _read_apart(file, "dae", "collada"), "m"
     if kind == ".off":
         _check_off(file)
     if kind in (".ply", ".off"):
-        return _read_confined(file, kind, *_BY_TRIMESH), None
+        return _read_apart(file, kind[1:], "trimesh"), None
     read = triangles_of_stl if kind == ".stl" else triangles_of_obj
     return read(read_input(file, FootError, _LARGEST), MOST_TRIANGLES, str(file)), None
 
@@ -114,19 +111,10 @@ def _read_step(file: Path) -> NDArray[np.float64]:
     if b"ISO-10303-21" not in data[:200]:
         raise FootError(f"{file}: not a readable STEP file: it does not start with ISO-10303-21")
     del data
-    return _read_confined(file, ".step", *_BY_OPENCASCADE)
+    return _read_apart(file, "step", "OCP")
 
 
-def _read_confined(
-    file: Path,
-    kind: str,
-    library: str,
-    function: str,
-    memory: tuple[float, float],
-    seconds: tuple[float, float],
-) -> NDArray[np.float64]:
+def _read_apart(file: Path, kind: str, library: str) -> NDArray[np.float64]:
     if find_spec(library) is None:
         raise DependencyError(library, "shoes")
-    what, size = f"a {kind[1:].upper()} mesh", file.stat().st_size
-    limits = [least + each * size for least, each in (memory, seconds)]
-    return np.asarray(confined(function, file, FootError, what, *limits)["triangles"], dtype=np.float64)
+    return np.asarray(read_apart(kind, file, FootError)["triangles"], dtype=np.float64)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FootError, InputError
-from plantar.files.confined import confined
+from plantar.files.gate import read_apart
 from plantar.files.input_file import check_input
 from plantar.files.structured_text import read_json
 from plantar.shoes.foot.foot import Foot, foot_from_outline
@@ -29,8 +29,6 @@ OUTLINE_FORMATS: tuple[str, ...] = (".dxf", ".svg", ".geojson", ".json")
 """File endings of drawings that are read."""
 
 _LARGEST, _LARGEST_DXF = 10e6, 4e6  # bytes
-_MEMORY, _SECONDS = 300e6, 3.0  # of the process that reads a DXF; loading ezdxf takes one of them
-_MEMORY_PER_BYTE, _SECONDS_PER_BYTE = 20.0, 0.25e-6
 _FARTHEST = 1e9  # in the drawing's unit
 _MEETINGS = 50  # segments that one meets, on average
 _BLOCK = 200  # segments
@@ -203,15 +201,8 @@ def _read_dxf(file: Path) -> tuple[Lines, Unit | None, float]:
     """Lines of a DXF's model space."""
     if find_spec("ezdxf") is None:
         raise DependencyError("ezdxf", "shoes")
-    size = check_input(file, FootError, _LARGEST_DXF)
-    held = confined(
-        "plantar.shoes.foot.dxf_file:lines_of_dxf",
-        file,
-        FootError,
-        "a DXF drawing",
-        memory=_MEMORY + _MEMORY_PER_BYTE * size,
-        seconds=_SECONDS + _SECONDS_PER_BYTE * size,
-    )
+    check_input(file, FootError, _LARGEST_DXF)
+    held = read_apart("dxf", file, FootError)
     lines = np.split(held["points"], np.cumsum(held["counts"])[:-1])
     return list(lines), *_DXF_UNITS.get(int(held["unit"]), (None, 1.0))
 
