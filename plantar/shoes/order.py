@@ -61,7 +61,7 @@ class ShoeOrder:
     )
     cell: str | None = _option(
         None,
-        "Other cells: hex, square, fsr_402, sheet, or a TOML file of the cell's body (docs/shoes.md). "
+        "Other cells: hex, square, fsr_402, fsr_402_long, sheet, or a TOML file of the cell's body (docs/shoes.md). "
         "Default: hexagons of --cell-area.",
         metavar="CELL",
     )

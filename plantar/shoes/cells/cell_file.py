@@ -20,7 +20,7 @@ def built_in_cells() -> dict[str, Path]:
 
     Example:
         >>> sorted(built_in_cells())
-        ['fsr_402', 'hex', 'sheet', 'square']
+        ['fsr_402', 'fsr_402_long', 'hex', 'sheet', 'square']
     """
     return {path.stem: path for path in packaged_files("plantar.shoes", "cells/*.toml")}
 

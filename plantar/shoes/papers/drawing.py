@@ -45,7 +45,7 @@ def draw_shoe(
     tall = high[2] + 10.0  # of a section, in mm
     heights = [width, tall, tall * length / width]
     scale = 9.3 / length
-    figure, (top, along, across) = new_figure(10.5, scale * sum(heights) + 2.6, rows=3, height_ratios=heights)
+    figure, (top, along, across) = new_figure(10.5, scale * sum(heights) + 4.0, rows=3, height_ratios=heights)
     _plan(top, shoe, build, low, high)
     cut_y, cut_x = _cuts(shoe, build)
     _section(along, shoe, build, triangles, 1, cut_y, "A-A")
@@ -61,7 +61,39 @@ def draw_shoe(
         f"{100 * build.fit.covered_area_ratio:.0f} % of the sole covered   |   mm",
         fontsize=10,
     )
+    style: dict[str, Any] = {"x": 0.01, "ha": "left", "fontsize": 6.5, "family": "monospace"}
+    figure.supxlabel("\n".join(_notes(shoe, build, 1.0)), **style)
+    figure.draw_without_rendering()  # lays the axes out, which gives the scale
+    ends = top.transData.transform([(0.0, 0.0), (1.0, 0.0)])
+    figure.supxlabel("\n".join(_notes(shoe, build, 25.4 * (ends[1, 0] - ends[0, 0]) / figure.dpi)), **style)
     return [save_figure(figure, path) for path in paths]
+
+
+def _notes(shoe: Shoe, build: ShoeBuild, scale: float) -> list[str]:
+    """The title block: scale, datums, tolerances, and what is measured on the first print."""
+    p, made = build.parameters, build.parameters.made_by
+    flat = 2.0 * made.scatter
+    title = f"Plantar   {shoe.layout.name} {build.kind} {shoe.side}   {p.material}, {made.name}"
+    lines = [
+        f"{title}   view from above 1:{1.0 / scale:.2f}   third angle   not built: no one has printed it yet",
+        f"Datums: D the printed lower face, z = {p.bottom:g}; E, F the planes y = 0 and x = 0 through the origin",
+        "General tolerances ISO 2768-m. To D E F: position of pockets, ports, lugs 0.3, profile of the inner wall 0.3. "
+        f"Flatness of D {flat:g}",
+        "Inspect | nominal | tolerance",
+        f"pocket depth from D | {p.pocket_depth:g} | +{flat:g} 0",
+        f"floor over the pockets | {p.floor:g} | +-{flat:g}",
+        f"ribs | {p.rib:g} | +-{made.press:g}",
+    ]
+    if build.kind == "shoe":
+        lines.append(f"wall thickness and height | {p.rim_thickness:g}, {p.rim_height:g} | +-0.3")
+        lines.append(f"gap between foot and wall | {p.clearance:g} | +-0.3")
+    if shoe.plan.heel.board:
+        wide, thick = p.board_length + 2.0 * made.slide, p.board_thickness + 2.0 * made.slide
+        lines.append(f"slot of the board, length x width | {wide:g} x {thick:g} | +{made.slide:g} 0")
+    if build.retention is not None and build.retention.kind == "straps":
+        slot = f"{build.retention.width + 2:g} x {p.strap_thickness + 2:g}"
+        lines.append(f"slots of the lugs, length x height | {slot} | +-0.5")
+    return lines
 
 
 def _cuts(shoe: Shoe, build: ShoeBuild) -> tuple[float, float]:
@@ -150,9 +182,10 @@ def _section(
             ends = (part.bounds[across], part.bounds[across + 2])
             heights = (p.pad_thickness, p.pad_thickness + p.pad_rim_height)
             axes.fill_between(ends, *heights, facecolor=COLOURS["reference"], alpha=0.6, lw=0)
-    foot = shoe.plan.foot.intersection(line).bounds
     top = min(p.rim_top + 14.0 if build.kind == "shoe" else 2.0 * p.thickness, p.thickness + build.foot.height)
-    axes.fill_between((foot[across], foot[across + 2]), p.thickness, top, facecolor=COLOURS["truth"], alpha=0.06, lw=0)
+    for part in shapely.get_parts(_foot_section(shoe, build, axis, at, top)):
+        if part.geom_type == "Polygon":
+            axes.fill(*ring(part).T, facecolor=COLOURS["truth"], alpha=0.08, lw=0)
     for part in getattr(cut, "geoms", [cut]):
         shape = shapely.geometry.polygon.orient(part)
         rings = [np.array(shape.exterior.coords), *(np.array(h.coords) for h in shape.interiors)]
@@ -181,6 +214,23 @@ def _section(
         ylabel="z",
     )
     axes.set_aspect("equal")
+
+
+def _foot_section(shoe: Shoe, build: ShoeBuild, axis: int, at: float, top: float) -> Any:
+    """The foot in the shoe, cut where the shoe is; upright sides where only its outline is known."""
+    import shapely
+
+    floor, triangles = build.parameters.thickness, build.foot.triangles
+    low, high = shoe.plan.foot.bounds[1 - axis], shoe.plan.foot.bounds[3 - axis]
+    room = shapely.box(low - 50.0, floor, high + 50.0, top)
+    if triangles is not None:
+        turned = triangles if shoe.side == "left" else (triangles * np.array([1.0, -1.0, 1.0]))[:, ::-1]
+        cut = section_along(turned + np.array([0.0, 0.0, floor]), axis, at)
+        if not cut.is_empty:  # of an open surface there is no section
+            return cut.intersection(room)
+    line = shapely.LineString([(at, -1e4), (at, 1e4)] if axis == 0 else [(-1e4, at), (1e4, at)])
+    ends = shoe.plan.foot.intersection(line).bounds
+    return shapely.box(ends[1 - axis], floor, ends[3 - axis], top) if len(ends) == 4 else shapely.Polygon()
 
 
 def _closed(points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -201,7 +201,7 @@ def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[n
     names = [f"{build.kind}_{side}.stl", f"{build.kind}_{side}.step", f"{build.kind}_{side}.3mf"]
     try:
         write_stl(shoe.surface, target / names[0])
-        write_step(shoe.solid, str(target / names[1]))
+        write_step(shoe.solid, str(target / names[1]), f"{shoe.layout.name} {build.kind} {side}")
         write_3mf(shoe.surface, f"{shoe.layout.name} {side}", target / names[2])
         if p.pad_thickness > 0.0:
             names += [f"pad_{side}.stl", f"mould_{side}.stl"]

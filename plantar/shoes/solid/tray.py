@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
+from datetime import UTC, datetime
 from itertools import pairwise
 from typing import Any
 
@@ -108,12 +110,16 @@ def surface_of(solid: Any) -> NDArray[np.float64]:
     return np.asarray(points[np.array(faces, dtype=np.int64)])
 
 
-def write_step(solid: Any, path: str) -> None:
-    """Write a solid as STEP (mm); its header is fixed, so that the same solid gives the same file.
+def write_step(solid: Any, path: str, name: str = "shoe") -> None:
+    """Write a solid as STEP (mm), named as a product; the same solid gives the same file.
 
     Args:
         solid: Solid in mm.
         path: File to write.
+        name: Name of the product, as CAD shows it.
+
+    The date in its header is that of the environment's SOURCE_DATE_EPOCH, or else the first of the year of Plantar's
+    release: a date of writing would make two files of one solid differ.
     """
     import re
     from pathlib import Path
@@ -121,9 +127,18 @@ def write_step(solid: Any, path: str) -> None:
     cq = load_cadquery()
     cq.exporters.export(cq.Workplane(obj=solid), path, exportType="STEP")
     text = Path(path).read_text(encoding="utf-8")
-    text = re.sub(r"(FILE_NAME\('[^']*',)'[^']*'", r"\1'2000-01-01T00:00:00'", text, count=1)
+    plain = "".join(c if c.isascii() and (c.isalnum() or c in " -_.") else " " for c in name)
+    text = re.sub(r"FILE_NAME\('[^']*','[^']*'", f"FILE_NAME('{plain}','{_date()}'", text, count=1)
+    text = re.sub(r"PRODUCT\('[^']*',\s*'[^']*'", f"PRODUCT('{plain}','{plain}'", text)
     text = re.sub(r"(STEP translator \d+\.\d+) \d+", r"\1", text)  # counts the exports of the process
     Path(path).write_text(text, encoding="utf-8")
+
+
+def _date() -> str:
+    """Date and time of what is written, the same for the same release."""
+    seconds = os.environ.get("SOURCE_DATE_EPOCH", "")
+    when = datetime.fromtimestamp(int(seconds), UTC) if seconds.isdigit() else datetime(2026, 1, 1, tzinfo=UTC)
+    return when.strftime("%Y-%m-%dT%H:%M:%S")
 
 
 def read_step(path: str) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -58,14 +59,20 @@ def test_the_surface_is_closed_and_points_outwards(exported: tuple[ShoeReport, P
     np.testing.assert_allclose(np.cross(b - a, c - a).sum(axis=0), 0.0, atol=1e-4)
 
 
-def test_step_reads_back_and_has_no_date(exported: tuple[ShoeReport, Path], tmp_path: Path) -> None:
+def test_step_reads_back_with_a_name_and_a_date_that_does_not_change(
+    exported: tuple[ShoeReport, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     solid = exported[0].build.shoes[0].solid
-    write_step(solid, str(tmp_path / "a.step"))
-    write_step(solid, str(tmp_path / "b.step"))
+    for name in ("a", "b"):
+        write_step(solid, str(tmp_path / f"{name}.step"), "my foot's shoe")
     text = (tmp_path / "a.step").read_text()
-    assert "2000-01-01T00:00:00" in text[:1000]
+    assert "FILE_NAME('my foot s shoe','2026-01-01T00:00:00'" in text
+    assert len(re.findall(r"PRODUCT\('my foot s shoe',\s*'my foot s shoe'", text)) == 1
     assert text == (tmp_path / "b.step").read_text()
     assert read_step(str(tmp_path / "a.step")).Volume() == pytest.approx(solid.Volume(), rel=1e-9)  # type: ignore[union-attr]
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1767225661")
+    write_step(solid, str(tmp_path / "a.step"))
+    assert "'2026-01-01T00:01:01'" in (tmp_path / "a.step").read_text()[:1000]
 
 
 def test_the_sides_mirror_each_other_but_for_the_mark(small_foot: Foot) -> None:
