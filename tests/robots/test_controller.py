@@ -1,0 +1,83 @@
+"""A robot's controller without a simulator: its stance, the joint targets of a robot at rest, and what it refuses."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import plantar
+from plantar.errors import RobotError, SceneError
+from plantar.gait.command import Sensors
+from plantar.robots.controller import RobotController, load_controller
+from plantar.sides import SIDES
+
+
+@pytest.fixture(scope="module")
+def walker() -> RobotController:
+    return load_controller("h1", {"walk": {"steps": 2}})
+
+
+def resting(walker: RobotController, time: float) -> Sensors:
+    """Sensors of the robot at rest in its stance, half of its weight on each sole."""
+    readings = {}
+    for side in SIDES:
+        layout = walker.robot.layouts[side]
+        readings[side] = plantar.Reading(time, np.full(len(layout), 0.5 * 9.81 * walker.legs.mass / len(layout)))
+    return Sensors(time, walker.stance.angles, np.zeros(3), np.array([0.0, 0.0, 9.81]), readings)
+
+
+def test_no_simulator_is_loaded() -> None:
+    code = "import sys, plantar; plantar.load_controller('h1'); print([m for m in sys.modules if 'plantar.sim' in m])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+def test_the_stance_is_the_planned_one(robot: str) -> None:
+    walker = load_controller(robot, {"walk": {"steps": 2}})
+    posture = walker.legs.posture(walker.stance.angles)
+    for side in SIDES:
+        place = walker.base_position + posture.positions[side]
+        half = (0.5 if side == "left" else -0.5) * walker.robot.stance_width
+        assert place == pytest.approx([0.0, half, 0.0], abs=1e-6)
+    assert (walker.base_position + posture.com)[2] == pytest.approx(walker.robot.com_height, abs=1e-6)
+
+
+def test_joint_targets_of_a_robot_at_rest_are_its_stance(walker: RobotController) -> None:
+    command = walker.step(resting(walker, 0.0))
+    targets = walker.joint_targets(command)
+    assert targets.angles == pytest.approx(walker.stance.angles, abs=2e-3)
+    weight = 9.81 * walker.legs.mass
+    assert sum(foot.force[2] for foot in command.feet.values()) == pytest.approx(weight, rel=0.02)
+    assert np.abs(targets.torques - walker.stance.torques).max() < 0.02 * weight
+
+
+def test_targets_are_the_callers_own(walker: RobotController) -> None:
+    command = walker.step(resting(walker, 0.005))
+    first = walker.joint_targets(command)
+    kept = first.angles.copy()
+    walker.joint_targets(walker.step(resting(walker, 0.01)))
+    assert np.array_equal(first.angles, kept)
+
+
+@pytest.mark.parametrize(
+    ("tables", "words"),
+    [
+        ({"walks": {}}, "walk"),
+        ({"walk": {"step": 2}}, "steps"),
+        ({"estimator": {"gravity": -1}}, "gravity"),
+        ({"walk": {"pattern": "box", "steps": 5}}, "whole rounds of 6"),
+        ({"conformity": {}, "control": {"conform": True}}, "pfc = true"),
+    ],
+)
+def test_a_wrong_table_is_named(tables: dict[str, dict[str, object]], words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        load_controller("h1", tables)
+
+
+def test_an_unknown_robot_is_named() -> None:
+    with pytest.raises(RobotError, match="h1"):
+        load_controller("h2")
