@@ -14,6 +14,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from plantar.errors import SceneError
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.controller import Command, Sensors, Start, WalkingController
 from plantar.gait.plan.walk_plan import vrp_of_step
@@ -168,7 +169,10 @@ class Simulation:
     def start_walk(self) -> Start:
         """Where the feet are at the start, and what is planned and commanded."""
         scene, height = self.scene, com_height_of(self.scene.walk, self.scene.control, self.robot)
-        return start_of_walk(scene.walk, self.robot, height, scene.terrain.height, self.velocities)
+        try:
+            return start_of_walk(scene.walk, self.robot, height, scene.terrain.height, self.velocities)
+        except SceneError as error:
+            raise SceneError(f"scene '{scene.name}': {error}") from None
 
     @property
     def end(self) -> float:

@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.sides import SIDES
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
@@ -24,7 +25,8 @@ def loads(run: Simulation) -> tuple[dict[str, float], dict[str, np.ndarray]]:
                 total, place = total + up, place + up * data.contact.pos[k, :2]
         foot = run.legs.model.site(run.robot.legs[side].sole_site).name
         site = model.site(foot).id
-        middle = data.site_xpos[site] + data.site_xmat[site].reshape(3, 3)[:, :2] @ run._centers[side]
+        center = middle_of_sole(run.robot.layouts[side], run.robot.ankle_reach)
+        middle = data.site_xpos[site] + data.site_xmat[site].reshape(3, 3)[:, :2] @ center
         forces[side], off[side] = total, place / total - middle[:2]
     return forces, off
 
