@@ -122,6 +122,7 @@ def _left_alone(tree: ast.AST) -> Iterator[ast.AST]:
             roots = [node.annotation]
         elif isinstance(node, ast.Module | ast.ClassDef):
             roots = [line.value for line in node.body if isinstance(line, ast.Assign | ast.AnnAssign)]
+            roots += node.keywords if isinstance(node, ast.ClassDef) else []
         elif isinstance(node, ast.Expr | ast.If | ast.Assign) and _is_no_logic(node):
             roots = [node]
         for root in roots:
