@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.formats.column_names import heading_of
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.number_rows import number_rows
 from plantar.formats.side_column import is_side_column, with_numbers
@@ -42,7 +43,12 @@ def _recognises(head: bytes) -> bool:
         return False
     lines = [x for x in text.splitlines() if x.strip()]
     found = head_of_table(lines[:-1] if len(lines) > 3 else lines)
-    return found is not None and (found.width >= _FEWEST or bool(found.names))
+    if found is None or not (found.width >= _FEWEST or found.names):
+        return False
+    above = sum(not x.startswith("#") for x in lines[: found.first])
+    if above > 1:  # below other text a table needs names of loads: numbers alone may be of any maker's format
+        return any(heading_of(n).quantity not in ("number", "unknown", "foreign") for n in found.names)
+    return True
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
