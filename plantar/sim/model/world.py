@@ -34,9 +34,8 @@ __all__ = [
 PHYSICS_PERIOD = 0.001
 """Time step of the physics in s, where a scene does not say."""
 
-_CONTACT_STEPS = (
-    5  # physics steps that a contact takes to bring penetration to rest: solref of `plantar.sim.contact_models`
-)
+_CONTACT_TIME = 5e-3  # s that a contact takes to bring penetration to rest: solref of `plantar.sim.contact_models`
+_CONTACT_STEPS = 2.0  # physics steps that it takes at least
 _SOFT = 1 / 600  # leg: penetration over which a contact becomes as stiff as it gets, and gap up to which it is listed
 
 _LEG_CONTACT = "truth_leg_contact"
@@ -263,7 +262,7 @@ def _set_contacts(spec: Any, friction: float) -> list[str]:
 def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float, damping: float) -> None:
     """Contact parameters of soles and ground, as `plantar.sim.contact_models` recommends them: 5 ms and 1 mm for H1."""
     ids = [model.geom(name).id for name in names]
-    model.geom_solref[ids] = [_CONTACT_STEPS * period, damping]
+    model.geom_solref[ids] = [max(_CONTACT_TIME, _CONTACT_STEPS * period), damping]
     model.geom_solimp[ids] = [0.95, 0.99, _SOFT * body.leg, 0.5, 2]
     model.geom_gap[ids] = _SOFT * body.leg  # corners that hover by micrometres stay in the contact list
 

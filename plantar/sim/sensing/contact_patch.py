@@ -16,6 +16,7 @@ __all__ = ["Patches", "half_planes_of", "patch_polygon", "reach_of"]
 
 T = TypeVar("T")
 
+_POINT = 2.6  # widths of a line: half width of a point's square, which spreads as the disc under a pebble does
 _INSIDE = 2e-3  # of a patch's half extent: how far inside its outermost cells a load acts, so that several carry it
 
 
@@ -54,13 +55,17 @@ def patch_polygon(points: NDArray[np.float64], half_width: float) -> tuple[NDArr
 
     Args:
         points: Contact points (k, 2) in m, at least one.
-        half_width: Half the width in m that a line or a point presses on.
+        half_width: Half the width in m that a line presses on; a point, as of a round solid, presses on `_POINT`
+            times that. A sole of stiffness k in Pa/m on a sphere of radius R carries F on a disc of radius
+            a = (4 R F / (pi k))^(1/4), and the square with the same second moments is a / sqrt(2) wide each way.
 
     Returns:
         Convex polygon (m, 2) in m, counter-clockwise, and its half-planes (m, 3), as of `half_planes_of`.
     """
     polygon = np.asarray(convex_hull(points))
     axis = np.array([1.0, 0.0])
+    if len(polygon) == 1:
+        half_width *= _POINT
     if len(polygon) >= 2:
         lines = half_planes_of(polygon)
         depth = (lines[:, 2] - polygon @ lines[:, :2].T).max(axis=0)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from plantar import InputError, LayoutError, SoleLayout, hex_layout, layout_of_cells
 from plantar.geometry.polygon import convex_hull, inner_offset, signed_margin
 from plantar.sensing.force import center_of_pressure
+from plantar.sim.sensing.contact_patch import patch_polygon
 from plantar.sim.sensing.sole_pressure import SolePressure
 from plantar.sim.sensing.sole_pressure import _pseudo_inverse as pseudo_inverse
 
@@ -204,3 +205,12 @@ def test_cells_with_gaps_between_them_keep_the_load_where_it_acts(pitch: float) 
         force = SolePressure(films).spread(box, 300.0, tuple(cop))
         assert force.sum() == pytest.approx(300.0)
         np.testing.assert_allclose(force @ films.positions[:, :2] / 300.0, cop, atol=1e-6)
+
+
+def test_a_point_presses_like_the_disc_of_a_compliant_sole_on_a_pebble() -> None:
+    """The square of a point has the second moments of the disc that 400 N make at 1 GPa/m on a radius of 30 mm."""
+    disc = (4.0 * 0.03 * 400.0 / (math.pi * 1e9)) ** 0.25
+    polygon, _ = patch_polygon(np.array([[0.02, -0.01]]), 3e-3)
+    assert np.abs(polygon - [0.02, -0.01]) == pytest.approx(disc / math.sqrt(2.0), rel=0.02)
+    line, _ = patch_polygon(np.array([[0.0, 0.0], [0.1, 0.0]]), 3e-3)
+    assert np.ptp(line, axis=0) == pytest.approx([0.106, 0.006])

@@ -18,7 +18,7 @@ class SceneSetting:
         knob: What is changed.
         value: What it is set to, in words.
         settings: Settings of the scene, as `key=value`.
-        contact_time: Time constant in s that contacts keep; None for the five physics steps that they take.
+        contact_time: Time constant in s that contacts keep; None for the world's own.
         iterations: Most iterations of MuJoCo's solver; None for the simulator's own.
         points: Spheres a taxel that each sole stands on; 0 for its box.
         cell_ratio: Area of the taxels over that of the robot's own.
