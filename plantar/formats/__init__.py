@@ -29,7 +29,7 @@ __all__ = ["Format", "ReadOptions", "detect_format", "formats", "is_study_folder
 _GROUP = "plantar.formats"
 """Entry points under which other packages name a `Format`."""
 _HEADS = (1 << 16, 1 << 22)
-"""How many bytes of a file are looked at, and how many where those tell nothing: a platform's table has a row of names
+"""How many bytes of a file are looked at, and how many where those do not decide: a platform's table has a row of names
 of a hundred kilobytes."""
 
 
@@ -143,7 +143,7 @@ def read_recording(
         options: All that the user knows about the file; `layout` is put into it.
 
     Returns:
-        The recording, in SI units, or in counts where it says so.
+        The recording, in SI units, or in counts where it states so.
 
     Raises:
         FormatError: If the format's name is unknown, or the file is not of it.
@@ -170,7 +170,7 @@ def read_recording(
         raise FormatError(f"{path}: the file asks for more memory than there is") from None
     except PlantarError:
         raise
-    except Exception as error:  # what a damaged file made of a reader; the cause is kept for who mends it
+    except Exception as error:  # what a damaged file made of a reader; the cause is kept for the developer
         text = one_line(error)[:200]
         raise FormatError(
             f"{path}: not a file that can be read as {chosen.name} ({type(error).__name__}: {text})"
@@ -179,7 +179,7 @@ def read_recording(
 
 
 def _insole_size(size: str, format: str) -> str:
-    """A size of insole in lower case, refused where it says nothing.
+    """A size of insole in lower case, refused where it has no meaning.
 
     Raises:
         InputError: If the format has no such sizes, or none of this name.

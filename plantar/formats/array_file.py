@@ -1,4 +1,4 @@
-"""Arrays in numpy's own files (.npz, .npy): a frame a row, a cell a column, and the times beside them.
+"""Arrays in numpy's own files (.npz, .npy): a frame a row, a cell a column, and the times next to them.
 
 In an NPZ the arrays are found by their names: "time" (s), "left" and "right" or one array whose name names no foot;
 "unit", "rate_hz", "side", "kind" ("insole", "platform", "robot") and "layout_left" (JSON of a layout file) are read
@@ -65,7 +65,7 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass(frozen=True)
 class _Array:
-    """An array of the file, of which only what is said before its values has been read."""
+    """An array of the file, of which only what precedes its values has been read."""
 
     shape: tuple[int, ...]
     dtype: np.dtype[Any]
@@ -200,7 +200,7 @@ def _opened(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
 
 
 def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) -> _Array:
-    """What an array says of itself, compared with the bytes that there are."""
+    """The stated shape of an array, compared with the bytes there are."""
     with opened() as stream:
         version = np.lib.format.read_magic(stream)
         if version not in ((1, 0), (2, 0)):

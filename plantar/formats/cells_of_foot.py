@@ -23,7 +23,7 @@ def unit_of_values(stated: str | None, options: ReadOptions, warnings: list[str]
 
     Args:
         stated: Unit that the file states, None where it states none.
-        options: What the user says.
+        options: The user's options.
         warnings: Where an assumption is put.
         what: What states nothing, for the warning.
 
@@ -109,7 +109,7 @@ def halves(
 
     Args:
         values: Values (n, k).
-        options: What the user says.
+        options: The user's options.
         warnings: Where an assumption is put.
 
     Returns:

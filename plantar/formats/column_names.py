@@ -18,7 +18,7 @@ __all__ = ["BODY_WEIGHTS", "Heading", "Quantity", "heading_of"]
 
 Quantity = Literal["force", "pressure", "cop", "moment", "place", "cell", "number", "foreign", "unknown"]
 """What a column holds: "number" is a heading of nothing but side and number, as cells have; "foreign" is known
-and no load, such as an angle; "place" is an axis alone, a CoP beside forces; "unknown" is a word that is not known."""
+and no load, such as an angle; "place" is an axis alone, a CoP next to forces; "unknown" is a word that is not known."""
 
 BODY_WEIGHTS: dict[str, float] = {
     **dict.fromkeys(("bw", "xbw", "n/bw", "bodyweight", "bodyweights", "timesbodyweight"), 1.0),

@@ -51,7 +51,7 @@ class FootprintImage:
 
     Attributes:
         path: The file.
-        pixel: Size of a pixel of the masks in m; None where nothing says so.
+        pixel: Size of a pixel of the masks in m; None where it is not stated.
         picture: The image (h, w, 3) in RGB, of the masks' size.
         prints: The footprints.
         warnings: What was assumed.

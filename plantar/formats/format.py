@@ -20,7 +20,7 @@ class ReadOptions:
         layout: Sole layout to use instead of the format's own geometry; mirrored for the other foot.
         unit: Unit of the values, for example "kPa", "N" or "raw"; see `plantar.formats.units`.
         rate_hz: Frames a second.
-        side: Which foot the file holds, where it holds one; of a pedar file of two insoles that it does not tell apart,
+        side: Which foot the file holds, where it holds one; of a pedar file of two insoles that it does not separate,
             whose the first columns are.
         insole_size: Size of a pedar insole, for example "x" or "vw"; see `plantar.formats.nominal_insole`.
         mass_kg: Mass of the body, which turns forces in body weights into N.

@@ -51,7 +51,7 @@ def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | No
     Args:
         size: Size of the insole; 7 is assumed where None or unknown.
         side: "left" or "right".
-        areas: Area (16,) in m^2 that each cell stands for, where the recording tells it.
+        areas: Area (16,) in m^2 that each cell represents, where the recording gives it.
 
     Returns:
         The layout; the origin lies in the middle of the heel edge, ids are 1 to 16. Its areas are those that the cells

@@ -135,7 +135,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     rate = options.rate_hz or _rate(facts, warnings)
     time = (np.arange(len(frames)) + 1) / rate
     starts = [i for i in range(1, len(frames)) if frames[i].picture <= frames[i - 1].picture]
-    for i in starts:  # trials one after the other: a pause tells their contacts apart
+    for i in starts:  # trials one after the other: a pause separates their contacts
         time[i:] += 2.0
     if starts:
         warnings.append(f"the file holds {len(starts) + 1} trials: put one after the other, with pauses of 2 s")

@@ -271,7 +271,7 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
 
 
 def _sensor_type(text: str) -> str:
-    """What the header says of the sensors in lower case, such as "y-1865l-1870r"."""
+    """What the header states about the sensors in lower case, such as "y-1865l-1870r"."""
     return (_field(text, r"(?:sensor|mat)\s+type:?[ \t]*([^\n]*)") or "").lower()
 
 

@@ -214,7 +214,7 @@ def _forward(plates: Sequence[_Plate], contacts: Sequence[PlateContact], treadmi
 def _by_push(
     plates: Sequence[_Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
 ) -> list[Side | None]:
-    """The foot of each contact by its push in mid-stance: the body is beside the foot, which pushes it inwards."""
+    """The foot of each contact by its push in mid-stance: the body is next to the foot, which pushes it inwards."""
     out: list[Side | None] = []
     for contact in contacts:
         length = contact.end - contact.begin

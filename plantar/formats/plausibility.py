@@ -19,14 +19,14 @@ _HELD, _FLAT, _CELLS = 0.4, 5, 3
 """Share of loaded frames that repeat the one before from which the sensor is slower than the file; frames in a row at
 a cell's largest reading, and cells that share that reading, from which it is the end of the sensor's range."""
 _ALONE, _HIGH = 4.0, 50e3
-"""How many times higher than both frames beside it, and from which pressure in Pa, a single value is no foot's."""
+"""How many times higher than both frames next to it, and from which pressure in Pa, a single value is no foot's."""
 _QUICK = 50.0
 """Rate in Hz from which that is so: at 30 Hz a heel strike may pass a cell within one frame."""
 _SEEN = 500_000
 """Readings of cells that are looked at for this, from the beginning on: a minute of 99 cells at 80 Hz, 4 MB."""
 _SWITCH, _LOW, _ZEROS = 0.20, 0.1, 0.05
 """A cell's smallest reading (0.1 % of the positive ones lie below), as a share of the readings' 98th percentile, from
-which what a sensor leaves out at low load moves events by 20 ms; and the share of readings of 0 that tells such a
+which what a sensor leaves out at low load moves events by 20 ms; and the share of readings of 0 that separates such a
 sensor from one with an offset."""
 _LONGEST_FOOT = 0.40
 _SLENDER = (1.8, 4.2)

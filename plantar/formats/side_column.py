@@ -1,4 +1,4 @@
-"""Tables in which a column says of which foot each row is: their rows as columns of both feet on one time base."""
+"""Tables in which a column names the foot of each row: their rows as columns of both feet on one time base."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _MARK: dict[Side, str] = {"left": "0", "right": "1"}
 
 
 def is_side_column(name: str) -> bool:
-    """Whether a column of this name says of which foot a row is.
+    """Whether a column of this name gives the foot of a row.
 
     Example:
         >>> [is_side_column(name) for name in ("Side", "foot", "sole_id", "left 12", "footprint 3")]

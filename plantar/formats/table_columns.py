@@ -1,4 +1,4 @@
-"""A table of numbers with named columns as a recording: by what each column's name says it holds."""
+"""A table of numbers with named columns as a recording: by what each column's name states."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ _ALONE = ("sec", "second", "msec", "millisec", "millisecond", "millis", "micros"
 """Units that are a column's name by themselves; "min" may be the least of something."""
 _DAY = 86400.0
 _SINCE = datetime(2020, 1, 1)
-"""Dates are counted from here: from the year 1 on, a second's millionth is less than a double can tell."""
+"""Dates are counted from here: from the year 1 on, a second's millionth is less than a double resolves."""
 
 
 def names_of_row(line: str, delimiter: str | None) -> list[str]:
@@ -49,7 +49,7 @@ def names_of_row(line: str, delimiter: str | None) -> list[str]:
 
 
 def time_unit(name: str) -> float | None:
-    """What a column's name says of times.
+    """What a column's name states about times.
 
     Args:
         name: The name.

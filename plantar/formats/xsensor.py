@@ -58,7 +58,7 @@ class _Sensor:
     damaged: int = 0
 
     def add(self, frame: int, rows: list[NDArray[np.float64]], file_size: int) -> None:
-        """Take the matrix of a frame if it is whole and of the sensor's shape; the first one says what that is."""
+        """Take the matrix of a frame if it is whole and of the sensor's shape; the first one defines both."""
         stated = self.rows or len(rows)
         widths = {len(r) for r in rows}
         if len(rows) != stated or len(widths) != 1 or stated * len(rows[0]) > _LARGEST:
@@ -180,7 +180,7 @@ def _scan(stream: TextIO, file_size: int) -> _Scan:
             continue
         if ";" in text and "," not in text.split(";")[0]:
             delimiter = ";"
-        elif "\t" in text or "," in text:  # a line without any of them, as SENSELS alone, tells nothing
+        elif "\t" in text or "," in text:  # a line without any of them, as SENSELS alone, is skipped
             delimiter = "\t" if "\t" in text else ","
         parts = [p.strip().strip('"') for p in text.split(delimiter)]
         key = parts[0].rstrip(":").strip()
@@ -377,7 +377,7 @@ def _cell(
 def _check_load(
     sensor: _Sensor, values: NDArray[np.float64], factor: float, frames: int, side: Side, warnings: list[str]
 ) -> None:
-    """The stated load tells a wrong unit or cell size."""
+    """The stated load shows a wrong unit or cell size."""
     sums = np.array([np.nansum(m) * factor for m in sensor.values.rows])
     load = np.array(sensor.load[: len(sums)])
     known = (load > _ENOUGH) & (sums > 0.0) if len(load) == len(sums) else np.zeros(0, dtype=bool)

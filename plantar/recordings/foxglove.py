@@ -1,4 +1,4 @@
-"""Messages of Foxglove's own schemas, which its 3D and log panels draw without being told how.
+"""Messages of Foxglove's own schemas, which its 3D and log panels draw without settings.
 
 Encoded as protocol buffers, numbered as Foxglove publishes them
 (https://docs.foxglove.dev/docs/sdk/schemas); `schemas/` holds the descriptors that a recording carries with them, as
@@ -58,7 +58,7 @@ _LINE_LOOP = 1
 
 
 def descriptor(schema: str) -> bytes:
-    """What a recording says of a schema.
+    """What a recording stores about a schema.
 
     Args:
         schema: One of SCHEMAS.
@@ -234,7 +234,7 @@ def log_message(time_s: float, message: str, level: str = "info", name: str = "p
         time_s: When, in s.
         message: What happened.
         level: One of LEVELS.
-        name: Who tells it.
+        name: Its source.
 
     Returns:
         Its encoding.

@@ -1,4 +1,4 @@
-"""The records of an MCAP file, gathered into tables chunk by chunk; a chunk is unpacked only as far as it says."""
+"""The records of an MCAP file, gathered into tables chunk by chunk; a chunk is unpacked up to its stated size."""
 
 from __future__ import annotations
 

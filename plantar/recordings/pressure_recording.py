@@ -30,7 +30,7 @@ RATES = (0.1, 1e5)
 """Lowest and highest rate in frames a second that is believed."""
 
 _GAP = 2.5
-"""Steps in time of more than so many usual ones are gaps, and tell nothing of the rate."""
+"""Steps in time of more than so many usual ones are gaps, and are not used for the rate."""
 
 _COUNTED = 5.0
 """Stated rate in Hz from which times that rise by 1 are no seconds but the frames' numbers."""
@@ -54,7 +54,7 @@ class FootRecording:
         side: "left" or "right".
         force: Normal force (n, k) of each cell in N; NaN where a cell or a frame was not measured. Counts where the
             recording is raw.
-        layout: Where the cells are, in the order of the columns of `force`; None where nothing says so.
+        layout: Where the cells are, in the order of the columns of `force`; None where it is not stated.
         total: Vertical force (n,) in N that the device itself states, where its cells do not cover the foot; NaN where
             not measured. None where the cells' sum is all there is.
         cop: Centre of pressure (n, 2) in m that the device itself states, NaN without load; None as above.
@@ -172,9 +172,9 @@ class PressureRecording:
         format: Name of its format.
         rate_hz: Frames a second.
         time: Times (n,) in s.
-        feet: The feet that were measured, by side. A platform stands under one entry as a whole until
-            `plantar.gait.analysis.prints.platform` has told its footprints apart.
-        metadata: What the file says beside the data.
+        feet: The feet that were measured, by side. A platform is one entry as a whole until
+            `plantar.gait.analysis.prints.platform` has separated its footprints.
+        metadata: What the file states besides the data.
         warnings: What was assumed, repaired or left out, one line each.
         kind: What measured.
         raw: Whether the values are counts that nobody calibrated: no force or pressure follows from them.

@@ -82,7 +82,7 @@ class Recording:
         return final
 
     def to_csv(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write one CSV a topic, with metadata.json and the layout files beside them.
+        """Write one CSV a topic, with metadata.json and the layout files next to them.
 
         Columns are "time_s", then "<field>" or "<field>_<index>"; values keep all their digits.
 

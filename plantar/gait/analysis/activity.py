@@ -61,8 +61,8 @@ class Activity:
 
     Attributes:
         name: "walking", "running", "standing", "walking up stairs", "walking down stairs", "toe walking",
-            "walking without heel strike" (stairs up, a slope or a forefoot gait: it cannot be told which) or "unknown".
-        why: What tells.
+            "walking without heel strike" (stairs up, a slope or a forefoot gait: not known which) or "unknown".
+        why: The reason.
     """
 
     name: str
@@ -214,7 +214,7 @@ def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Ac
 
 
 def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:
-    """Whether a foot of a force (n,) in N is on the ground and off it again and again, beside a usual load in N.
+    """Whether a foot of a force (n,) in N is on the ground and off it again and again, next to a usual load in N.
 
     By shares of its own peak with a wide gap between them: where no step was found, neither are levels to be trusted.
     """

@@ -36,7 +36,7 @@ def implied_weight(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
         feet: The gait of its feet.
 
     Returns:
-        The weight; None of raw counts, or where the recording does not tell.
+        The weight; None of raw counts, or where the recording does not show it.
     """
     if recording.raw:
         return None
@@ -60,7 +60,7 @@ def _median(gait: FootGait, key: str) -> float:
 
 
 def weight_doubts(recording: PressureRecording, weight: float | None) -> list[str]:
-    """Warnings where a recording implies nobody's weight, or a robot's taxels read more than they are rated for.
+    """Warnings where a recording implies no person's weight, or a robot's taxels read more than they are rated for.
 
     Args:
         recording: The recording.

@@ -26,7 +26,7 @@ _BLOCK = 4096
 
 
 def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Path]:
-    """Write a recording in another format, as the suffix of the path says, and a sidecar (.json) beside it.
+    """Write a recording in another format, by the suffix of the path, and a sidecar (.json) next to it.
 
     Args:
         analysis: The analysis: its recording as it was measured, baselines taken off, and the events of its feet.

@@ -73,7 +73,7 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
         theirs = column_maxima(other.force) / other.layout.areas
         mirror = theirs > _CARRIES * float(np.percentile(theirs, 90.0))
     silent = zero & mirror if (zero & mirror).sum() >= _MANY * len(layout) else np.zeros(len(layout), dtype=bool)
-    for _ in range(3):  # silent cells beside silent ones are found by those that were found
+    for _ in range(3):  # silent cells next to silent ones are found by those that were found
         loaded = carries | silent
         found = np.array(
             [

@@ -16,7 +16,7 @@ class Measure:
         title: What it is, for people.
         unit: Unit that people are shown.
         factor: From SI to that unit.
-        group: Heading that it stands under.
+        group: Heading that it is listed under.
     """
 
     title: str

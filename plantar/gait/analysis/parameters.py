@@ -194,7 +194,7 @@ def _other_foot(
 ) -> OtherFoot | None:
     """The contacts of the foot across; None where it was not recorded."""
     if other_side(side) not in recording.feet or not recording.metadata.get("sees_every_step", True):
-        return None  # plates in a walkway do not see what the other foot does beside them
+        return None  # plates in a walkway do not see what the other foot does next to them
     return OtherFoot(recording, other_side(side), events[other_side(side)][1])
 
 
@@ -228,7 +228,7 @@ def _regions(load: StepLoad, region: NDArray[np.int64] | None, duration: float) 
 
 
 def _place(recording: PressureRecording, gait: FootGait, step: Step, prints: Sequence[PlatformPrint]) -> Place | None:
-    """Where a step stands on the ground; None where the recording cannot tell."""
+    """Where a step is on the ground; None where the recording does not show it."""
     placement = gait.foot.placement
     if placement is not None:
         middle = (step.contact.begin + step.contact.end) // 2

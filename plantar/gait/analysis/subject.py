@@ -28,7 +28,7 @@ class Subject:
     """Who walks, as far as it is known.
 
     Attributes:
-        name: Name or number of the person or robot; empty for nobody named.
+        name: Name or number of the person or robot; empty where none is named.
         mass_kg: Mass of the body in kg; None where it is not known.
         foot_length_m: Length of the foot in m; None where it is not known.
 
@@ -73,7 +73,7 @@ def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
 
 
 def device_of(recording: PressureRecording) -> dict[str, Any]:
-    """What measured a recording, as far as the file says it.
+    """What measured a recording, as far as the file states it.
 
     Args:
         recording: The recording.

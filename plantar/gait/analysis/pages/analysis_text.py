@@ -9,7 +9,7 @@ __all__ = ["analysis_text"]
 
 
 def analysis_text(metrics: Mapping[str, Any], name: str = "") -> str:
-    """The main figures of an analysis for people; what was assumed is told apart, under `metrics["warnings"]`.
+    """The main figures of an analysis for people; what was assumed is listed apart, under `metrics["warnings"]`.
 
     Args:
         metrics: What `analyse_recording` gave.

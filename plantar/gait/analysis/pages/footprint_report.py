@@ -35,7 +35,7 @@ def analyse_image(
         path: The image.
         folder: Folder to write to, which exists.
         mm_per_pixel: Size of a pixel in mm; the image's own resolution where None.
-        side: Which foot a single footprint is of; told from its shape where None.
+        side: Which foot a single footprint is of; inferred from its shape where None.
         subject: Whose footprints they are, as far as it is known.
 
     Returns:
@@ -138,7 +138,7 @@ def _side_by_shape(print_: Footprint) -> Side:
     u, v = print_.centres.T / print_.length
     middle, rest = (u > 0.35) & (u < 0.55), (u < 0.25) | ((u > 0.60) & (u < 0.78))
     toes, ball = u > 0.9, (u > 0.60) & (u < 0.78)
-    if not middle.any() and toes.any() and ball.any():  # a high arch: the longest toe is the first one, or beside it
+    if not middle.any() and toes.any() and ball.any():  # a high arch: the longest toe is the first one, or next to it
         return "right" if float(v[toes].mean() - v[ball].mean()) >= 0.0 else "left"
     if not middle.any() or not rest.any():
         return "right"

@@ -84,7 +84,7 @@ def _device(device: Mapping[str, Any]) -> str:
 
 
 def _size(feet: Mapping[str, Mapping[str, Any]]) -> str:
-    """Extent, cells and layout of each foot's sole; said once where both are the same."""
+    """Extent, cells and layout of each foot's sole; listed once where both are the same."""
     said = {
         side: f"{1e3 * foot['length_m']:.0f} x {1e3 * foot['width_m']:.0f} mm, {foot['cells']} cells ({foot['layout']})"
         for side, foot in feet.items()

@@ -63,7 +63,7 @@ def report_page(
 
 
 def _asset(name: str) -> str:
-    """Text of a file that stands beside this one."""
+    """Text of a file that stands next to this one."""
     return files("plantar.gait.analysis.pages").joinpath(name).read_text(encoding="utf-8")
 
 
@@ -135,7 +135,7 @@ def comparison_page(
         links: Files of their own reports, relative to this page.
 
     Returns:
-        HTML that embeds all it shows; it links to the two reports beside it.
+        HTML that embeds all it shows; it links to the two reports next to it.
     """
     parts = []
     for key, name, link in zip(("a", "b"), names, links, strict=True):

@@ -24,7 +24,7 @@ from plantar.sides import Side
 __all__ = ["axis_is_inside", "figure_pair", "figure_pressure", "figure_regions"]
 
 MOST_PATHS = 12
-"""CoP paths drawn a foot, thin, beside the mean one; of more steps every n-th: the map below has to be seen."""
+"""CoP paths drawn a foot, thin, next to the mean one; of more steps every n-th: the map below has to be seen."""
 
 _FORWARD, _RIGHT = "forward (mm)", "to the right (mm)"
 
@@ -32,7 +32,7 @@ _STANCE = np.linspace(0.0, 1.0, 51)
 """Shares of the stance at which paths are averaged."""
 
 REGION_COLOURS = ("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa3377", "#bbbbbb")
-"""Colours of the regions: Tol's bright scheme, which colour-blind readers can tell apart."""
+"""Colours of the regions: Tol's bright scheme, which colour-blind readers distinguish."""
 
 
 class _Cells(NamedTuple):
@@ -58,7 +58,7 @@ def _panels(shown: Mapping[Side, _Cells], extra: float) -> tuple[Any, Any]:
     slender = max(float(length / width) for length, width in extents)
     size = 2.7 * len(shown) + extra, min(6.4, 1.8 + 2.5 * slender)
     figure, axes = new_figure(*size, columns=len(shown), squeeze=False)
-    figure.set_layout_engine("compressed")  # panels of one aspect stand beside each other without a gap
+    figure.set_layout_engine("compressed")  # panels of one aspect stand next to each other without a gap
     return figure, axes
 
 
@@ -116,7 +116,7 @@ def _steps_of_picture(gait: FootGait) -> str:
 
 
 def _legend(figure: Any, panels: Iterable[Any], place: str, **look: Any) -> None:
-    """One legend for all panels, each entry once, beside them: it hides nothing, and prints."""
+    """One legend for all panels, each entry once, next to them: it hides nothing, and prints."""
     entries: dict[str, Any] = {}
     for panel in panels:
         handles, names = panel.get_legend_handles_labels()
@@ -156,7 +156,7 @@ def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | No
 
 
 def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side, FootGait]]]) -> Any | None:
-    """Maximum pressure pictures of several recordings beside each other, on one scale.
+    """Maximum pressure pictures of several recordings next to each other, on one scale.
 
     Args:
         recordings: Name, recording and feet of each.
@@ -237,7 +237,7 @@ def _draw_axis_and_thirds(panel: Any, print_: Footprint) -> None:
 
 
 def axis_is_inside(print_: Footprint) -> bool:
-    """Whether a print's axis lies within the print from heel to toes; one beside the foot is not drawn.
+    """Whether a print's axis lies within the print from heel to toes; one next to the foot is not drawn.
 
     Args:
         print_: The print.

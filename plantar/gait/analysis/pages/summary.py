@@ -45,7 +45,7 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
         activities of those in the means),
         cadence_steps_per_min (two steps in that stride), steady_cadence_steps_per_min (in that of the steps in the
         means), double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
-        walking_speed_m_s (means); None where the recording cannot tell.
+        walking_speed_m_s (means); None where the recording does not show it.
     """
     several = len({step.activity for gait in feet.values() for step in gait.steps if step.activity}) > 1
     steps = [s for gait in feet.values() for s in gait.steps if s.used or not several]

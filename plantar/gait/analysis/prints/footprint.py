@@ -37,7 +37,7 @@ class Footprint:
         areas: Area (n,) in m^2 that each cell stands for.
         pressure: Largest pressure (n,) of each cell, or 1 where none is known.
         toe_line: u in m at which the toes begin, as (v, u) points from lateral to medial; None where no gap or
-            valley of pressure tells toes from forefoot.
+            valley of pressure separates toes from forefoot.
     """
 
     side: Side

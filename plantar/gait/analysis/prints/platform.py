@@ -46,7 +46,7 @@ class PlatformPrint:
 
 
 def told_apart(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
-    """A platform's recording with its footprints told apart.
+    """A platform's recording with its footprints separated.
 
     The frame is turned so that the first pass walks along x. Frames without load are put before a first and after a
     last frame that carry little: a platform records from the moment at which it is stepped on.

@@ -1,7 +1,7 @@
 """Which way a pass over a platform goes, and of which foot each of its footprints is.
 
 Of several footprints in a pass, those to the left of the line of walking are the left foot's; of a single one, the
-arch, which is open to the medial side, and the hallux tell the side.
+arch, which is open to the medial side, and the hallux show the side.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ _PAUSE = 1.0
 """Time in s without load that ends a pass over the platform."""
 
 _ALIKE = 0.02
-"""Distance in m to the line of walking from which it tells left from right."""
+"""Distance in m to the line of walking from which it separates left from right."""
 
 _TRAVEL = 0.5
-"""Distance in m between the first and the last of three or more footprints from which they tell the direction."""
+"""Distance in m between the first and the last of three or more footprints from which they show the direction."""
 
 _STANDING = 0.01
 """Path of the CoP in m under which a footprint is one of standing."""

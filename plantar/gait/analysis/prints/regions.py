@@ -31,7 +31,7 @@ REGIONS: Mapping[str, str] = {
 
 _STRIPS = 4
 _DEPTH = 0.6
-"""A valley in front of the forefoot is no more than this share of the lower one of the peaks beside it."""
+"""A valley in front of the forefoot is no more than this share of the lower one of the peaks next to it."""
 
 _TOE_PEAK = 0.08
 """Toes carry at least this share of the forefoot's peak pressure."""
@@ -111,7 +111,7 @@ def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float 
 
 
 def _is_valley(height: NDArray[np.float64], at: int, peak: int, beyond: float) -> bool:
-    """Whether a place is low enough beside the forefoot's peak and what follows, which carries like toes."""
+    """Whether a place is low enough next to the forefoot's peak and what follows, which carries like toes."""
     top = float(height[peak])
     return bool(beyond >= _TOE_PEAK * top and height[at] <= _DEPTH * min(float(beyond), top))
 
@@ -128,7 +128,7 @@ def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.in
 
     Args:
         print_: The footprint, with its toe line where it has one.
-        of_sole: Length in m of the insole from the print's origin, of a print whose toes no valley tells from the
+        of_sole: Length in m of the insole from the print's origin, of a print whose toes no valley separates from the
             forefoot: they begin at 82 % of it. None where such a print has no toes.
 
     Returns:

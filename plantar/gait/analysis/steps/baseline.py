@@ -2,7 +2,7 @@
 
 In swing nothing rests on a sole, yet capacitive cells have offsets that drift, a film in a shoe has creases, and
 single cells stick. A walk shows them: its force returns to the same flat level, for about half a second, again and
-again. Standing does not, whose force wanders about its mean. Only what is found so is taken off, and it is said.
+again. Standing does not, whose force wanders about its mean. Only what is found so is taken off, and it is reported.
 """
 
 from __future__ import annotations

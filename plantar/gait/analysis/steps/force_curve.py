@@ -13,7 +13,7 @@ IMPACT_WINDOW = 0.05
 """Time in s after touchdown in which the landing impact is looked for."""
 
 _DEPTH = 0.02
-"""How deep a valley has to be, as a share of the lower peak, to tell two peaks apart."""
+"""How deep a valley has to be, as a share of the lower peak, to separate two peaks."""
 
 _HUMP = 0.75
 """Share of the largest force of its half of the stance that a peak has; the transient of a heel strike has less."""

@@ -1,4 +1,4 @@
-"""Values that cells did not measure: short gaps are filled between their ends, and what is missing is said.
+"""Values that cells did not measure: short gaps are filled between their ends, and what is missing is reported.
 
 The force of a foot is the sum of its cells, so that a value that is missing would lower it.
 """

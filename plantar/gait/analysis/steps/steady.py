@@ -1,4 +1,4 @@
-"""Which steps are in the means: those of steady walking; and which of them are odd, which is said."""
+"""Which steps are in the means: those of steady walking; and which of them are odd, which is reported."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FEWEST_STEPS = 12
 """Steps a foot that reliable means of in-shoe pressure take (Arts & Bus 2011, Clin. Biomech. 26:880)."""
 
 _FEWEST_TO_JUDGE = 5
-"""Steps of a foot from which a usual step can be told from an odd one."""
+"""Steps of a foot from which a usual step differs from an odd one."""
 
 _ODD = 4.0
 """Robust standard deviations from the median beyond which a step is odd: one of 16,000 of a normal variable."""

@@ -64,7 +64,7 @@ class SwingLevels:
 
     Attributes:
         places: Frames (m,) at which the level is known, in order.
-        spans: First frame, and the frame after the last one, of the frames in swing that tell it there (m, 2).
+        spans: First frame, and the frame after the last one, of the frames in swing that show it there (m, 2).
         level: Force (n,) under the contacts, on straight lines between these places, in the force's unit.
         swing: Frames (n,) in swing.
         span: Range of the force above the level.
@@ -237,7 +237,7 @@ def _swings(
 
 
 def _level_at_end(course: NDArray[np.float64], a: int, b: int, span: float, least: int) -> tuple[int, int]:
-    """The frames a to b of a swing, at an end of the recording only as far as they are level beside the contact.
+    """The frames a to b of a swing, at an end of the recording only as far as they are level next to the contact.
 
     A contact that the recording cuts is no hump there, so that the opening follows it.
     """

@@ -61,7 +61,7 @@ class RecordingResult:
     Attributes:
         who: Of whom it is.
         digest: SHA-256 of the file.
-        key: What file, options and version it was measured with; a result of another key is measured anew.
+        key: What file, options and version it was measured with; a result of another key is measured again.
         format: Name of its format; empty where it could not be read.
         error: Why it could not be measured; empty where it was.
         raw: Whether its values are counts.
@@ -115,7 +115,7 @@ def key_of(
 
     Args:
         folder: The study's folder.
-        who: What the table says of the recording.
+        who: What the table states about the recording.
         digest: SHA-256 of its file.
         choices: Which steps are in the means, and whose events.
         options: What is known of all files.
@@ -143,7 +143,7 @@ def measure_recording(
         who: Which recording, and of whom.
         choices: Which steps are in the means, and whose events.
         digest: SHA-256 of the file.
-        options: What is known of all files; what the table says of one goes before it.
+        options: What is known of all files; what the table states about one goes before it.
 
     Returns:
         The result.
@@ -323,7 +323,7 @@ def read_result(path: Path, key: str) -> RecordingResult | None:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as held:
             plain = json.loads(str(held["text"]))
             arrays = {name: held[name] for name in held.files if name != "text"}
-    except Exception:  # a file that was cut short may raise anything; measuring anew is always right
+    except Exception:  # a file that was cut short may raise anything; measuring again is always right
         return None
     if plain.get("key") != key:
         return None

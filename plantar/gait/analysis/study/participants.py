@@ -37,8 +37,8 @@ class Participation:
 
     Attributes:
         file: Path of the recording relative to the study's folder.
-        participant: Who; the file's name without suffix where no table says it.
-        condition: In which condition; empty where no table says it.
+        participant: Who; the file's name without suffix where no table states it.
+        condition: In which condition; empty where no table states it.
         mass_kg: Mass of the body in kg, None where it is not known.
         foot_length_m: Length of the foot in m, None where it is not known.
         side: "left" or "right" for a file of one foot that does not say which; else None.

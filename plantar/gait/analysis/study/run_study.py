@@ -125,7 +125,7 @@ def run_study(
     """Measure every recording of a folder; write steps.csv, recordings.csv, comparison.csv, study.json and study.html.
 
     Recordings that were measured before with the same options and version are not measured again: a study that was
-    stopped goes on where it was. A recording that cannot be read is a row that says why.
+    stopped goes on where it was. A recording that cannot be read is a row with the reason.
 
     Args:
         folder: The folder of recordings, looked through with its folders.
@@ -135,7 +135,7 @@ def run_study(
             and nothing is compared.
         progress: Called with a fraction 0..1 and what is being done.
         choices: Which steps are in the means, and whose events.
-        options: What is known of all files; what the table says of one goes before it.
+        options: What is known of all files; what the table states about one goes before it.
 
     Returns:
         The study.

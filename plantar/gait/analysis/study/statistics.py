@@ -140,14 +140,14 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
 
     The interval of the difference is Student's (Welch's of independent samples), that of the effect size normal with
     the variance of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5; of pairs with that of their
-    changes beside the pooled one, which it is where both conditions spread alike.
+    changes next to the pooled one, which it is where both conditions spread alike.
 
     Args:
         a: Values (n,) in A, two or more.
         b: Values (m,) in B; of pairs in the same order.
         paired: Whether they are pairs.
-        p: What a permutation test says of it alone.
-        p_all: What it says among all measures.
+        p: Its probability in a permutation test of it alone.
+        p_all: That among all measures.
 
     Returns:
         The effect; its size is NaN where the participants do not differ from each other, so that nothing measures it.
