@@ -11,7 +11,7 @@ from plantar.layouts.layout import SoleLayout
 __all__ = ["check_cells"]
 
 _AREA = 0.1  # of a cell's area: round cells are written as polygons, curved ones seen from above
-_OFF = 0.5  # of a cell's size: how far a taxel may be beside its own cell
+_OFF = 0.5  # of a cell's size: how far a taxel may be next to its own cell
 
 
 def check_cells(layout: SoleLayout) -> None:

@@ -23,7 +23,7 @@ def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTab
     """Table of the directed edges of cells that tile a part of the plane.
 
     Cells may be of any shape and size and turn either way. Where they do not share vertices, corners within WELD of a
-    typical edge are taken for one, and an edge is cut where the corner of another cell lies on it.
+    typical edge are treated as one, and an edge is cut where the corner of another cell lies on it.
 
     Args:
         vertices: Corner points (v, 2) in m.
@@ -139,7 +139,7 @@ def _cut_edges(
 
 
 def cells_overlap(tail: NDArray[np.float64], head: NDArray[np.float64], tolerance: float) -> bool:
-    """Whether cells cover a place twice, told by the edges that they do not share.
+    """Whether cells cover a place twice, recognised by the edges that they do not share.
 
     The number of cells that cover a point is the winding number of the lone edges about it. Cells do not overlap when
     these edges do not cross and there is one cell to the left of each and none to the right.

@@ -189,7 +189,7 @@ class SoleLayout:
                 raise LayoutError(f"layout field 'thresholds.{name}' is {value}; allowed: finite, 0 or more")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Copies and pickles carry the fields; what was computed from them, compiled kernels too, is made anew.
+        # Copies and pickles carry the fields; what was computed from them, compiled kernels too, is made again.
         values = (getattr(self, item.name) for item in fields(self))
         return type(self), tuple(dict(v) if isinstance(v, Mapping) else v for v in values)
 

@@ -1,4 +1,4 @@
-"""Contacts of a robot with the world: feet, hands, whatever touches; each with a name, any number of them.
+"""Contacts of a robot with the world: feet, hands, any touches; each with a name, any number of them.
 
 Where several matter, they come as an ordered mapping from name to contact. What is computed from them keeps the order.
 """
@@ -27,7 +27,7 @@ class Contact:
         rotation: Rotation (3, 3) from the contact to the world frame.
         rectangle: The contact area in the contact frame.
         friction: Coefficient of the friction pyramid, above 0.
-        preferred: Point (x, y) of the contact frame in m at which it likes its centre of pressure; the rectangle's
+        preferred: Point (x, y) of the contact frame in m at which it prefers its centre of pressure; the rectangle's
             middle where None.
     """
 

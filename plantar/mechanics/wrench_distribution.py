@@ -5,9 +5,9 @@ the world frame and e = sum J_i w_i - w_d the error of the net wrench, it minimi
 
     net |e|^2 + ankle sum |m_i|^2 + pressure sum_(i<j) (s_j fz_i - s_i fz_j)^2 + friction sum (fx_i^2 + fy_i^2 + tz_i^2)
 
-with m_i the moment (x, y) about the point of contact i at which it likes its centre of pressure, s_i its wanted share
+with m_i the moment (x, y) about the point of contact i at which it prefers its centre of pressure, s_i its wanted share
 of the normal force, forces in body weights and moments in body weights times 0.1 m. By Lagrange's identity the sum over
-pairs is |s|^2 |fz|^2 - (s . fz)^2: it is 0 where the normal forces stand in the wanted proportion, whatever their sum;
+pairs is |s|^2 |fz|^2 - (s . fz)^2: it is 0 where the normal forces stand in the wanted proportion, for any sum;
 of two feet it is the ((1 - r) fz_1 - r fz_2)^2 of Caron et al. Each w_i stays in its wrench cone, its normal force at
 or above a minimum; one contact alone has no moment or share to choose. Cones live in the contact frames, so where the
 robot stands and heads only turns and shifts the costs: results 10 m away are the same.
@@ -78,7 +78,7 @@ class DistributionWeights:
 
 
 class WrenchShare(Record, frozen=True):
-    """What each contact shall take.
+    """What each contact should take.
 
     Attributes:
         state: How the distribution ended.
@@ -198,7 +198,7 @@ class WrenchDistribution:
             contacts: The contacts by name, in order; none, one or several.
             wrench: Wanted net wrench (6,) in the world frame about `point`, by the world on the robot.
             point: Point (3,) of the world frame in m.
-            shares: Share of the normal force that each contact shall carry, 0 to 1; equal shares where None.
+            shares: Share of the normal force that each contact should carry, 0 to 1; equal shares where None.
 
         Returns:
             The share.

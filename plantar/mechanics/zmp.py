@@ -1,4 +1,4 @@
-"""Points of the ground that tell balance: zero moment point and centroidal moment pivot.
+"""Points of the ground that show balance: zero moment point and centroidal moment pivot.
 
 A wrench is [fx, fy, fz, tx, ty, tz] in N and N m about the frame's origin, exerted BY the world ON the robot, z up.
 """
@@ -95,7 +95,7 @@ def centroidal_moment_pivot(
     """Centroidal moment pivot: where the line of the ground reaction force, put through the CoM, meets the ground.
 
     It coincides with the ZMP where the wrench has no moment about the CoM that tips the robot (Popovic, Goswami and
-    Herr 2005), one of the metrics of balance that T names beside ZMP, GRF and DCM.
+    Herr 2005), one of the metrics of balance that T names next to ZMP, GRF and DCM.
 
     Args:
         force: Ground reaction force (3,) or wrench (6,) of all feet in N.

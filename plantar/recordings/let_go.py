@@ -77,7 +77,7 @@ def column_maxima(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def let_go(array: NDArray[Any]) -> None:
-    """Tell the system that an array's pages are not needed for now: they are read again from its file where they are.
+    """Show the system that an array's pages are not needed for now: they are read again from its file where they are.
 
     Args:
         array: The array; nothing happens where it is not a part of a mapped table.

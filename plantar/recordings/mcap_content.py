@@ -92,7 +92,7 @@ class McapContent:
     """What an MCAP file holds.
 
     Attributes:
-        metadata: What was stored beside the data.
+        metadata: What was stored next to the data.
         layouts: Sole layout of each side that has one.
         topics: The topics whose messages are made of float64 fields, by the number of their channel.
         warnings: What was missing, damaged or skipped, one line each.

@@ -241,7 +241,7 @@ class Recorder:
 
     Args:
         path: File to write, replaced if it exists.
-        metadata: What to keep beside the data; each value is stored as JSON.
+        metadata: What to keep next to the data; each value is stored as JSON.
         layouts: Sole layout of each side, stored as layout files.
         chunk_duration: Recorded time a chunk in s, above 0.
 
@@ -488,7 +488,7 @@ class Recorder:
         except OSError as error:
             raise self._write_error(error) from None
         finally:
-            with suppress(OSError):  # told above already where it matters
+            with suppress(OSError):  # given above already where it matters
                 self._file.close()
             if self._temporary is not None:  # not a single message was written: an old recording stays
                 self._temporary.unlink(missing_ok=True)

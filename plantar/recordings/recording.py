@@ -44,7 +44,7 @@ class Recording:
 
     Attributes:
         path: The file it was read from.
-        metadata: What was stored beside the data.
+        metadata: What was stored next to the data.
         layouts: Sole layout of each side that has one.
         topics: Table of each topic.
         warnings: What was missing, damaged or skipped, one line each.

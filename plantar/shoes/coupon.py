@@ -26,7 +26,7 @@ __all__ = ["Coupon", "build_coupons", "write_coupons"]
 
 _FLANGE = 2.0  # mm of plate around the cell's ribs
 _SHEET = 15.0  # mm of a sheet's recess to each side of a point of its edge, and forward of it
-_BESIDE, _INWARDS, _OUTWARDS = 10.0, 16.0, 30.0  # mm of shoe beside, within and outside of what holds it
+_BESIDE, _INWARDS, _OUTWARDS = 10.0, 16.0, 30.0  # mm of shoe next to, within and outside of what holds it
 _MORE = 2.0  # mm that blocks reach beyond what is kept
 _NAMES = {"clips": "clip", "straps": "lug", "screws": "screw"}
 

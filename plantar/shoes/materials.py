@@ -2,7 +2,7 @@
 
 Values are typical of the materials' data sheets (PA12: multi-jet fusion and laser sintering; PETG, PLA and TPU of
 95 Shore A: filament; resin: tough photopolymers). A part that carries a person or an expensive robot deserves the data
-of its own maker.
+that is separate maker.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ class Material:
 
     Attributes:
         name: Its name.
-        process: How it is printed where the parameter `process` does not say, see `plantar.shoes.processes`.
+        process: How it is printed where the parameter `process` does not state, see `plantar.shoes.processes`.
         density: Density in g/cm^3.
         modulus: Young's modulus in MPa.
         strength: Tensile strength within a layer in MPa.

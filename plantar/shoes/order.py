@@ -15,7 +15,7 @@ def _option(default: Any, text: str, metavar: str | None = None) -> Any:
 
 @dataclass(frozen=True)
 class FootSource:
-    """Where the foot comes from: a file, a built-in robot or dimensions; the rest says how a file is to be read.
+    """Where the foot comes from: a file, a built-in robot or dimensions; the rest describes how a file is to be read.
 
     `plantar.shoes.foot.source.read_foot` checks and reads it. None leaves the choice to what is found.
 

@@ -53,7 +53,7 @@ KEYS: Mapping[str, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Cell:
-    """One kind of sensor cell. Lengths in mm, forces in N; 0 leaves a value to what its meaning says.
+    """One kind of sensor cell. Lengths in mm, forces in N; 0 leaves a value to what its meaning states.
 
     Raises:
         InputError: If a value is out of its range, missing, or not one of its shape.

@@ -345,7 +345,7 @@ def _reach(plan: ShoePlan, surface: Array) -> float:
 
 
 def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: Any) -> tuple[float, float]:
-    """How far corners in the solid are from where the layout says.
+    """How far corners in the solid are from where the layout states.
 
     Args:
         shoe: The shoe.
@@ -364,7 +364,7 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: Any) -> tuple[fl
     cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(0.05)
     cable = cable.union(
         shapely.union_all(pocket_outlines(shoe.plan, p)).buffer(-1e-3)
-    )  # and what is too thin beside it
+    )  # and what is too thin next to it
     shapely.prepare(cable)
     corners = np.concatenate([to_mm(shoe.layout.cell_polygon(i)) for i in range(len(shoe.layout))])
     pockets = np.concatenate([ring(q) for q in shoe.plan.pockets])

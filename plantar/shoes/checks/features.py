@@ -29,7 +29,7 @@ __all__ = ["Feature", "printed_features"]
 
 _FULL, _FREE = 0.90, 0.02  # share of a place that print must fill, and may
 _CABLE = 1.0  # mm: a cable that has to pass
-_EPS = 1.7e-3  # mm beside a level at which corners lie
+_EPS = 1.7e-3  # mm next to a level at which corners lie
 
 Array = NDArray[np.float64]
 

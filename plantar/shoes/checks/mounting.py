@@ -22,7 +22,7 @@ from plantar.shoes.solid.retention import Retention, strap_meets
 __all__ = ["Mounting", "check_mounting"]
 
 _ABOVE = 9  # sections above the wall
-_BESIDE = 8.0  # mm beside a clip or screw, where its window or boss is
+_BESIDE = 8.0  # mm next to a clip or screw, where its window or boss is
 _MANY = 20_000  # triangles, above which the near ones are picked first
 _SLICE = 2.0  # mm of height in which links are held against one section
 _SLIVER = 0.05  # mm that a wall may lean over

@@ -1,9 +1,9 @@
-"""A fine rim: a row of smaller cells along the edge, so that a load near it is told near it. Lengths in mm.
+"""A fine rim: a row of smaller cells along the edge, so that a load near it is given near it. Lengths in mm.
 
-Whole cells end half a cell before the edge, and what presses beyond their centres is told to be at them. Here a strip
+Whole cells end half a cell before the edge, and what presses beyond their centres counts as acting at them. Here a strip
 of one depth follows the edge, cut into cells across it; inside of the strip lies the lattice, its cells whole or
 trimmed there. The strip is as deep as the blind rim allows, since its cells' middles lie half its depth from the edge;
-a sharp corner has a cell of its own, between the perpendiculars from the strip's inner corner to both edges.
+a sharp corner has its own cell, between the perpendiculars from the strip's inner corner to both edges.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ _RESERVE = 0.5  # mm: what a wall that the load case raises adds
 _DEPTHS = tuple(np.arange(18.0, 7.5, -1.0).tolist())  # of the strip
 _LENGTHS = (28.0, 21.0, 15.0)  # of a cell along the edge: the width of a cell of 691 mm^2 first
 _LEAST_AREA = 60.0  # mm^2: below, a board has no room for a connector
-_TRIMMED = 0.4  # of a cell: what is left of it beside the strip where it is kept
+_TRIMMED = 0.4  # of a cell: what is left of it next to the strip where it is kept
 _DETAIL = 0.4  # mm of the edge's detail that is dropped
 _CLEAR = 0.8  # mm between the strip and what would touch it in a point
 _SNAP = 3.0  # mm: a cut nearer to a corner of the edge goes through the corner
-_SHARP = np.radians(50.0)  # a corner that turns by more has a cell of its own
+_SHARP = np.radians(50.0)  # a corner that turns by more has its own cell
 
 Array = NDArray[np.float64]
 

@@ -117,7 +117,7 @@ def fit_lattice(
     At every fifth degree (each fifteenth where cells have a tail) the best offset is found exactly; then
     `bound_whole_cells` looks at all others, and what is better there is taken. Ties are decided by straight rows (along
     or across the foot before others), by the area of the sole
-    under the cells plus that inside their convex hull (the support polygon they can tell), and by how near the patch's
+    under the cells plus that inside their convex hull (the support polygon they can show), and by how near the patch's
     centre is to the sole's.
     With `taxels` the overhang is the smallest, in steps of 0.5 mm, at which so many fit, and cells that cover the least
     of the sole are left out. The same input gives the same placement.

@@ -64,7 +64,7 @@ def foot_from_mesh(
         sole_band: Height in mm of the lowest part that counts as sole.
 
     Returns:
-        The left foot; `notes` say what was detected.
+        The left foot; `notes` show what was detected.
 
     Raises:
         FootError: If the file is no mesh, or its geometry is no foot.
@@ -189,7 +189,7 @@ def _standing(
         try:
             axis, how = forward_axis(triangles, where)
         except FootError:
-            # That there is no sole below comes first: on a foot that lies on its side no axis tells the toes.
+            # That there is no sole below comes first: on a foot that lies on its side no axis shows the toes.
             _checked_sole(triangles - np.array([0.0, 0.0, triangles[..., 2].min()]), sole_band, forward, where)
             raise
         notes += [*turns, how]

@@ -1,7 +1,7 @@
 """Triangle meshes from files: STL, OBJ and 3MF read here, PLY, OFF and DAE through trimesh, STEP and IGES through
 OpenCascade.
 
-The libraries are called in a process of its own whose memory and time have limits (`plantar.files.gate`).
+The libraries are called in its own process whose memory and time have limits (`plantar.files.gate`).
 """
 
 from __future__ import annotations

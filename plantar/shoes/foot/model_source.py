@@ -157,7 +157,7 @@ class ModelSource:
             return self._shapes(name, most, read_all=True)
 
     def mass(self, name: str) -> tuple[float | None, str]:
-        """Mass in kg of the robot that a body belongs to, None where it cannot be told; and a note.
+        """Mass in kg of the robot that a body belongs to, None where it cannot be given; and a note.
 
         Bodies without a stated inertia have that of their shapes; so have links of a URDF of what collides.
         """
@@ -223,7 +223,7 @@ class ModelSource:
 
         Args:
             name: The body.
-            count: Of links that move against each other; what is fixed beside the body is taken, too.
+            count: Of links that move against each other; what is fixed next to the body is taken, too.
 
         Returns:
             Triangles (n, 3, 3) in m of each shape; the ranges in rad of the last two hinges above the body; and what

@@ -47,9 +47,9 @@ _DECK = 0.5  # of the silhouette: a plane above that is so large is the foot's d
 _EITHER = 0.8  # of the face below: a face above that is so large could be the sole
 _UPWARD = 0.2  # of a normal: faces above are no sole
 _LONGER = 1.05  # of the other side: what counts as the long side
-_CLEAR = 0.06  # of the foot's length: how far the ankle lies from its middle where it tells the heel from the toes
+_CLEAR = 0.06  # of the foot's length: how far the ankle lies from its middle where it shows the heel from the toes
 _BLOCK = 0.6  # of the foot's length: what is shorter on top of it is its ankle
-_TURN_TOLD = 4.0  # degrees: a foot that stands so much askew is told to
+_TURN_TOLD = 4.0  # degrees: a foot that stands so much askew is asked to
 _TURN_SQUARE = 30.0  # degrees: a foot about as wide as long that stands so much askew could point either way
 _TURN_LEAST = 6.0  # degrees: a foot turned by less is taken as it stands
 _STRAIGHTER = 0.03  # by how much a foot is more like its mirror image where it is taken to be turned
@@ -82,7 +82,7 @@ def rotation_forward(forward: Axis) -> Array:
 def _thinned(points: Array) -> Array:
     """Points without repetition; of very many the lowest in each column of a grid.
 
-    They are points of the surface, so that a plane through them is one of its own.
+    They are points of the surface, so that a plane through them is one.
     """
     if len(points) <= _MANY:
         return np.unique(points.round(6), axis=0)
@@ -198,7 +198,7 @@ def check_told(triangles: Array, where: str) -> list[str]:
         where: Name of the file, for the message.
 
     Returns:
-        Notes of what nothing tells: whether a rounded or padded sole is level, and whether the foot is upside down.
+        Notes of what nothing shows: whether a rounded or padded sole is level, and whether the foot is upside down.
 
     Raises:
         FootError: If the upper side is tilted by 3 to 25 degrees.
@@ -297,7 +297,7 @@ def check_one_body(triangles: Array, where: str) -> None:
 def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list[str]]:
     """A foot turned so that its length lies along x or y.
 
-    The outline's long axis tells about where it points, its symmetry exactly: the direction within 25 degrees of the
+    The outline's long axis shows about where it points, its symmetry exactly: the direction within 25 degrees of the
     long axis about which the outline is most like its mirror image. A foot that points along an axis of the mesh, or is
     about as much like its mirror image there, stays.
 
@@ -369,7 +369,7 @@ def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
         The axis, and a note on how it was found.
 
     Raises:
-        FootError: If origin and block tell opposite directions.
+        FootError: If origin and block show opposite directions.
     """
     points = triangles.reshape(-1, 3)
     low, high = points.min(axis=0), points.max(axis=0)

@@ -34,8 +34,8 @@ class BodyGeometry:
 
     Attributes:
         triangles: Triangles (n, 3, 3) in m, z up.
-        side: Side that the body's name tells, None where it does not.
-        mass: Mass of the robot in kg, None where it cannot be told.
+        side: Side that the body's name shows, None where it does not.
+        mass: Mass of the robot in kg, None where it cannot be given.
         notes: What was read.
         links: Points (n, 3) in m of the links above it while the ankle moves; None where they are not known.
     """
@@ -48,7 +48,7 @@ class BodyGeometry:
 
 
 def side_of_name(name: str) -> Literal["left", "right"] | None:
-    """Side that a body's name tells.
+    """Side that a body's name shows.
 
     Example:
         >>> side_of_name("leg_left_6_link"), side_of_name("R_ANKLE_P_S"), side_of_name("LeftFoot"), side_of_name("sole")
@@ -70,7 +70,7 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
     geometry), or what collides where nothing is drawn. Bodies fixed to it count as part of it.
 
     Args:
-        path: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file; meshes are looked for as the model says.
+        path: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file; meshes are looked for as the model states.
         body: Name of the foot's body or link.
 
     Returns:

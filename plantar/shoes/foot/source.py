@@ -35,7 +35,7 @@ def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None
         sole_band: Height of the lowest part of a mesh that is its sole, in mm.
 
     Returns:
-        The left foot, and the number of taxels that a robot's file asks for; None where nobody does.
+        The left foot, and the number of taxels that a robot's file asks for; None where no one does.
 
     Raises:
         InputError: If it is not one source, or an option is none of those allowed; the message names the option as the
@@ -72,7 +72,7 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
     """The foot of a mesh, a robot's model or a drawing, by the file's ending."""
     kind = path.suffix.lower()
     if kind not in (*MESH_FORMATS, *MODEL_FORMATS, *OUTLINE_FORMATS):
-        check_input(path, FootError)  # a wrong path is told as such, whatever it ends in
+        check_input(path, FootError)  # a wrong path is given as such, no matter what it ends in
         meshes, models, outlines = (", ".join(kinds) for kinds in (MESH_FORMATS, MODEL_FORMATS, OUTLINE_FORMATS))
         raise FootError(
             f"{path}: a foot is not read from '{kind or path.name}'; allowed: a mesh ({meshes}), a robot's model with "

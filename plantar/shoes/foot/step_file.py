@@ -1,4 +1,4 @@
-"""STEP and IGES files through OpenCascade: called in a process of its own, see `plantar.files.confined`.
+"""STEP and IGES files through OpenCascade: called in its own process, see `plantar.files.confined`.
 
 Of OpenCascade's Python modules only those are loaded that read a file: cadquery, which loads them all, takes twice the
 time and memory.

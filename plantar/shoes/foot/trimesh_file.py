@@ -1,4 +1,4 @@
-"""PLY, OFF and COLLADA files through trimesh (and pycollada): called in a process of its own.
+"""PLY, OFF and COLLADA files through trimesh (and pycollada): called in its own process.
 
 See `plantar.files.confined`.
 """
@@ -24,7 +24,7 @@ def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
 
     Returns:
         "triangles" (n, 3, 3), in the file's unit; of COLLADA (.dae) in m, its axes as they are: which of them the file
-        says is up is passed over, as viewers of robots do.
+        states is up is passed over, as viewers of robots do.
 
     Raises:
         DependencyError: If trimesh is not installed.

@@ -96,7 +96,7 @@ def apart(outer: Any, inner: Any) -> Any:
 def flush(outer: Any, inner: Any) -> Any:
     """An outline that takes in another, and is the very same wherever both are about the same.
 
-    Walls that run along each other a hair apart, or meet a hair beside a corner, give faces and edges of no width,
+    Walls that run along each other a hair apart, or meet a hair next to a corner, give faces and edges of no width,
     which the CAD kernel loses. Where the two part the result lies on no grid: there they would part a hair elsewhere.
 
     Args:

@@ -1,6 +1,7 @@
 """Plan of an insole: a flat sheet with cells below a person's foot, without walls, laid into a shoe. Lengths in mm.
 
-Foot and shoe are soft, so that nothing spreads the load over the cells: what presses beside them is not felt. The cells
+Foot and shoe are soft, so that nothing spreads the load over the cells: what presses next to them is not measured. The
+    cells
 go up to the edge therefore, and the share of the sole that they cover is the share of an even pressure that they carry.
 """
 

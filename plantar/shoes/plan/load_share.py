@@ -1,6 +1,6 @@
 """Which share of the load the taxels carry: the print and the ground as rigid plates, springs between them.
 
-Under a taxel the pad's sheet and the taxel are in series; beside the taxels the pad's rim takes its part as soon as it
+Under a taxel the pad's sheet and the taxel are in series; next to the taxels the pad's rim takes its part as soon as it
 has closed the relief below the print, and where it is too narrow for a rim the sheet, once it meets the print. Each is
 a layer of rubber between two plates that it does not slide on: its apparent modulus is
 
@@ -66,7 +66,7 @@ class LoadShare:
         half: On the worst of four footholds that are half the sole: heel, toes, left, right; 0..1.
         worst_half: Which of them that is.
         compression: How far the print sinks on flat ground in mm.
-        rim_stiffness: Stiffness of what is beside the taxels, per area, over that of a taxel, as it comes to on flat
+        rim_stiffness: Stiffness of what is next to the taxels, per area, over that of a taxel, as it comes to on flat
             ground; 0 where the taxels carry all.
     """
 

@@ -15,7 +15,7 @@ _LEAST = 2.0  # mm: a narrower rim is left out
 
 
 def pad_rim(plan: ShoePlan, parameters: ShoeParameters) -> Any:
-    """Where the pad has its rim: the contact face beside the taxels, where it is wide enough.
+    """Where the pad has its rim: the contact face next to the taxels, where it is wide enough.
 
     Args:
         plan: The sole.

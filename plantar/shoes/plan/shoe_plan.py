@@ -82,7 +82,7 @@ class ShoePlan:
             return self.cells
         import shapely
 
-        # Only below cells: what presses beside them would not be felt.
+        # Only below cells: what presses next to them would not be measured.
         land = shapely.union_all(self.cells, grid_size=GRID).intersection(self.pockets[0].buffer(-_LAND_PLAY))
         parts = shapely.get_parts(shapely.set_precision(land, GRID))
         return tuple(shapely.geometry.polygon.orient(q) for q in parts if q.geom_type == "Polygon")
@@ -131,14 +131,14 @@ class ShoePlan:
 
     @property
     def blind_rim(self) -> float:
-        """Widest place of the contact face beyond the hull of the taxels' centres, in mm: a load there is told to be at
-        that hull."""
+        """Widest place of the contact face beyond the hull of the taxels' centres, in mm: a load there is asked to be
+        at that hull."""
         return blind_rim(self.contact, to_mm(self.layout.positions[:, :2]))
 
     def shared_edge(self, i: int, j: int) -> NDArray[np.float64]:
         """Ends (2, 2) in mm of the longest straight line that two neighbouring cells share.
 
-        One cell's corner may lie inside another's edge, where rounding would leave nothing of an exact intersection.
+        One cell's corner may lie inside another's edge, where rounding would leave nothing about an exact intersection.
 
         Args:
             i: Index of a taxel.

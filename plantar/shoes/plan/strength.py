@@ -54,7 +54,7 @@ class Member:
 
     Attributes:
         name: What it is.
-        model: The beam it is taken for.
+        model: The beam it is treated as.
         length: Its free length in mm.
         thickness: Its thickness in mm.
         needed: Thickness that it needs, in mm.

@@ -100,7 +100,7 @@ def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> lis
     """
     p = parameters
     outlines = [plan.cavity]
-    for share in LEVELS[-2::-1]:  # each within the one above it: nothing of the wall hangs over
+    for share in LEVELS[-2::-1]:  # each within the one above it: nothing about the wall hangs over
         outline = tidy(grown(foot.passing(share * p.rim_height), p.clearance))
         outlines.append(_within(outlines[-1], outline))
     out: list[tuple[float, float, Any]] = []

@@ -1,7 +1,7 @@
-"""A walking robot's arm that gives way to whoever takes it: the companion's tasks on its joints, and what it tells.
+"""A walking robot's arm that gives way to anyone who takes it: the companion's tasks on its joints, and what it shows.
 
-Its controller knows the arm's joints and its skin, and nothing of the walk: for it the base stands upright. What the
-arm does to the body the soles feel; where its links are, with all that their skin feels, the walking controller gets
+Its controller knows the arm's joints and its skin, and nothing about the walk: for it the base stands upright. What the
+arm does to the body the soles feel; where its links are, with all that their skin measures, the walking controller gets
 from its joint angles.
 """
 
@@ -114,7 +114,7 @@ class CompliantArm:
         """Set the motors' torques for a control period, by the last reading of the encoders.
 
         Args:
-            felt: What the skin says; None where nobody reads it.
+            felt: What the skin states; None where no one reads it.
         """
         external = None
         if felt is not None and self._skin is not None:

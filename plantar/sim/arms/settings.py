@@ -16,7 +16,7 @@ class ArmSettings(Settings):
         spring: Torque of the springs to the posture, as a share of a joint's largest a rad.
         damper: Torque against a joint's speed, likewise, in s/rad. Torques are held for a control period: above 0.3 the
             light wrist of h1 shakes at 200 Hz.
-        gain: Factor on the force that the skin of the arm feels, with which the arm gives way to it; 1 as if it had
+        gain: Factor on the force that the skin of the arm measures, with which the arm gives way to it; 1 as if it had
             neither friction nor gears, 0 holds against it.
         filter: Time constant in s of the low pass on each taxel's force, so that yielding does not beat against the
             skin's stiffness.

@@ -113,7 +113,7 @@ class WornArm:
         return low, high
 
     def add_to(self, spec: Any) -> None:
-        """Take the arm out of the chest, and hang it on the base, after whatever hangs there already.
+        """Take the arm out of the chest, and hang it on the base, after any hangs there already.
 
         Args:
             spec: The robot's editable `mujoco.MjSpec`, or that of a world with it.

@@ -20,7 +20,7 @@ _PIECES = (_KINDS["cylinder"], _KINDS["sphere"], _KINDS["sphere"])
 
 
 class Obstacle:
-    """A geom that skin feels. Its velocity comes from its motion, since a mocap body has none of its own.
+    """A geom that skin measures. Its velocity comes from its motion, since a mocap body has none.
 
     Args:
         model: The MjModel.
@@ -64,7 +64,7 @@ class Obstacle:
             points: Its points (m, 3) in the world in m.
             now: Its middle (3,) in m and its rotation (9,) to the world, row by row.
             before: Both a while ago.
-            period: Length of that while in s; 0 where its velocity shall count as 0.
+            period: Length of that while in s; 0 where its velocity should count as 0.
 
         Returns:
             Their velocity (m, 3) in m/s.

@@ -1,6 +1,6 @@
 """Simulated skin on any link: what obstacles press on each taxel, and how the skin presses back.
 
-Skin is an elastic foundation. A ray a taxel, from inside the body outwards along its normal, tells how deep an obstacle
+Skin is an elastic foundation. A ray a taxel, from inside the body outwards along its normal, shows how deep an obstacle
 has sunk in; the pressure follows from depth and rate, friction from the sliding velocity, and both act on the robot's
 link and, reversed, on the obstacle. Rays are cast for those patches alone that an obstacle is near to. Between skinned
 links and obstacles MuJoCo's own contacts are off, so that nothing but the skin carries.
@@ -70,7 +70,7 @@ class SkinSensor:
         skin: The skin, on links of the model.
         settings: What the skin is made of and how well it measures.
         seed: Of noise, gain errors and dead taxels.
-        obstacles: Ids of the geoms that it feels; None for all of `OBSTACLE_GROUP`.
+        obstacles: Ids of the geoms that it measures; None for all of `OBSTACLE_GROUP`.
 
     Attributes:
         skin: The skin.
@@ -84,7 +84,7 @@ class SkinSensor:
 
     Raises:
         RobotError: If the model lacks a link of the skin.
-        SceneError: If an obstacle is of a kind that cannot be felt.
+        SceneError: If an obstacle is of a kind that cannot be measured.
     """
 
     def __init__(
@@ -140,7 +140,7 @@ class SkinSensor:
         self.skipped += len(self.skin) - looked
 
     def read(self, data: Any) -> SkinReading:
-        """What the skin says now, of the last `apply`.
+        """What the skin states now, of the last `apply`.
 
         Args:
             data: The MjData.

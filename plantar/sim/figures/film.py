@@ -71,7 +71,7 @@ class Film:
             start = world.data.site_xpos[site] + turn @ (force @ world.robot.layouts[side].positions / total)
             length = _ARROW * world.body.leg * total / world.body.weight
             ends = self._camera.pixels(np.array([start, start + length * turn[:, 2]])).round().astype(int)
-            tip = 12.0 / max(12.0, float(np.hypot(*(ends[1] - ends[0]))))  # 12 pixels, whatever the force
+            tip = 12.0 / max(12.0, float(np.hypot(*(ends[1] - ends[0]))))  # 12 pixels, regardless of the force
             cv2.arrowedLine(picture, *map(tuple, ends.tolist()), _COLOUR, 3, cv2.LINE_AA, tipLength=tip)
 
     def __exit__(

@@ -65,7 +65,7 @@ class Camera:
         width: Picture width in pixels.
         height: Picture height in pixels.
         view: From where it is shown.
-        groups: Groups of geoms to show besides 0, 1 and 2, which are MuJoCo's own choice.
+        groups: Groups of geoms to show in addition 0, 1 and 2, which are MuJoCo's own choice.
         fast: Whether edges are not smoothed and shadows half as fine: a third of the time without a GPU.
 
     Raises:

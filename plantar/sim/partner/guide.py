@@ -1,6 +1,6 @@
 """A hand that takes a robot by its forearm and leads it: two fingers about the arm, which go a way and take it along.
 
-The hand is a body of its own with mass; nobody carries its weight. Along its way it follows a path with the force of a
+The hand is its own body with mass; no one carries its weight. Along its way it follows a path with the force of a
 spring, and of no more than a person's arm gives; sideways, up and down it goes along with the forearm. Between the
 fingers the arm has play. What the hand does to the robot goes through the skin of the arm alone
 (`plantar.sim.body_skin`).
@@ -25,7 +25,7 @@ from plantar.sim.partner.touch import Partner
 
 __all__ = ["Grip", "Guide"]
 
-_MASS = 0.02  # of the robot: 1.7 kg beside H1, as a hand and forearm
+_MASS = 0.02  # of the robot: 1.7 kg next to H1, as a hand and forearm
 _FINGER, _LONG = 1 / 30, 0.075  # leg: radius of a finger and half its length, 20 and 45 mm
 _PLAY = 0.02  # leg: on each side of the arm, 12 mm: an arm that yields turns, and is thicker along the way then
 _QUICK = 7.4  # 1/beat: how quickly it goes along with the forearm, 30 rad/s for H1, critically damped

@@ -1,8 +1,8 @@
 """A flat hand that follows a point of a robot's upper body and presses on it with a given force.
 
-It is a body of its own with mass, which slides along the world's axes and turns about the vertical; nobody carries its
+It is its own body with mass, which slides along the world's axes and turns about the vertical; no one carries its
 weight. What it does to the robot goes through the robot's skin alone (`plantar.sim.body_skin`), so its inertia is
-felt, too.
+measured, too.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ _ARM = 0.35  # leg: length of the drawn forearm
 
 
 class HandTarget(NamedTuple):
-    """Where a hand shall be.
+    """Where a hand should be.
 
     Attributes:
-        position: Where its palm's face shall be (3,) in the world in m.
+        position: Where its palm's face should be (3,) in the world in m.
         velocity: How fast that point moves (3,) in m/s.
         yaw: Heading of the robot in rad.
         inward: Unit vector (3,) in the world along which it presses.
@@ -125,7 +125,7 @@ class Hand:
 
         Args:
             data: The MjData.
-            target: Where it shall be, and how hard it presses.
+            target: Where it should be, and how hard it presses.
         """
         place, motion = data.qpos[self._places], data.qvel[self._axes]
         force = self._stiffness * (self._middle(target) - place[:3]) + self._damping * (target.velocity - motion[:3])

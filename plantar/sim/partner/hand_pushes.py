@@ -3,7 +3,7 @@
 A push has an impulse in the robot's frame, forward and to the left. Each of its components is the work of one hand,
 which presses inwards on the face behind it: so a push in any direction needs no friction, and its force passes the
 robot's axis at both hands. A hand waits beyond what the skin sees, comes up to it shortly before, presses with a force
-that swells and fades as a half sine, and stops when it has delivered its share: it feels what it presses with.
+that swells and fades as a half sine, and stops when it has delivered its share: it measures what it presses with.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class HandPush:
     Attributes:
         impulse: Impulse (2,) in N s, forward and to the left in the robot's frame.
         duration: Duration in s of its half sine.
-        when: Says when it begins in s, as planned now; asked until it has.
+        when: States when it begins in s, as planned now; asked until it has.
         step: Step that it falls into, for who judges; -1 for none.
         start: When it began in s; infinite before.
         end: When it ended in s; infinite before.
@@ -91,7 +91,7 @@ class HandPushes:
         pushes: The pushes in the order of time.
         skin: Skin of the upper body, in the base frame.
         body: How large the robot is.
-        height: Says at which height above the base's origin in m the robot is pushed, once it stands; hands keep to
+        height: States at which height above the base's origin in m the robot is pushed, once it stands; hands keep to
             that point of it.
 
     Attributes:
@@ -129,7 +129,7 @@ class HandPushes:
             world: The world.
 
         Returns:
-            Ids of the geoms that the skin feels: their palms.
+            Ids of the geoms that the skin measures: their palms.
         """
         self._base = int(world.model.body_rootid[world.torso])
         for hand in self.hands.values():

@@ -22,7 +22,7 @@ class PartnerSettings(Settings):
         built_in_force: f_in of K 39, of a leader alone.
         starts: Time in s from which a leader's force acts, and a follower is moved.
         apart: Distance in m of its hand from the robot's skin at the start.
-        body_mass: Mass of its body; TIAGo's of 70 kg beside H1.
+        body_mass: Mass of its body; TIAGo's of 70 kg next to H1.
         drive_force: Largest force of its drive.
         hand_noise: Noise (1 sigma) in N of the force-torque sensor in its hand.
     """
@@ -45,7 +45,7 @@ class GuideSettings(Settings):
     """A hand that takes the forearm of the arm that moves (`[arm]`), and leads the robot by it along a way.
 
     Attributes:
-        way: How far it goes in m; 0 for nobody who guides.
+        way: How far it goes in m; 0 for no one who guides.
         toward: Where to, in the robot's frame at the start; with "seeded" the seed chooses.
         sets_out: Time in s from which it leads; until then it goes along with the arm.
         within: The seed draws a time of up to this many s after that: with the default, any phase of a stride.

@@ -38,7 +38,7 @@ class Partner(Protocol):
             world: The world.
 
         Returns:
-            Ids of the geoms that the skin feels.
+            Ids of the geoms that the skin measures.
         """
 
     def place(self, world: World) -> None:
@@ -55,7 +55,7 @@ class Partner(Protocol):
             time: Time in s.
 
         Returns:
-            Whether it may; always, for a partner that does not say otherwise.
+            Whether it may; always, for a partner that does not state otherwise.
         """
         return True
 

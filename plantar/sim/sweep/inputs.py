@@ -51,7 +51,7 @@ def inputs_of(scene: str, robot: str) -> dict[str, str]:
 
 
 def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
-    """Say how inputs differ.
+    """State how inputs differ.
 
     Args:
         before: Inputs as they were.

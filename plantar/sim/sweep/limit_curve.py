@@ -1,10 +1,10 @@
 """Where the outcome of runs turns over along a setting: how sure their outcomes make of it.
 
-The share of runs that are completed is taken for a logistic curve of the setting, between a lapse and one less the
+The share of runs that are completed is treated as a logistic curve of the setting, between a lapse and one less the
 lapse: some runs fail, or are completed, for reasons other than the setting. The limit is where half
 of the runs are completed. What is known of limit, width and lapse is a probability over a grid of them. Before the
 first run it is flat in the limit, in the logarithm of the width and over three lapses. The limit is in its interval
-with a probability of 95 %, whatever width and lapse are. (Kontsevich and Tyler, Bayesian adaptive estimation of
+with a probability of 95 %, any width and lapse are. (Kontsevich and Tyler, Bayesian adaptive estimation of
 psychometric slope and threshold, Vision Research 39, 1999.)
 """
 

@@ -21,7 +21,7 @@ AHEAD = 8
 everywhere: the runs of a search do not depend on who ran them."""
 
 _ENDS = 4  # runs at each end of the range before any between
-_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # its multiples fill (0, 1) evenly, whatever a seed's remainder chooses
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # its multiples fill (0, 1) evenly, any a seed's remainder chooses
 _TURNING = 0.15  # part of the way from all to none, at either side, that is left out: runs there show little
 _SURE = 0.95
 
@@ -31,7 +31,7 @@ class LimitSearch:
     """The value of a setting at which half of the runs are completed, at each point of a grid.
 
     Attributes:
-        sweep: Scene, grid and the most runs at each point of it, as "seeds": every run has a seed of its own.
+        sweep: Scene, grid and the most runs at each point of it, as "seeds": every run has its own seed.
         limit: The setting and its range.
         within: Width of the limit's 95 % interval, as a share of the limit, at which the search ends.
 

@@ -214,7 +214,7 @@ class Sweep:
         return self.opened(point).robot
 
     def identity(self) -> dict[str, Any]:
-        """What all rows of one table must share, besides the content of files: JSON values by name.
+        """What all rows of one table must share, in addition the content of files: JSON values by name.
 
         Points and seeds may be added to a table; other scenes, settings or axes may not.
         """

@@ -113,7 +113,7 @@ def open_results(
     Args:
         folder: Folder of results.csv and sweep.json; made if needed.
         identity: What all rows share (`Sweep.identity`).
-        inputs: For each robot what its rows depend on besides that (`inputs_of`).
+        inputs: For each robot what its rows depend on in addition (`inputs_of`).
         axes: Settings of the grid, the table's first columns.
         columns: Columns after those and the seed.
 
