@@ -100,6 +100,9 @@ class SolePose:
         Args:
             outline: Outline in the sole frame in m, as of `concave_outline`.
             layout: The sole, whose corners the outline has.
+
+        Returns:
+            The outline.
         """
         height = {(x, y): z for x, y, z in layout.vertices.tolist()}
         corners = [np.array([[x, y, height.get((x, y), 0.0)] for x, y in ring.tolist()]) for ring in outline.rings]

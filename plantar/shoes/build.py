@@ -313,7 +313,7 @@ def built_sides(
         steps: The left body.
         parameters: Dimensions as used.
         sides: Which of the two.
-        show: Receives fraction and text.
+        tell: Receives fraction and text.
 
     Returns:
         The shoes.

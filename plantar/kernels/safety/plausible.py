@@ -102,7 +102,7 @@ class SoleCheck:
         self.swapped = False
 
     def update(self, left, left_count, right, right_count):
-        """Take the forces of a tick: those on n taxels of each sole, as the wires bring them.
+        """Take the forces of a tick: `left_count` on the `left` sole, `right_count` on the `right`, as wired.
 
         Returns:
             0.

@@ -1,7 +1,7 @@
 """A fine rim: a row of smaller cells along the edge, so that a load near it is given near it. Lengths in mm.
 
-Whole cells end half a cell before the edge, and what presses beyond their centres counts as acting at them. Here a strip
-of one depth follows the edge, cut into cells across it; inside of the strip lies the lattice, its cells whole or
+Whole cells end half a cell before the edge, and what presses beyond their centres counts as acting at them. Here a
+strip of one depth follows the edge, cut into cells across it; inside of the strip lies the lattice, its cells whole or
 trimmed there. The strip is as deep as the blind rim allows, since its cells' middles lie half its depth from the edge;
 a sharp corner has its own cell, between the perpendiculars from the strip's inner corner to both edges.
 """

@@ -50,7 +50,15 @@ class KeepOut:
         return "" if self.known else "the shank is taken to stand on the ankle: no robot's model says where it passes"
 
     def meets(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> int:
-        """How many points lie in a box with a room of 2 mm around it."""
+        """How many points lie in a box with a room of 2 mm around it.
+
+        Args:
+            low: Lowest corner in mm.
+            high: Highest corner in mm.
+
+        Returns:
+            Their number.
+        """
         a, b = np.array(low) - _ROOM, np.array(high) + _ROOM
         return int(((self.links > a) & (self.links < b)).all(axis=1).sum())
 

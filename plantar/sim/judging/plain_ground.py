@@ -42,6 +42,9 @@ class PlainGround:
             x: Its origin in m; likewise y.
             y: The same.
             yaw: Its heading in rad.
+
+        Returns:
+            Whether it does.
         """
         import shapely
 

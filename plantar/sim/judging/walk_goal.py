@@ -159,7 +159,15 @@ class WalkGoal:
         return self.steps[step] if move is None else move.place
 
     def reason(self, step: int, time: float) -> str:
-        """Why a step was moved last until some time in s; empty where it was not."""
+        """Why a step was moved last.
+
+        Args:
+            step: The step.
+            time: Time in s until which moves count.
+
+        Returns:
+            The reason; empty where it was not moved.
+        """
         move = self._last_move(step, time)
         return "" if move is None else move.reason
 
