@@ -142,7 +142,7 @@ def test_the_papers_shoe(repository: Path) -> None:
     """H1: 42 taxels of 691 mm^2, at most 250 mm long, overhang below 10 mm; the repository holds this layout."""
     import tomllib
 
-    folder = repository / "plantar" / "sim" / "robots" / "h1"
+    folder = repository / "plantar" / "robots" / "h1"
     facts = tomllib.loads((folder / "robot.toml").read_text())["foot"]
     foot = foot_from_dimensions(
         "h1",

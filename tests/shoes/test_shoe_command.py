@@ -78,7 +78,7 @@ def test_a_robot_gives_its_layouts(run: Run, tmp_path: Path, repository: Path) -
     assert "42 taxels of 691 mm^2" in out
     for side in ("left", "right"):
         made = (tmp_path / "out" / f"layout_{side}.json").read_text()
-        stored = (repository / "plantar" / "sim" / "robots" / "h1" / f"layout_{side}.json").read_text()
+        stored = (repository / "plantar" / "robots" / "h1" / f"layout_{side}.json").read_text()
         np.testing.assert_allclose(json.loads(made)["vertices"], json.loads(stored)["vertices"], atol=1e-6)
 
 
