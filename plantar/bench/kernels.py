@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 OFFSET = 0.01
 """Distance in m of the inner offset that is measured."""
 
-RANDOM = (250, 1000, 5000)
+RANDOM = (100, 300)
 """Cells, active by chance, of the outlines in which rectangles at any angle are measured."""
 
 
@@ -81,7 +81,7 @@ def compare_random_cells(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
             Route("plantar, its proven bound", call, outlines, lambda r: _size(r.corners) * (1.0 + r.gap), ours=True),
             Route("plantar, along the axes", along, outlines, _size, approximate=True),
         ]
-        wanted = [_size(call(o, np.inf).corners) for o in outlines]
+        wanted = [_size(call(o, 3000).corners) for o in outlines]
         yield name, compare(name, f"{cells} random", routes, Reference(wanted), rounds)
 
 

@@ -8,12 +8,14 @@ rounding: a corner may be outside by a few units in the last place of the coordi
 
 from __future__ import annotations
 
+import heapq
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import number
+from plantar.arguments import integer
 from plantar.errors import InputError
 from plantar.geometry.convex_shapes import convex_shapes
 from plantar.geometry.outline import Outline
@@ -32,6 +34,10 @@ __all__ = [
 ]
 
 
+_FIRST = 32  # intervals of a quarter turn that a scan begins with
+_PROVEN = 1e-6  # share of the area that is not looked for
+
+
 class Circle(NamedTuple):
     """A circle: centre (2,) in m and radius in m.
 
@@ -47,8 +53,7 @@ class Circle(NamedTuple):
 class BoundedRectangle(NamedTuple):
     """A rectangle and how much larger any other may be: corners (4, 2) in m, none (0, 2) of an empty outline.
 
-    No rectangle in the outline has more than (1 + gap) times its area. That is proven, up to rounding; a search that
-    came to its end leaves 1e-6.
+    No rectangle in the outline has more than (1 + gap) times its area. That is proven, up to rounding.
 
     Example:
         >>> BoundedRectangle(np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]), 1e-6).gap
@@ -148,7 +153,7 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
 
     Global, not a local summit: the edges that hold the best rectangle at one angle bound those at every other angle, by
     weak duality and to second order, so that some 40 steps along the quarter turn leave nothing above the best area
-    (`plantar/kernels/any_angle.py` has the proof).
+    (`plantar/kernels/geometry/any_angle.py` has the proof).
 
     Args:
         polygon: Convex polygon (k, 2) in m.
@@ -189,42 +194,75 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
     return np.asarray(shapes.rectangle_in_outline(outline.points, outline.starts, outline.apart, float(angle)))
 
 
-def rectangle_in_outline_any_angle(outline: Outline, budget: float = 2e7) -> BoundedRectangle:
-    """Rectangle of most area in a concave outline, at any angle, and the proven bound on all others.
+def rectangle_in_outline_any_angle(outline: Outline, looks: int = 300) -> BoundedRectangle:
+    """Largest rectangle in a concave outline found by a scan of its angles, and the proven bound on all others.
 
-    Global: a rectangle turned by t about its middle is the box around one of d^2 t less at the angle before, d its
-    diagonal, so the rectangles at one angle bound those near it. Intervals of angles, the one of the largest bound
-    first, are cut and thrown away until nothing above the best area is left; where they are narrow a bound of second
-    order does it (`plantar/kernels/turn_bound.py`). In an outline of many vertices columns tell first where, and at
-    which angles, large ones may stand (`plantar/kernels/corridors.py`). The search begins with the largest rectangle
-    along the axes, so it returns none that is smaller.
+    A rectangle turned by t about its middle holds one of d^2 sin(2 t) / 2 less at the angle before, d its diagonal: so
+    the largest rectangle at one angle bounds those near it. Intervals of angles, the one of the largest bound first,
+    are looked at in their middle and halved. The best angle is refined at the end.
 
     Args:
         outline: Outline with islands and holes in m.
-        budget: Work after which the search ends, in units of which a millisecond holds some 500,000; inf to go on until
-            all is proven. What stands along the axes is found whatever the budget. It counts steps, not time: the same
-            outline and budget give the same rectangle, more of it never gives a smaller one or a larger gap.
+        looks: At how many angles the outline is looked at; more of them never give a larger gap.
 
     Returns:
-        Corners (4, 2) in m and gap: no rectangle is larger by more than that share of its area. 1e-6 where the search
-        came to its end, which the budget lets it do in outlines of some thousand cells at random. No corners (0, 2) and
+        Corners (4, 2) in m and gap: no rectangle is larger by more than that share of its area. No corners (0, 2) and
         no gap for an empty outline.
 
     Raises:
-        InputError: If the budget is not a number of 0 or more.
+        InputError: If there is not at least one look.
 
     Example:
         >>> tilted = Outline.of_rings([[[0, 0], [1, 1], [0, 2], [-1, 1]]])
         >>> corners, gap = rectangle_in_outline_any_angle(tilted)
-        >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 9), gap
+        >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 6), gap
         (2.0, 1e-06)
     """
-    work = number(budget, "budget")
-    if work < 0.0:
-        raise InputError(f"budget is {work:g}; expected 0 or more")
+    most = integer(looks, "looks", 1)
     if not len(outline):
         return BoundedRectangle(np.empty((0, 2)), 0.0)
-    corners, gap = convex_shapes().rectangle_in_outline_at_any_angle(
-        outline.points, outline.starts, outline.apart, work
-    )
-    return BoundedRectangle(np.asarray(corners), float(gap))
+    if len(outline.rings) == 1 and _is_convex(outline.rings[0]):
+        return BoundedRectangle(inscribed_rectangle_any_angle(outline.rings[0]), _PROVEN)
+    reach2 = float((np.ptp(outline.points, axis=0) ** 2).sum())  # no diagonal is longer
+    angle, corners = 0.0, rectangle_in_outline(outline)
+    best = _area(corners)
+    half = 0.25 * math.pi / _FIRST
+    waiting = [(-math.inf, (2 * k + 1) * half, half) for k in range(_FIRST)]
+    for _ in range(most):
+        bound, middle, half = heapq.heappop(waiting)
+        if -bound <= best * (1.0 + _PROVEN):
+            heapq.heappush(waiting, (bound, middle, half))
+            break
+        found = rectangle_in_outline(outline, middle)
+        if _area(found) > best:
+            angle, corners, best = middle, found, _area(found)
+        # Half of the interval to either side, each with the bound of its farther end.
+        bound = max(bound, -(_area(found) + 0.5 * reach2 * math.sin(2.0 * half)))
+        for side in (-0.5, 0.5):
+            heapq.heappush(waiting, (bound, middle + side * half, 0.5 * half))
+    width = 0.5 * math.pi / _FIRST
+    while width > 1e-7:  # refine
+        for trial in (angle - width, angle + width):
+            found = rectangle_in_outline(outline, trial)
+            if _area(found) > best:
+                angle, corners, best = trial, found, _area(found)
+                break
+        else:
+            width *= 0.5
+    gap = max(_PROVEN, -waiting[0][0] / best - 1.0) if best > 0.0 else 0.0
+    return BoundedRectangle(corners, gap)
+
+
+def _area(corners: NDArray[np.float64]) -> float:
+    """Area in m^2 of a rectangle's corners."""
+    first, second = corners[1] - corners[0], corners[2] - corners[1]
+    return float(math.hypot(*first) * math.hypot(*second))
+
+
+def _is_convex(ring: NDArray[np.float64]) -> bool:
+    """Whether a ring is convex, so that the rectangle at any angle is known without a scan."""
+    try:
+        convex_ring(ring)
+    except InputError:
+        return False
+    return True

@@ -2,7 +2,7 @@
 cimport cython
 from libc cimport math
 from ..base cimport work_arrays
-from . cimport bracket, concave, rectangle
+from . cimport bracket, rectangle
 
 cdef double _QUARTER
 cdef double _LEAST
@@ -20,7 +20,6 @@ cdef double _INF
 @cython.final
 cdef class AnyAngle:
     cdef bint lists
-    cdef public bint convex
     cdef Py_ssize_t n
     cdef public double best
     cdef public double best_angle
@@ -30,8 +29,6 @@ cdef class AnyAngle:
     cdef readonly double[::1] direction
     cdef double[::1] ring
     cdef double[::1] work
-    cdef double[::1] room
-    cdef readonly concave.OutlineRectangles outline
     cdef bracket.Bracket bracket
 
 
@@ -40,7 +37,6 @@ cdef class AnyAngle:
     @cython.locals(i=Py_ssize_t, dx=double, dy=double, twice=double, reach2=double)
     cdef void _measure(self, double[::1] points, Py_ssize_t n) noexcept
 
-    cdef take_ring(self, double[::1] points, Py_ssize_t n)
     cdef double largest(self, double angle, double floor, double[::1] out) except -1
 
     @cython.locals(
@@ -60,7 +56,6 @@ cdef class AnyAngle:
         trial=double
     )
     cdef void climb(self, double middle, double area, double[::1] out) except *
-    cdef double _lower(self, double area, double turn) noexcept
 
 cdef double _slope(double area, double before, double back, double lean) noexcept
 cdef double _reach(double slope, double curve, double gap) noexcept

@@ -1,6 +1,6 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Kernel that turns the largest rectangle of a convex ring or of an outline to its best angle.
+"""Kernel that turns the largest rectangle of a convex ring to its best angle.
 
 Plain Python that also compiles ahead of time (`any_angle.pxd` gives the C types). `plantar.inscribed` is the public
 face.
@@ -30,7 +30,7 @@ _LONGEST = 0.5  # rad of a step along the angles of a convex ring
 
 
 class AnyAngle:
-    """Largest rectangles at any angle in convex rings, and the way to a summit of those in an outline.
+    """Largest rectangles at any angle in convex rings.
 
     In a convex ring the edges that hold the largest rectangle at one angle bound the
     rectangle at every angle t: with their multipliers l the area is at most (sum l h)^2 / (U V), U = sum l |cos| and
@@ -45,21 +45,17 @@ class AnyAngle:
 
     Args:
         lists: Keep lists instead of arrays, which the interpreted form reads faster.
-        outline: Rectangles of the outline in which summits are looked for.
     """
 
-    def __init__(self, lists, outline):
+    def __init__(self, lists):
         self.lists = lists
-        self.outline = outline
         self.gap = 0.0
         self.whole = 0.0
-        self.convex = False
         self.n = 0
         self.best = 0.0
         self.best_angle = 0.0
         self.fine = 1.0
         self.bracket = bracket.Bracket()
-        self.room = work_arrays.numbers(512, self.lists)
         self.direction = work_arrays.numbers(_SEEDS + 2, self.lists)
 
     def in_ring(self, ring, n, work, out):
@@ -74,7 +70,6 @@ class AnyAngle:
         Returns:
             Its area.
         """
-        self.convex = True
         self.ring = ring
         self.n = n
         self.work = work
@@ -101,21 +96,9 @@ class AnyAngle:
         self.whole = 0.5 * twice
         self.fine = min(1.0, _SLIM * 0.5 * twice / reach2)
 
-    def take_ring(self, points, n):
-        """Look at a convex part of an outline as a ring."""
-        if 8 * n + 16 > len(self.room):
-            self.room = work_arrays.numbers(16 * n + 16, self.lists)
-        self.convex = True
-        self.ring = points
-        self.n = n
-        self.work = self.room
-        self._measure(points, n)
-
     def largest(self, angle, floor, out):
         """Largest rectangle at one angle; the floor where it is not above it."""
-        if self.convex:
-            return rectangle.largest_rectangle(self.ring, self.n, angle, floor, self.work, out)
-        return self.outline.largest(angle, floor, out)
+        return rectangle.largest_rectangle(self.ring, self.n, angle, floor, self.work, out)
 
     def find_directions(self, points, n):
         """Find the directions of some edges, within a quarter turn; their number."""
@@ -217,18 +200,18 @@ class AnyAngle:
             bracket.begin(middle, area, side, beside)
             reach = _STRIDE * self.fine if side > middle else -_STRIDE * self.fine
             angle = side + reach
-            trial = self.largest(angle, self._lower(beside, angle - side), out)
+            trial = self.largest(angle, 0.0, out)
             while trial > bracket.mine and abs(reach) < _QUARTER:
                 bracket.stride(angle, trial)
                 reach *= 2.0
                 angle = bracket.at + reach
-                trial = self.largest(angle, self._lower(bracket.mine, angle - bracket.at), out)
+                trial = self.largest(angle, 0.0, out)
             bracket.close(angle, trial)
             for _ in range(_SECTIONS):
                 if bracket.is_closed(3e-8 * self.fine):
                     break
                 bracket.propose()
-                trial = self.largest(bracket.angle, self._lower(bracket.mine, bracket.angle - bracket.at), out)
+                trial = self.largest(bracket.angle, 0.0, out)
                 if bracket.take(trial):
                     break
             at = bracket.at
@@ -236,10 +219,6 @@ class AnyAngle:
         if mine > self.best:
             self.best = mine
             self.best_angle = at
-
-    def _lower(self, area, turn):
-        """Area below which nothing matters so far from an angle with an area."""
-        return max(0.5 * area, area - self.outline.diameter2 * abs(turn)) if not self.convex else 0.0
 
 
 def _slope(area, before, back, lean):

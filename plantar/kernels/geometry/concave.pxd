@@ -3,9 +3,8 @@ cimport cython
 from libc cimport math
 from cpython cimport exc as signals
 from ..base cimport work_arrays
-from . cimport rectangle, turn_bound, windows
+from . cimport rectangle
 
-cdef double _CLOSER
 cdef double _INF
 cdef Py_ssize_t _ASK
 
@@ -45,20 +44,10 @@ cdef class OutlineRectangles:
     cdef double[::1] ring
     cdef double[::1] work
     cdef double[::1] corner
-    cdef double[::1] box
-    cdef double[::1] reached
-    cdef double clear_low
-    cdef double clear_high
-    cdef turn_bound.TurnBound bound
-    cdef double[::1] around
-    cdef double diameter2
-    cdef readonly double most
     cdef public Py_ssize_t spent
     cdef Py_ssize_t next_look
     cdef double limit
     cdef readonly bint ended
-    cdef double half
-    cdef double target
     cdef double best
     cdef bint found
     cdef double x1
@@ -85,19 +74,7 @@ cdef class OutlineRectangles:
     @cython.locals(chosen=Py_ssize_t, m=Py_ssize_t, rings=Py_ssize_t, r=Py_ssize_t, i=Py_ssize_t)
     cpdef double choose(self, Py_ssize_t k) noexcept
 
-    @cython.locals(m=Py_ssize_t, rings=Py_ssize_t, r=Py_ssize_t, i=Py_ssize_t)
-    cpdef Py_ssize_t gather(self, double floor) noexcept
-
-    @cython.locals(begin=Py_ssize_t, rings=Py_ssize_t, base=Py_ssize_t, m=Py_ssize_t, r=Py_ssize_t, i=Py_ssize_t)
-    cpdef void load(self, windows.Windows pieces, Py_ssize_t piece) except *
-
-    @cython.locals(points="double[::1]", a=Py_ssize_t, b=Py_ssize_t, c=Py_ssize_t)
-    cdef bint is_convex(self) noexcept
-
-    @cython.locals(points="double[::1]", i=Py_ssize_t, j=Py_ssize_t)
-    cdef void measure(self) noexcept
     cpdef double largest(self, double angle, double floor, double[::1] out) except -1
-    cpdef double clear(self, double angle, double half, double target, double[::1] out) except -1
 
     @cython.locals(
         slabs=Py_ssize_t, line="double[::1]", slab="Py_ssize_t[::1]", trapezoid="double[::1]", count=Py_ssize_t,
@@ -119,21 +96,12 @@ cdef class OutlineRectangles:
     )
     cdef void _walk(self, Py_ssize_t start, Py_ssize_t slabs, bint exact) noexcept
 
-    @cython.locals(area=double)
     cdef bint _may_hold(self, double width, double height) noexcept
     cdef void _offer(self, double x1, double x2, double y1, double y2) noexcept
 
-    @cython.locals(n=Py_ssize_t, area=double, floor=double, width=double, height=double)
+    @cython.locals(n=Py_ssize_t, area=double, floor=double)
     cdef void _solve(
         self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t start, Py_ssize_t end
-    ) noexcept
-
-    @cython.locals(
-        box="double[::1]", around="double[::1]", reach="double[::1]", width=double, height=double, flat=double, slim=double,
-        diagonal2=double, least=double
-    )
-    cdef void _narrow(
-        self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t n, double area
     ) noexcept
 
     @cython.locals(

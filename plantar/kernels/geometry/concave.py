@@ -10,11 +10,10 @@ from __future__ import annotations
 import math
 
 from ..base import signals, work_arrays
-from . import rectangle, turn_bound
+from . import rectangle
 
 __all__ = ["OutlineRectangles"]
 
-_CLOSER = 0.05  # half an interval in rad in which pairs of trapezoids are looked at closer
 _ASK = 1 << 19  # units of work between two looks for signals
 _INF = math.inf
 
@@ -42,20 +41,10 @@ class OutlineRectangles:
         self.ring = work_arrays.numbers(18, self.lists)
         self.work = work_arrays.numbers(96, self.lists)
         self.corner = work_arrays.numbers(8, self.lists)
-        self.box = work_arrays.numbers(4, self.lists)
-        self.reached = work_arrays.numbers(2, self.lists)
-        self.clear_low = 0.0
-        self.clear_high = 0.0
-        self.bound = turn_bound.TurnBound(lists)
-        self.around = work_arrays.numbers(4, self.lists)
-        self.diameter2 = 0.0
-        self.most = 0.0
         self.spent = 0
         self.next_look = _ASK
         self.limit = _INF
         self.ended = False
-        self.half = 0.0
-        self.target = 0.0
         self.best = 0.0
         self.found = False
         self.x1 = 0.0
@@ -223,70 +212,6 @@ class OutlineRectangles:
         self.m = m
         return self.part_area[chosen]
 
-    def gather(self, floor):
-        """Look at all parts together from now on, but for those of no more than some area; their vertices' number."""
-        m = 0
-        rings = 0
-        for r in range(self.given_rings):
-            if self.part_area[self.owner[r] if self.parts > 1 else self.part[0]] <= floor:
-                continue
-            self.start[rings] = m
-            rings += 1
-            for i in range(self.given_start[r], self.given_start[r + 1]):
-                self.points[2 * m] = self.given[2 * i]
-                self.points[2 * m + 1] = self.given[2 * i + 1]
-                self.order[m] = m
-                m += 1
-        self.start[rings] = m
-        self.rings = rings
-        self.m = m
-        return m
-
-    def load(self, pieces, piece):
-        """Look at a piece of an outline from now on."""
-        begin = pieces.first[piece]
-        rings = pieces.first[piece + 1] - begin
-        base = pieces.start[begin]
-        m = pieces.start[begin + rings] - base
-        if m > self.room or rings + 1 > len(self.start):
-            self._make_room(max(2 * m, self.room), max(2 * rings, len(self.start)))
-        for r in range(rings + 1):
-            self.start[r] = pieces.start[begin + r] - base
-        for i in range(m):
-            self.points[2 * i] = pieces.points[2 * (base + i)]
-            self.points[2 * i + 1] = pieces.points[2 * (base + i) + 1]
-            self.order[i] = i
-        self.spent += m
-        self.rings = rings
-        self.m = m
-        self.diameter2 = pieces.reach2[piece]
-
-    def is_convex(self):
-        """Whether the chosen part is one convex ring."""
-        points = self.points
-        if self.rings != 1:
-            return False
-        a = self.m - 2
-        b = self.m - 1
-        for c in range(self.m):
-            if (points[2 * b] - points[2 * a]) * (points[2 * c + 1] - points[2 * b + 1]) <= (
-                points[2 * b + 1] - points[2 * a + 1]
-            ) * (points[2 * c] - points[2 * b]):
-                return False
-            a = b
-            b = c
-        return True
-
-    def measure(self):
-        """Measure the diameter of the chosen part, which `clear` needs."""
-        points = self.points
-        self.diameter2 = 0.0
-        for i in range(self.m):
-            for j in range(i):
-                dx = points[2 * i] - points[2 * j]
-                dy = points[2 * i + 1] - points[2 * j + 1]
-                self.diameter2 = max(self.diameter2, dx * dx + dy * dy)
-
     def largest(self, angle, floor, out):
         """Largest rectangle in the chosen part whose first side stands at an angle.
 
@@ -303,46 +228,7 @@ class OutlineRectangles:
         Returns:
             Its area; the floor where there is none above it.
         """
-        self.half = 0.0
         return self._enumerate(angle, floor, out)
-
-    def clear(self, angle, half, target, out):
-        """Find how far from an angle no rectangle stands above a target.
-
-        A rectangle of area A that is turned by t about its middle still holds one of A - d^2 t at the old angle, d the
-        diagonal of that one. So a pair of trapezoids (see `largest`) whose largest rectangle has the area B gives none
-        above the target within (target - B) / d^2; often `TurnBound` knows of more. What is left after all pairs stands
-        in `clear_low` and `clear_high`, in rad towards smaller and larger angles.
-
-        Args:
-            angle: Angle of the first side in rad.
-            half: How far from it in rad rectangles above the target are looked for.
-            target: That area.
-            out: As in `largest`.
-
-        Returns:
-            The largest area at the angle where it is above the target, then nothing around is clear; else 0. What
-            bounds the areas that are not clear stands in `most`.
-        """
-        self.most = target
-        self.clear_low = half
-        self.clear_high = half
-        self.target = target
-        self.bound.forget()
-        if target <= self.diameter2 * math.tan(half):  # thin ones have none to turn back to
-            self.half = 0.0
-            area = self._enumerate(angle, 0.0, out)
-            self.clear_low = max(0.0, min(half, (target - area) / self.diameter2))
-            self.clear_high = self.clear_low
-            self.most = area + half * self.diameter2
-        else:
-            self.half = half
-            area = self._enumerate(angle, target - self.diameter2 * half, out)
-        if area <= target:
-            return 0.0
-        self.clear_low = 0.0
-        self.clear_high = 0.0
-        return area
 
     def _enumerate(self, angle, floor, out):
         """Branch and bound over the pairs of trapezoids that a rectangle starts and ends in.
@@ -476,11 +362,8 @@ class OutlineRectangles:
                     top += 1
 
     def _may_hold(self, width, height):
-        """Whether a box may hold more than the best so far, or what turns into more than the target."""
-        area = width * height
-        if area <= self.best:
-            return False
-        return self.half == 0.0 or area + self.half * (width * width + height * height) > self.target
+        """Whether a box may hold more than the best so far."""
+        return width * height > self.best
 
     def _offer(self, x1, x2, y1, y2):
         """Keep a rectangle if it is larger than the best so far."""
@@ -496,76 +379,13 @@ class OutlineRectangles:
     def _solve(self, i, k, low, high, start, end):
         """Keep the largest rectangle of a pair of trapezoids if it is larger than the best so far (see `_octagon`)."""
         floor = self.best
-        if self.half > 0.0:
-            width = self.line[k + 1] - self.line[i]
-            height = high - low
-            floor = max(floor, self.target - self.half * (width * width + height * height))
         self.spent += 20
         n = self._octagon(i, k, low, high, start, end)
         if n < 3:
             return
         area = rectangle.largest_rectangle(self.ring, n, 0.0, floor, self.work, self.corner)
-        if area <= floor:
-            return
-        if self.half > 0.0 and area <= self.target:
-            self._narrow(i, k, low, high, n, area)
-        else:
+        if area > floor:
             self._offer(self.corner[0], self.corner[4], self.corner[1], self.corner[5])
-
-    def _narrow(self, i, k, low, high, n, area):
-        """Narrow what is clear around the middle angle to what a pair of trapezoids leaves.
-
-        The rectangle that one above the target turns back into lies in what the pair may use, also where it could go on
-        beyond the slabs that it starts and ends in (see `_enumerate`), and fills most of the window. So all of them
-        enclose a box, and `TurnBound` applies.
-
-        Args:
-            i: Slab of the first trapezoid; k of the last one.
-            low: Bottom of the window in m; high its top.
-            n: Number of vertices in `ring`, what the pair may use.
-            area: Largest area of the pair at the middle angle, its corners in `corner`.
-        """
-        width = self.line[k + 1] - self.line[i]
-        height = high - low
-        flat = min(height, area / width)
-        slim = min(width, area / height)
-        diagonal2 = min(self.diameter2, max(width * width + flat * flat, height * height + slim * slim))
-        reach = self.reached
-        reach[0] = min(self.half, (self.target - area) / diagonal2)
-        reach[1] = reach[0]
-        if reach[0] < self.half:
-            self.most = max(self.most, area + self.half * diagonal2)
-        if reach[0] >= max(self.clear_low, self.clear_high):
-            return
-        least = self.target - self.half * diagonal2
-        if self.half <= _CLOSER and least > 0.0:
-            box = self.box
-            box[0] = self.line[k + 1] - least / height
-            box[1] = self.line[i] + least / height
-            box[2] = high - least / width
-            box[3] = low + least / width
-            around = self.around
-            around[0] = self.line[i]
-            around[1] = self.line[k + 1]
-            around[2] = low
-            around[3] = high
-            self.spent += 100 + 4 * self.m
-            self.bound.narrow(self.ring, n, self.corner, least, box)
-            self.bound.clear(
-                self.xs,
-                self.ys,
-                self.start,
-                self.rings,
-                box,
-                around,
-                self.half,
-                self.target,
-                self.clear_low,
-                self.clear_high,
-                reach,
-            )
-        self.clear_low = min(self.clear_low, reach[0])
-        self.clear_high = min(self.clear_high, reach[1])
 
     def _cut(self, angle):
         """Cut the part, turned back by an angle, into trapezoids; the number of slabs."""

@@ -2,19 +2,18 @@
 cimport cython
 from libc cimport math
 from ..base cimport work_arrays
-from . cimport any_angle, clean, convex, enclosing, inscribed, outline_search, parallelogram, rectangle
+from . cimport any_angle, clean, concave, enclosing, inscribed, parallelogram, rectangle
 
 cdef double _LARGEST
 cdef double _INF
 cdef double _QUARTER
-cdef double _FLAT
 
 cdef class ConvexShapes:
     cdef bint lists
     cdef double[::1] ring
     cdef double[::1] work
     cdef double[::1] out
-    cdef outline_search.OutlineSearch search
+    cdef concave.OutlineRectangles outline
     cdef any_angle.AnyAngle turning
     cdef Py_ssize_t n
     cdef double x
@@ -59,18 +58,8 @@ cdef class ConvexShapes:
     )
     cpdef bounding_box(self, const double[:, :] points)
 
+    @cython.locals(best=double, k=Py_ssize_t)
     cpdef rectangle_in_outline(self, const double[:, :] points, object starts, bint apart, double angle)
-
-    @cython.locals(best=double, area=double)
-    cpdef rectangle_in_outline_at_any_angle(
-        self, const double[:, :] points, object starts, bint apart, double budget
-    )
-
-    @cython.locals(
-        k=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, ring="double[::1]", size=double, flat=double, x=double, y=double, ux=double,
-        uy=double, wx=double, wy=double, twice=double, depth=double, dx=double, dy=double, across=double
-    )
-    cdef bint _is_convex(self, const double[:, :] points) except -1
 
     @cython.locals(i=Py_ssize_t)
     cdef _placed(self, const double[:, :] points, double area)

@@ -13,14 +13,13 @@ import math
 import numpy as np
 
 from ..base import work_arrays
-from . import clean, convex, enclosing, inscribed, outline_search, parallelogram, rectangle
+from . import any_angle, clean, concave, enclosing, inscribed, parallelogram, rectangle
 
 __all__ = ["ConvexShapes"]
 
 _LARGEST = 1e100
 _INF = math.inf
 _QUARTER = 0.5 * math.pi
-_FLAT = 1e-14  # of a ring's extent: a vertex by so much, or some units in the last place, within its hull is no dent
 
 
 class ConvexShapes:
@@ -37,8 +36,8 @@ class ConvexShapes:
         self.ring = work_arrays.numbers(64, self.lists)
         self.work = work_arrays.numbers(512, self.lists)
         self.out = work_arrays.numbers(8, self.lists)
-        self.search = outline_search.OutlineSearch(lists)
-        self.turning = self.search.turning
+        self.outline = concave.OutlineRectangles(lists)
+        self.turning = any_angle.AnyAngle(lists)
         self.n = 0
         self.x = 0.0
         self.y = 0.0
@@ -164,65 +163,12 @@ class ConvexShapes:
 
     def rectangle_in_outline(self, points, starts, apart, angle):
         """Corners of the largest rectangle in an outline, its first side at an angle."""
-        self.search.take(points, starts, apart)
-        return self._placed(points, self.search.at_angle(angle, self.out))
-
-    def rectangle_in_outline_at_any_angle(self, points, starts, apart, budget):
-        """Corners of the largest rectangle in an outline, at any angle, and by what share none is larger."""
-        self.search.take(points, starts, apart)
-        best = self.search.at_angle(0.0, self.out)
-        if len(starts) != 2 or not self._is_convex(points):
-            best = self.search.at_any_angle(best, budget, self.out)
-            return self._placed(points, best), self.search.gap
-        on_axes = self._placed(points, best)
-        self._clean(points)
-        area = self.turning.in_ring(self.ring, self.n, self.work, self.out)
-        return (self._corners(4) if area >= best else on_axes), self.turning.gap
-
-    def _is_convex(self, points):
-        """Whether a ring is convex up to rounding; then it stands clean in `ring`.
-
-        It is where its hull has the same area, and has none of its vertices inside.
-        """
-        k = points.shape[0]
-        size = clean.extent(points)
-        flat = max(_FLAT * size, 1e-15 * (abs(points[0, 0]) + abs(points[0, 1]) + size))  # and of the coordinates
-        x = points[k - 1, 0]
-        y = points[k - 1, 1]
-        ux = x - points[k - 2, 0]
-        uy = y - points[k - 2, 1]
-        for i in range(k):
-            wx = points[i, 0] - x
-            wy = points[i, 1] - y
-            if ux * wy - uy * wx < -1e4 * flat * max(abs(ux) + abs(uy), abs(wx) + abs(wy)):
-                return False
-            x = points[i, 0]
-            y = points[i, 1]
-            ux = wx
-            uy = wy
-        if self._clean(points) < 3:
-            return False
-        ring = self.ring
-        twice = 0.0
-        for i in range(self.n):
-            j = i + 1 if i + 1 < self.n else 0
-            twice += (ring[2 * i] - ring[0]) * (ring[2 * j + 1] - ring[1])
-            twice -= (ring[2 * j] - ring[0]) * (ring[2 * i + 1] - ring[1])
-        if abs(convex.area(points) - 0.5 * twice) > flat * size:
-            return False
-        for k in range(points.shape[0]):
-            x = points[k, 0] - self.x
-            y = points[k, 1] - self.y
-            depth = _INF
-            for i in range(self.n):
-                j = i + 1 if i + 1 < self.n else 0
-                dx = ring[2 * j] - ring[2 * i]
-                dy = ring[2 * j + 1] - ring[2 * i + 1]
-                across = dx * (y - ring[2 * i + 1]) - dy * (x - ring[2 * i])
-                depth = min(depth, across / (abs(dx) + abs(dy)))
-            if depth > flat:
-                return False
-        return True
+        best = 0.0
+        for k in range(self.outline.take(points, starts, apart)):
+            if self.outline.choose(k) <= best:
+                break
+            best = self.outline.largest(angle, best, self.out)
+        return self._placed(points, best)
 
     def _placed(self, points, area):
         """The corners of `out` about the first point; all of them there where they hold no area."""

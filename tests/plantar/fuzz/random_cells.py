@@ -20,7 +20,7 @@ __all__ = ["RANDOM_CHECKS"]
 _EVERY = 40
 """One block in so many gets a pattern of 1,000 cells, and one in five times as many one of 5,000."""
 
-_SECONDS = {1000: 0.5, 5000: 2.5}
+_SECONDS = {100: 5.0, 300: 60.0}
 """Processor time that each may take: ten times what a quiet machine needs."""
 
 _SHARES = (0.3, 0.5, 0.6, 0.7, 0.9)
@@ -31,7 +31,7 @@ def _random_cells(block: Block, tally: Tally) -> None:
     if block.number % _EVERY:
         return
     turn = block.number // _EVERY
-    cells = 1000 if turn % 5 else 5000
+    cells = 100 if turn % 5 else 300
     outline = random_outline(cells, _SHARES[turn % len(_SHARES)], block.number)
     begin = time.process_time()
     corners, gap = rectangle_in_outline_any_angle(outline)
