@@ -46,6 +46,7 @@ MEMBERS = (
     "inscribed_rectangle_any_angle_in_sole",
     "outline_rectangle_in_sole",
     "outline_rectangle_any_angle_in_sole",
+    "surface_cop_in_sole",
     "health",
     "sound_force",
     "zero_moment_wrench_in_sole",
