@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from plantar import ReadingError, hex_layout
+from plantar import ReadingError, batch, hex_layout
 from plantar.layouts.curved_sole import rotations_to_normals
-from plantar.percepts import any_array, batch
+from plantar.percepts import any_array
 
 FLAT = hex_layout([[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]])
 _SLOPE = 5.0 * FLAT.positions[:, 0]
