@@ -1,4 +1,4 @@
-"""How a simulated sole can touch the ground and feel it: candidates, what they are measured by, and the comparison.
+"""How a simulated sole can touch the ground and measure it: candidates, what they are measured by, and the comparison.
 
 `plantar bench contact` runs it. The simulator uses the model of `plantar.sim.sensing.skin`; the others stay here so
 that the choice can be repeated on another machine or another version of MuJoCo.

@@ -36,7 +36,7 @@ BEAM_OFFSETS = (-0.031, -0.013, 0.0, 0.009, 0.027)
 
 @dataclass(frozen=True)
 class ContactRow:
-    """Figures of one contact model; mm, N, N m and us as the names say. inf: it toppled, or it did not tip over.
+    """Figures of one contact model; mm, N, N m and us as named. inf: it toppled, or it did not tip over.
 
     Attributes:
         name: Name of the candidate.

@@ -1,4 +1,4 @@
-"""The comparison as files: tables, a figure of error against run time, and one page that says what was chosen."""
+"""The comparison as files: tables, a figure of error against run time, and one page with the choice."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _SOLE = ((-0.125, -0.0775), (0.125, -0.0775), (0.125, 0.0775), (-0.125, 0.0775))
 """The sole that is measured where none is given: 250 x 155 mm, in m."""
 
 _LEAST, _MOST = 1e-2, 150.0
-"""Errors in mm that are drawn: smaller and larger ones stand there."""
+"""Errors in mm that are drawn: smaller and larger ones are drawn there."""
 
 
 def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float, str], None]) -> dict[str, Any]:

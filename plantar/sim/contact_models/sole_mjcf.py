@@ -17,11 +17,11 @@ __all__ = ["SPHERE_RADIUS", "SoleMjcf", "sole_mjcf", "support_points"]
 SOLE_THICKNESS = 0.02  # m
 _PRISM_DEPTH = 0.01  # m
 SPHERE_RADIUS = 0.004
-"""Radius in m of the spheres of a sole that stands on spheres."""
+"""Radius in m of the spheres of a sole on spheres."""
 
 
 class SoleMjcf(NamedTuple):
-    """MJCF of what stands under <asset>, in the foot's body, and under <sensor>."""
+    """MJCF of what goes under <asset>, in the foot's body, and under <sensor>."""
 
     assets: str
     geoms: str

@@ -1,1 +1,1 @@
-"""MuJoCo models from robots and ground, the kinematics of the legs, and what MuJoCo says of contacts."""
+"""MuJoCo models from robots and ground, the kinematics of the legs, and MuJoCo's contacts."""

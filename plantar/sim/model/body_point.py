@@ -18,7 +18,7 @@ def body_point(
     Args:
         data: The MjData.
         body: Id of the body.
-        root: Id of the body that its tree begins with, about whose centre of mass MuJoCo tells velocities.
+        root: Id of the body that its tree begins with, about whose centre of mass MuJoCo gives velocities.
         local: The point (3,) in the body's frame in m.
 
     Returns:

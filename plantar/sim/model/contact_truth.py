@@ -1,4 +1,4 @@
-"""Contact truth: what MuJoCo's own contacts say about the feet. Skins are made from it and runs judged by it;
+"""Contact truth: MuJoCo's own contacts of the feet. Skins are made from it and runs judged by it;
 no controller sees it.
 
 Everything here reads `MjModel` and `MjData` as the last `mj_step` or `mj_forward` left them: contacts, their forces

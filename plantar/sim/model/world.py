@@ -32,7 +32,7 @@ __all__ = [
 ]
 
 PHYSICS_PERIOD = 0.001
-"""Time step of the physics in s, where a scene does not say."""
+"""Time step of the physics in s, where a scene gives none."""
 
 _CONTACT_TIME = 5e-3  # s that a contact takes to bring penetration to rest: solref of `plantar.sim.contact_models`
 _CONTACT_STEPS = 2.0  # physics steps that it takes at least
@@ -50,7 +50,7 @@ DIVERGED = (
 
 
 def check_stable(warnings: NDArray[np.int32]) -> None:
-    """Refuse to go on where MuJoCo found the state diverged, which it answers by starting anew from the model's pose.
+    """Refuse to go on where MuJoCo found the state diverged, which it answers by a restart from the model's pose.
 
     Args:
         warnings: How often MuJoCo warned of what: `data.warning.number`, an array that it goes on counting in.
@@ -122,7 +122,7 @@ def _add_leg_contact(spec: Any, robot: Robot) -> None:
     left, right = (spec.joint(robot.legs[side].joints[0]).parent for side in SIDES)
     for side, link in zip(SIDES, (left, right), strict=True):
         link.name = link.name or f"{side}_leg"  # a sensor finds it by name, which a model need not give
-    body = mujoco.mjtObj.mjOBJ_XBODY  # stands for all below it, too
+    body = mujoco.mjtObj.mjOBJ_XBODY  # with all bodies below it
     spec.add_sensor(
         name=_LEG_CONTACT,
         type=mujoco.mjtSensor.mjSENS_CONTACT,
@@ -130,7 +130,7 @@ def _add_leg_contact(spec: Any, robot: Robot) -> None:
         objname=left.name,
         reftype=body,
         refname=right.name,
-        intprm=[1, 0, 1],  # say whether there are contacts; of one, whichever comes first
+        intprm=[1, 0, 1],  # report whether there are contacts, and the first one
     )
 
 
@@ -148,9 +148,9 @@ class World:
         sole_geoms: Geom ids of each sole.
         sole_sites: Site id of each sole frame.
         torso: Body id of the torso.
-        stiffness: Servo position gains (k,) in N m/rad, as the robot's file says them.
+        stiffness: Servo position gains (k,) in N m/rad, of the robot's file.
         damping: Servo velocity gains (k,) in N m s/rad, likewise.
-        joint_damping: Damping (k,) in N m s/rad that the joints have by themselves, as the robot's model says it.
+        joint_damping: Damping (k,) in N m s/rad that the joints have by themselves, of the robot's model.
         joint_friction: Dry friction (k,) in N m of the joints, likewise.
         gyro: Address of the gyro in sensordata.
         accelerometer: Address of the accelerometer in sensordata.
@@ -210,7 +210,7 @@ def build_world(
         robot: The robot.
         ground: The ground.
         period: Time step of the physics in s.
-        plant: In what robot and ground differ from what these say; None for nothing.
+        plant: How the true robot and ground differ; None for no difference.
         others: Who else is in it; their coordinates come after the robot's.
 
     Returns:
@@ -224,7 +224,7 @@ def build_world(
     _add_looks(spec, robot.torso_body)
     for geom in spec.geoms:
         if geom.group == GROUND_GROUP:
-            geom.group = 1  # as visible as before, but nothing that proximity sensors see
+            geom.group = 1  # as visible as before, but not for proximity sensors
     ground.add_to(spec)
     for side in SIDES:
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")

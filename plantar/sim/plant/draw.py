@@ -102,10 +102,10 @@ class TruePlant:
         friction_ratio: True friction of the ground over the scene's.
         softness: Time constant in s with which the ground yields.
         taxel_gains: What each taxel (n,) of each sole reads of its force.
-        crosstalk: Share of each taxel's force that its neighbours feel instead.
+        crosstalk: Share of each taxel's force that its neighbours read instead.
         sensor_delay: Time in s from a reading until the controller has it.
         actuation_delay: Time in s from a set-point until its servo follows it.
-        joint_friction: Dry friction of each leg joint in N m, beside what the model has.
+        joint_friction: Dry friction of each leg joint in N m, added to the model's.
         backlash: Play of each leg joint's gear in rad.
         torque_ripple: Share by which a servo's torque swings as its joint turns.
         hysteresis: Share by which a taxel reads too little under a load that comes on, too much under one that goes.
@@ -206,7 +206,7 @@ def drawn_plant(
 
 
 def _value(plant: Plant, name: str, seed: int) -> Any:
-    """One item as its setting tells it: stated, or drawn."""
+    """One item by its setting: stated, or drawn."""
     stated = getattr(plant, name)
     if stated != RANDOM:
         return np.array(plant.vector(name)) if isinstance(stated, tuple) else stated

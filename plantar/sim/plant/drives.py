@@ -15,7 +15,7 @@ RIPPLES = 200.0
 
 
 class TrueDrives:
-    """The drives of the leg joints: what the simulator's servos, which are ideal, have to be told to behave as those.
+    """The drives of the leg joints: set-points with which the simulator's ideal servos behave as those.
 
     A servo computes torque = kp (u - q) - kv q'. A gear with the play b passes no torque while the shaft moves between
     its flanks, and winds up from there: kp times what exceeds b / 2 of u - q, either way. A gear whose torque swings

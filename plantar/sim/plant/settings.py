@@ -1,4 +1,4 @@
-"""In what the true plant differs from the controller's model, as a scene's `[plant]` table says it."""
+"""In what the true plant differs from the controller's model, as a scene's `[plant]` table gives it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from plantar.settings.schema import Settings, choice, number, tables
 __all__ = ["EVERYTHING", "RANDOM", "Plant"]
 
 RANDOM = "random"
-"""What stands instead of a number that the seed draws."""
+"""The word in place of a number that the seed draws."""
 
 EVERYTHING = "everything"
 """What draws all items, those of wear and of poor ground, too."""
@@ -26,10 +26,10 @@ _LARGEST = {"gyro_bias": ("rad/s", 1.0), "com_offset": ("m", 0.5)}
 
 
 class Plant(Settings):
-    """In what the true plant differs from the model that the controller has of it; by default in nothing.
+    """In what the true plant differs from the model that the controller has of it; by default not at all.
 
     Each may be a number, or "random": then the seed draws it from a range that grows with `level`
-    (`plantar.sim.plant.draw.RANGES`). Robot, sensors and ground are made so; the controller is told none of it.
+    (`plantar.sim.plant.draw.RANGES`). Robot, sensors and ground are made so; the controller gets none of it.
 
     Attributes:
         draw: With "random" what a robot has that was built and calibrated with care is drawn, as far as the table does
@@ -48,11 +48,11 @@ class Plant(Settings):
         friction_ratio: True coefficient of friction of the ground over the scene's.
         softness: Time constant in s with which the ground yields, in series with that of the contact.
         taxel_gain: Standard deviation of the taxels' gains about 1; each one's is drawn, at most 0.9 either way.
-        crosstalk: Share of each taxel's force that its neighbours feel instead, each as much; the sum stays.
+        crosstalk: Share of each taxel's force that its neighbours read instead, each as much; the sum stays.
         sensor_delay: Time in s from when encoders, IMU, ankles and soles are read until the controller has it, up to
             the next control tick; it comes on top of `sensing.delay_periods`.
         actuation_delay: Time in s from a set-point until its servo follows it, to the next physics step.
-        joint_friction: Dry friction of each leg joint in N m, beside what the model has.
+        joint_friction: Dry friction of each leg joint in N m, added to the model's.
         backlash: Play of each leg joint's gear: so far it moves from one flank to the other while no torque passes.
         torque_ripple: Share by which a servo's torque swings as its joint turns, with the teeth of its gear.
         hysteresis: Share by which a taxel reads too little while its load comes on, and too much while it goes off.

@@ -20,7 +20,7 @@ SILENCE = 0.1
 """Mean time in s for which a connector has no contact once it has lost it."""
 
 WARMING = 60.0
-"""Time constant in s with which a sole becomes as warm as the foot that stands in it."""
+"""Time constant in s with which a sole becomes as warm as the foot in it."""
 
 
 class TaxelErrors:
@@ -86,7 +86,7 @@ class TaxelErrors:
 
 
 def _spread(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64]:
-    """What each taxel (n, n) feels of each one's force; a taxel without neighbours keeps its own."""
+    """What each taxel (n, n) reads of each one's force; a taxel without neighbours keeps its own."""
     spread = np.eye(len(layout))
     for i, near in enumerate(layout.neighbours):
         if near:

@@ -1,1 +1,1 @@
-"""What the robot's sensors say of the simulated truth."""
+"""The robot's sensors: what they read of the simulated truth."""

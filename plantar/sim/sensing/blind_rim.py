@@ -26,7 +26,7 @@ class BlindRim:
         s = A_taxels / (A_taxels + k A_rim)
 
     with the areas of the patch over taxels and beside them, and the stiffness k of the rim per area over a taxel's. The
-    load stays where it acts; only its size is told too small.
+    load stays where it acts; only its size is read too small.
 
     Args:
         layout: The sole.

@@ -2,7 +2,7 @@
 
 `SolePressure` takes the sole for springs side by side, as the fit of contact edges does that reads its taxels
 (`plantar/sensing/partial_contact.py`). Here neighbours move each other (`plantar.sim.sensing.elastic_layer`): pressure
-is not linear, it gathers at edges of contact, and how it does so knows nothing of that fit. Squares of a grid finer
+is not linear, it gathers at edges of contact, independent of that fit. Squares of a grid finer
 than the taxels carry what covers them, so that no square pulls and none is penetrated by the rigid ground; their
 forces have exactly the wrench that MuJoCo found, and each taxel reports what its part of the squares carries.
 
@@ -162,8 +162,8 @@ class ElasticPressure:
             center_of_pressure: See `spread`.
 
         Returns:
-            Centroid (k, 2) of the covered part of each square in m, and its force (k,) in N; nothing where the load
-            rests on the bare rim beside the taxels.
+            Centroid (k, 2) of the covered part of each square in m, and its force (k,) in N; empty where the load
+            rests on the bare rim next to the taxels.
         """
         shape = self._patches.of(patch)
         if shape is None:

@@ -1,8 +1,8 @@
 """Simulated proximity of a sole: one ray a taxel against the ground, and what the electronics deliver of it.
 
 Rays run along each taxel's -z, out of the body, and meet ground geoms alone (their own geom group), never the robot.
-They are the dearest of the sensors, so none is cast for a sole that nobody asks about, nor for one that is farther from
-the highest ground than its sensors reach.
+They are the dearest of the sensors, so none is cast for a sole that no caller asks about, nor for one that is farther
+from the highest ground than its sensors reach.
 """
 
 from __future__ import annotations
@@ -112,7 +112,7 @@ class SoleProximity:
             data: The MjData after `mj_step` or `mj_forward`.
 
         Returns:
-            The rays, whose `distances` are those of `distances` until they are cast anew.
+            The rays, whose `distances` are those of `distances` until they are cast again.
         """
         rays = self._rays_in(data)
         if not self.within_range(data):
@@ -169,7 +169,7 @@ class ProximitySensor:
             everything: Cast the rays in any case.
 
         Returns:
-            Distances (n,) in m, inf where nothing is in range, NaN for a dead taxel; None where nobody asks.
+            Distances (n,) in m, inf where nothing is in range, NaN for a dead taxel; None where no caller asks.
         """
         row, count = self._noise.advance(), self._count
         if not (wanted or everything):

@@ -38,7 +38,7 @@ class SensorSuite:
         seed: Seed of all noise; each sensor draws from its own stream.
         proximity: Whether the soles have proximity sensors that somebody uses.
         force_torque: Whether the ankles have force-torque sensors that somebody uses.
-        plant: What sensors read wrong that are not as they are taken to be; None for nothing.
+        plant: How sensors differ from their model; None for no difference.
 
     Attributes:
         body_skin: Reads the skin of the upper body; None for a robot without, or before there is one.
@@ -102,10 +102,10 @@ class SensorSuite:
 
         Args:
             near: Soles whose proximity somebody asks for.
-            everything: Measure proximity that nobody asks for too; readings stay the same.
+            everything: Measure proximity that no caller asks for too; readings stay the same.
 
         Returns:
-            The contacts of both soles from which the skins were read, until they are read anew.
+            The contacts of both soles from which the skins were read, until they are read again.
         """
         data = self._world.data
         feet = self._contacts.read()
@@ -137,7 +137,7 @@ class SensorSuite:
         )
 
     def _ankles(self) -> dict[Side, NDArray[np.float64]]:
-        """Wrench (6,) that each foot exerts on its leg, in the sensor's frame; nothing without sensors."""
+        """Wrench (6,) that each foot exerts on its leg, in the sensor's frame; empty without sensors."""
         if self._ankle_noise is None:
             return {}
         s, data = self._sensing, self._world.data.sensordata

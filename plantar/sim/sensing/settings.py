@@ -1,4 +1,4 @@
-"""What the sensors do to the truth, as a scene's `[sensing]` table says it."""
+"""What the sensors do to the truth, as a scene's `[sensing]` table gives it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Sensing(Settings):
         encoder_noise: Of each joint encoder in rad.
         gyro_noise: Of each gyro axis in rad/s.
         accelerometer_noise: Of each accelerometer axis in m/s^2.
-        body_skin: Whether the skin of the upper body tells what it feels, in a scene where somebody touches it.
+        body_skin: Whether the skin of the upper body is read, in a scene where somebody touches it.
         force_torque: Whether the ankles have force-torque sensors that somebody reads.
         ankle_force_noise: Of each axis of their force in N.
         ankle_torque_noise: Of each axis of their torque in N m.

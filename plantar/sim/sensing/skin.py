@@ -47,7 +47,7 @@ class SoleSkin:
         rubber: Thickness in m of the sole's rubber, see `SolePressure`.
         reach: Largest gap in m between sole and ground that the rubber closes.
         layer: Thickness in m of an elastic layer that spreads the load, see `ElasticPressure`; springs do where None.
-        rim_stiffness: Stiffness of the sole beside the taxels over theirs, see `BlindRim`; 0 where they carry all.
+        rim_stiffness: Stiffness of the sole next to the taxels over theirs, see `BlindRim`; 0 where they carry all.
 
     Raises:
         RobotError: If the model has no such site or geom.
@@ -187,7 +187,7 @@ class SkinSensor:
     """A skin as its electronics deliver it: sampled, noisy, clipped to its range, late.
 
     A sample is taken at the first physics step at or after each multiple of the period, counted from the first call;
-    between samples the last one stands.
+    between samples the last one stays.
 
     Args:
         skin: The noise-free skin.

@@ -136,7 +136,7 @@ class SolePressure:
             cells = np.flatnonzero(area > self._least)
             area = area[cells]
             points = measure[cells, 1:] / area[:, None]
-        else:  # on the bare rim beside the cells
+        else:  # on the bare rim next to the cells
             cells, area, points = self._nearest_cells(polygon)
         area = np.asarray(area / area.sum(), dtype=np.float64)
         centre = area @ points

@@ -14,7 +14,7 @@ _TOGETHER = 64  # samples that are drawn at once: a draw of forty numbers costs 
 
 def white_noise(rng: np.random.Generator, mean: float, std: float | NDArray[np.float64], count: int) -> NoiseRows:
     """Samples of noise without end: the same numbers as `rng.normal(mean, std, count)` gives again and again, as long
-    as nobody else draws from the source.
+    as no other caller draws from the source.
 
     Args:
         rng: The source.

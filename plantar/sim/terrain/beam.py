@@ -52,7 +52,7 @@ class Beam(Terrain):
         start = max(self.start, _foremost(feet, begin, along))
         near = begin + start * along + offset * across
         z = self.height - _THICK
-        reach = self.length / math.cos(turned - heading)  # the platforms' edges stand across the walk
+        reach = self.length / math.cos(turned - heading)  # the platforms' edges run across the walk
 
         def platform(first: float, last: float) -> Solid:
             middle = begin + 0.5 * (first + last) * along

@@ -21,7 +21,7 @@ __all__ = ["GROUND_GROUP", "Flat", "Footprint", "Ground", "Motion", "PlannedFeet
 
 
 GROUND_GROUP = 2
-"""Geom group of all ground and of nothing else: what proximity sensors see."""
+"""Geom group of all ground, and only of ground: what proximity sensors see."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class Solid:
         size: Half sizes (3,) in m; a sphere's radius; a cylinder's radius and half height first.
         position: Centre (3,) in the world in m.
         rotation: Rotation (3, 3) to the world.
-        motions: How it moves, in order of time; a solid without motions stands still.
+        motions: How it moves, in order of time; a solid without motions does not move.
     """
 
     shape: str

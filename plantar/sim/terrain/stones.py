@@ -87,7 +87,7 @@ class Uneven(Terrain):
         height_range: Largest difference in m to the ground that the plan expects.
         slope_range: Largest slope in degrees, in any direction; only where the stones do not move.
         gap: Width in m that is free between the stones of the two feet: dead reckoning drifts to the side in a long
-            walk, and a foot that is off shall not stand on two heights.
+            walk, and a foot that is off must not stand on two heights.
         depth: How deep in m the floor lies below.
     """
 
