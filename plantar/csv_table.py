@@ -90,6 +90,8 @@ def original_cell(text: str) -> str:
 
 
 def _cell(value: Any) -> Any:
+    if type(value) is float:  # nearly all cells of long tables; NaN and infinity minus themselves are NaN
+        return value if value - value == 0.0 else ""
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return ""
     if not isinstance(value, str):
