@@ -124,9 +124,10 @@ def _cable(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
     if not plan.connectors:
         return
     height = p.bottom + max(p.scribe, 0.5 * p.pocket_depth) + 0.05
-    around = plan.contact.buffer(3.0)
+    channel = channel_lines(plan, p)[0]  # behind a slanted heel it goes on beside the contact face
+    around = plan.contact.buffer(3.0).union(shapely.LineString(channel).buffer(0.5 * p.channel_width + 2.0))
     open_ = around.difference(solid.cut(height)).buffer(-0.5 * _CABLE)
-    end = channel_lines(plan, p)[0][-1]
+    end = channel[-1]
     out = hole_outline(plan, p) if plan.heel.board else around.difference(plan.contact.buffer(1.0))
     start = out if not plan.heel.board else shapely.Point(end).buffer(0.3)
     ways = [q for q in getattr(open_, "geoms", [open_]) if q.intersects(start)]
