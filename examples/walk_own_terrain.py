@@ -24,19 +24,13 @@ solid = [
 [walk]
 steps = 6
 length = 0.2
-swing_height = 0.08
-approach_height = 0.015
-crouch = 0.03
 settle = 1.0
-
-[control]
-pfc = true          # proximity: the foot slows down before it touches, and turns with the ground
 """
 
 with TemporaryDirectory() as folder:
     file = Path(folder) / "plank.toml"
     file.write_text(SCENE)
-    for pfc in ("true", "false"):
+    for pfc in ("true", "false"):  # proximity: the foot slows down before it touches, and turns with the ground
         summary = run_scene(load_scene(file, [f"pfc={pfc}"]))
         how = "completed" if summary["completed"] else ", ".join(r["criterion"] for r in summary["reasons"])
         print(f"pfc={pfc}: {how}, {summary['steps_taken']} steps, hardest landing {max(summary['impacts_N']):.0f} N")

@@ -175,7 +175,8 @@ class WalkingController:
         if gains is not None:
             compliance = {s: SwingCompliance(layouts[s], gains, loads, settings.ground_map) for s in SIDES}
         self.motion = FootMotion(feet, period, settings.swing_height, settings.landing, compliance, settings.swing_fit)
-        self.contacts = FootContacts(settings.contact, layouts, settings.ankle_reach, self._ankle_limits())
+        reach, sight = settings.ankle_reach, settings.ground_map.sensing_range
+        self.contacts = FootContacts(settings.contact, layouts, reach, self._ankle_limits(), sight)
         damping = DampingGains().for_body(settings.body)
         self._damping = {side: LandingCompliance(period, damping) for side in SIDES}
         blind = settings.footholds == "force" and settings.compliance is None
@@ -256,7 +257,9 @@ class WalkingController:
         if s.step_adjustment is None:
             return [] if s.step_timing is None else [StepTiming(s.step_timing, s.period)]
         touching = touching_distance({side: layout.outline for side, layout in self._soles()})
-        steps = StepAdjustment(s.step_adjustment, s.step_region, touching, s.step_weights, s.ankle_strategy, s.period)
+        timing = None if s.step_timing is None else StepTiming(s.step_timing, s.period)
+        rules = s.step_adjustment, s.step_region, touching, s.step_weights, s.ankle_strategy
+        steps = StepAdjustment(*rules, s.period, timing)
         found: list[Proposer] = [steps]
         if s.step_adjustment.double_support:
             confidence = s.step_adjustment.confidence
@@ -527,6 +530,7 @@ class WalkingController:
             seen=seen,
             inward=inward,
             pendulum=pendulum,
+            firm=self.contacts.firm(phase.step),
         )
         return tick, region
 
@@ -718,7 +722,10 @@ class WalkingController:
         return known[2]
 
     def _com_height(self, phase: Phase) -> float:
-        """CoM height above the feet: follows the stance foot, blends in double support."""
+        """CoM height above the feet: follows the stance foot, blends in double support, and is higher over a foothold
+        that carries a part of the sole."""
         heights = {side: self.motion.footholds[side][0].item(2) for side in SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
+        if self.settings.partial_rise and any(self.contacts.partial(side) for side in SIDES):
+            target += self.settings.partial_rise
         return self._ground.update(target) + self.settings.com_height

@@ -51,6 +51,7 @@ class ControllerSettings(Settings):
 
     Attributes:
         com_height: CoM height above the soles in m.
+        partial_rise: How much higher in m the CoM is over a foothold that carries a part of the sole.
         mass: Robot mass in kg.
         period: Control period in s.
         timing: Durations of the phases.
@@ -98,6 +99,7 @@ class ControllerSettings(Settings):
 
     com_height: float
     mass: float
+    partial_rise: float = number(0.0, "m", 0.0, 0.5)
     period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
     swing_height: float = share(1 / 12, "leg", 0.0, 1.0)

@@ -142,7 +142,7 @@ def load_controller(
     control = Control.from_table(given.pop("control", {}), "[control]", SceneError).for_body(body)
     parts = {name: check_controller_table(name, table, f"[{name}]", SceneError) for name, table in given.items()}
     task = _Task("load_controller", walk, control, parts, own.layouts["left"].proximity_range)
-    limits = ankle_limits(own, legs.model, body.weight)
+    limits = ankle_limits(own, legs.model, body.weight, min(walk.crouch, own.largest_crouch_partial))
     settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits)
     start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))
     controller = WalkingController(settings, start, own.layouts, legs)

@@ -47,6 +47,9 @@ _YAW_ON_UNKNOWN_GROUND = 0.1
 """Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
 little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the side.)"""
 
+_QUICK_HEIGHT = 1 / 12
+"""Leg, clearance of the swing foot of quick steps at most."""
+
 _OF_STEPS = ("step_adjustment", "step_region", "ankle_strategy")
 """Tables of steps that move for balance, however they do."""
 
@@ -106,40 +109,49 @@ def controller_settings(
     """
     walk, control = scene.walk, scene.control
     _refuse_unused(scene, robot)
-    approach = 0.0 if robot.rocks else walk.approach_height  # a slow one takes longer than its swing
+    # A robot that rocks keeps its own time, which its soles' edges make, and comes down as it rocks.
+    looks = not robot.rocks and all("proximity" in layout.modalities for layout in robot.layouts.values())
+    pfc = control.pfc and looks
+    footholds = "off" if robot.rocks else control.footholds if looks or control.footholds == "off" else "force"
+    approach = 0.0 if robot.rocks or walk.commanded else walk.approach_height  # which takes longer than quick swings
     adjusts = control.step_adjustment and not robot.rocks
-    yaw = {"yaw": _YAW_ON_UNKNOWN_GROUND} if control.pfc else {}
+    # Quick steps have no time to go high.
+    swing_height = min(walk.swing_height, _QUICK_HEIGHT * body.leg) if walk.commanded else walk.swing_height
+    yaw = {"yaw": _YAW_ON_UNKNOWN_GROUND} if pfc else {}
+    # A hand that holds the arm is near to its skin always.
+    held = {"proximity_force": 0.0} if walk.led else {}
+    follows = {"confidence": walk.confidence, "yielding": walk.yielding}
 
     def made(kind: type[T], name: str, **given: Any) -> T:
         table = {**given, **robot.controller.get(name, {}), **scene.controller.get(name, {})}
         return kind.from_table(table, f"[{name}]", SceneError)
 
     found = ControllerSettings(
-        com_height=com_height_of(walk, control, robot),
+        com_height=com_height_of(walk, robot),
+        partial_rise=min(walk.crouch, robot.largest_crouch) - min(walk.crouch, robot.largest_crouch_partial),
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
         period=_period(control),
         timing=walk_timing(walk, robot, body),
-        swing_height=walk.swing_height,
-        swing_fit=made(SwingFitRules, "swing_fit", height=walk.swing_height) if control.swing_shape == "fit" else None,
+        swing_height=swing_height,
+        swing_fit=made(SwingFitRules, "swing_fit", height=swing_height) if control.swing_shape == "fit" else None,
         ankle_reach=robot.ankle_reach,
         landing=made(Landing, "landing", approach_height=approach, approach_speed=walk.approach_speed),
-        compliance=made(ComplianceGains, "compliance") if control.pfc else None,
+        compliance=made(ComplianceGains, "compliance") if pfc else None,
         touchdown=made(TouchdownGains, "touchdown"),
         ground_map=made(GroundMapSettings, "ground_map", sensing_range=scene.proximity_range),
         slope=made(SlopeRules, "slope"),
         feasibility=made(FeasibilityRules, "feasibility", rule=control.feasibility)
-        if control.feasibility != "off"
+        if pfc and control.feasibility != "off"
         else None,
-        conformity=made(ConformityGains, "conformity") if control.conform else None,
+        conformity=made(ConformityGains, "conformity") if pfc and control.conform else None,
         estimator=made(EstimatorGains, "estimator", **yaw),
         dcm_filter=made(DcmFilterRules, "dcm_filter") if control.dcm_estimate == "kalman" else None,
         identification=made(IdentificationRules, "identification") if control.identify else None,
         contact=made(ContactSettings, "contact"),
         foothold=made(FootholdRules, "foothold"),
-        # A robot that rocks keeps its own time, which its soles' edges make and no plan of the ZMP.
         step_timing=made(StepTimingRules, "step_timing") if control.step_timing and not robot.rocks else None,
-        step_adjustment=made(StepAdjustmentRules, "step_adjustment") if adjusts else None,
+        step_adjustment=made(StepAdjustmentRules, "step_adjustment", **follows) if adjusts else None,
         learned_stride=made(LearnedStrideRules, "learned_stride") if adjusts and control.learn_strides else None,
         step_region=made(StepRegionRules, "step_region"),
         step_weights=made(StepWeights, "step_weights"),
@@ -147,14 +159,14 @@ def controller_settings(
         dsp_weights=made(DspWeights, "dsp_weights"),
         ankle_strategy=made(AnkleRules, "ankle_strategy"),
         push=made(PushRules, "push_estimate") if control.push_estimate != "off" else None,
-        push_felt=made(NetWrenchRules, "push_felt") if control.push_estimate == "skin" else None,
+        push_felt=made(NetWrenchRules, "push_felt", **held) if control.push_estimate == "skin" else None,
         push_expected=made(WrenchFilterRules, "push_expected"),
         gains=balance_gains({**robot.balance, **scene.controller.get("balance", {})}),
         feedback=control.feedback,
         zmp_source=control.zmp_source,
         ankles=ankles,
         ankle_limits=limits or {},
-        footholds=control.footholds,
+        footholds=footholds,
         skin=skin,
     )
     try:
@@ -163,19 +175,17 @@ def controller_settings(
         raise SceneError(f"scene '{scene.name}' with robot '{robot.name}': {error}") from None
 
 
-def com_height_of(walk: Walk, control: Control, robot: Robot) -> float:
-    """CoM height in m above the soles with which a robot walks.
+def com_height_of(walk: Walk, robot: Robot) -> float:
+    """CoM height in m above the soles that a robot walks at, over footholds that carry the whole sole.
 
     Args:
-        walk: The gait, for the same body.
-        control: Which parts of the controller run; on parts of its soles the robot crouches less.
-        robot: The robot.
+        walk: The gait.
+        robot: The robot, which crouches as far as it can.
 
     Returns:
         The height.
     """
-    partial = control.footholds != "off" or control.conform
-    return robot.com_height - min(walk.crouch, robot.largest_crouch_partial if partial else robot.largest_crouch)
+    return robot.com_height - min(walk.crouch, robot.largest_crouch)
 
 
 def _period(control: Control) -> float:
@@ -195,10 +205,6 @@ def _refuse_unused(scene: Task, robot: Robot) -> None:
     table = {**robot.controller.get("step_adjustment", {}), **scene.controller.get("step_adjustment", {})}
     solves = table.get("method", steps.method) == "ssp_opt"
     adjusts_double = table.get("double_support", steps.double_support)
-    if control.feasibility != "off" and not control.pfc:
-        raise SceneError(f"control.feasibility is '{control.feasibility}'; allowed: off, or with pfc = true")
-    if control.conform and not control.pfc:
-        raise SceneError("control.conform is true; allowed: with pfc = true")
     runs = {
         **dict.fromkeys(("compliance", "touchdown", "ground_map", "slope"), (control.pfc, "control.pfc = true")),
         "identification": (control.identify, "control.identify = true"),
@@ -226,8 +232,11 @@ def _refuse_unused(scene: Task, robot: Robot) -> None:
             "control.step_adjustment = true and control.learn_strides = true",
         ),
         "push_felt": (control.push_estimate == "skin", "control.push_estimate = 'skin'"),
-        "feasibility": (control.feasibility != "off", "control.feasibility = 'skin' or 'force_torque'"),
-        "conformity": (control.conform, "control.conform = true"),
+        "feasibility": (
+            control.pfc and control.feasibility != "off",
+            "control.pfc = true and control.feasibility = 'skin' or 'force_torque'",
+        ),
+        "conformity": (control.pfc and control.conform, "control.pfc = true and control.conform = true"),
         **dict.fromkeys(("contact", "foothold"), (control.footholds != "off", "control.footholds = 'force' or 'skin'")),
     }
     for name, (used, needed) in runs.items():

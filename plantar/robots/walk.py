@@ -21,6 +21,9 @@ __all__ = ["CONTROL_PERIOD", "Control", "Walk", "walk_timing"]
 _SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
 """Beats that the phases of a step last where neither scene nor robot says: 0.9 and 0.3 s on a leg of 0.6 m."""
 
+_QUICK_SINGLE, _QUICK_DOUBLE = 2.02, 0.404
+"""Paces that they last where a velocity is commanded, which quick steps follow soon: 0.5 and 0.1 s on h1."""
+
 _LEAST_START = 0.2
 """Least time in s of the first shift of the weight."""
 
@@ -45,12 +48,17 @@ class Walk(Settings):
         lean: Whether the trunk leans over the stance foot, which takes load off the hip roll joints (see the robot's
             `trunk_lean`).
         crouch: How much lower than its own CoM height the robot walks, to reach further and ground that is lower than
-            expected; as far as the robot can (its `largest_crouch` and `largest_crouch_partial`).
+            expected; as far as the robot can (its `largest_crouch`; over a foothold that carries a part of the sole,
+            its `largest_crouch_partial`).
         approach_height: Height above the expected ground from which the swing foot goes down slowly; it then aims as
             far below it, for ground that is lower than expected.
         approach_speed: Speed of that in m/s.
         start: Duration of the first weight shift.
         end: Duration of the last weight shift.
+        confidence: Whether the robot keeps its own steps (1) or follows those who push it (0), as far as balance lets
+            it (`step_adjustment.confidence`).
+        yielding: How far its steps go along with a push (`step_adjustment.yielding`).
+        led: Whether somebody leads it by its arm: what is only near to its skin is no push then.
         settle: Standing time that is simulated after the walk.
         begin: Standing time before the walk; the CoM leads the first weight shift by about 1 s.
         velocity: Walk at this velocity [forward, left, turn] in m/s, m/s and rad/s, or in texts with units, instead of
@@ -71,13 +79,16 @@ class Walk(Settings):
     first: str = choice("left", "right")
     single_support: float = number(0.0, "s", 0, 10)
     double_support: float = number(0.0, "s", 0, 10)
-    swing_height: float = share(1 / 12, "leg", 0.005, 0.25)
-    lean: bool = switch(False)
-    crouch: float = number(0.0, "m", 0, 0.15)
-    approach_height: float = number(0.0, "m", 0, 0.1)
+    swing_height: float = share(2 / 15, "leg", 0.005, 0.25)
+    lean: bool = switch(True)
+    crouch: float = share(0.05, "leg", 0, 0.15)
+    approach_height: float = share(0.025, "leg", 0, 0.1)
     approach_speed: float = share(0.0247, "leg/beat", 0.005, 0.5)
     start: float = share(4.85, "beat", 0.2, 60)
     end: float = share(4.04, "beat", 0.2, 60)
+    confidence: float = number(0.0, "1", 0, 1)
+    yielding: float = number(0.0, "1", 0, 2)
+    led: bool = switch(False)
     settle: float = number(2.0, "s", 0, 600)
     begin: float = number(1.0, "s", 1, 60)
     velocity: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
@@ -92,6 +103,11 @@ class Walk(Settings):
         if len(given) > 1:
             raise InputError(f"{' and '.join(given)} are given; allowed: one of them")
         self.velocities(0)
+
+    @property
+    def commanded(self) -> bool:
+        """Whether a velocity is commanded, rather than a number of steps."""
+        return bool(self.velocity or self.commands or self.wander)
 
     def velocities(self, seed: int) -> VelocityTable | None:
         """The commanded velocities over time in s; None for a walk of a number of steps.
@@ -137,14 +153,14 @@ class Control(Settings):
             taxels' forces, "skin" by what they see before they touch, too.
         pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
         feasibility: Rule by which a foothold is refused that is higher than expected: "off", "skin" (supported area) or
-            "force_torque" (moment at the ankle). Needs pfc.
+            "force_torque" (moment at the ankle). Of a robot with pfc.
         conform: Feet take the ground's shape: standing soles turn until the ground carries them where they should be
-            loaded. For bumps; needs pfc.
+            loaded. For bumps; of a robot with pfc.
         identify: The controller identifies how robot and sensors differ from its model, such as the gyro's bias.
         step_timing: The controller ends a single support sooner or later than planned where the DCM asks for it; not of
             a robot that rocks.
-        step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks. For ground where a
-            foot may stand anywhere.
+        step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks, and only in time on
+            ground that does not carry everywhere.
         learn_strides: Strides become longer by what pushed steps went farther; needs `step_adjustment`.
         push_estimate: What shows a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
             "skin" on the upper body, and the soles where that measures nothing.
@@ -159,15 +175,15 @@ class Control(Settings):
 
     feedback: bool = switch(True)
     zmp_source: str = choice("skin", "force_torque")
-    footholds: str = choice("off", "force", "skin")
-    pfc: bool = switch(False)
-    feasibility: str = choice("off", "skin", "force_torque")
-    conform: bool = switch(False)
+    footholds: str = choice("skin", "force", "off")
+    pfc: bool = switch(True)
+    feasibility: str = choice("skin", "force_torque", "off")
+    conform: bool = switch(True)
     identify: bool = switch(True)
     step_timing: bool = switch(True)
-    step_adjustment: bool = switch(False)
+    step_adjustment: bool = switch(True)
     learn_strides: bool = switch(False)
-    push_estimate: str = choice("off", "soles", "skin")
+    push_estimate: str = choice("skin", "soles", "off")
     dcm_estimate: str = choice("observer", "kalman")
     swing_shape: str = choice("polynomial", "fit")
     period: float = number(0.005, "s", 0.0005, 0.05)
@@ -193,9 +209,12 @@ def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
         The durations.
     """
     stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
-    single = stated[0] or robot.single_support or _SINGLE_SUPPORT * body.beat
-    if walk.approach_height > 0.0 and not robot.rocks:
-        single = max(single, robot.approach_support)
-    double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat
+    if walk.commanded and not robot.rocks:
+        single, double = stated[0] or _QUICK_SINGLE * body.pace, stated[1] or _QUICK_DOUBLE * body.pace
+    else:
+        single = stated[0] or robot.single_support or _SINGLE_SUPPORT * body.beat
+        double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat
+        if walk.approach_height > 0.0 and not robot.rocks:
+            single = max(single, robot.approach_support)
     start, end = (max(_LEAST_START, double), single + double) if robot.rocks else (walk.start, walk.end)
     return Timing(single, double, start, end, walk.settle)

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from plantar.errors import SceneError
 from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
 
@@ -92,9 +91,11 @@ def test_where_there_is_no_way_the_robot_stops() -> None:
     assert simulation.controller.schedule.steps == 5
 
 
-def test_feasibility_needs_proximity() -> None:
-    with pytest.raises(SceneError, match="pfc"):
-        Simulation(load_scene("feasibility-1", ["pfc=false"]))
+def test_a_robot_that_does_not_see_the_ground_judges_no_footholds_and_takes_no_shapes() -> None:
+    blind = Simulation(load_scene("feasibility-1", ["pfc=false"])).settings
+    assert (blind.compliance, blind.feasibility, blind.conformity) == (None, None, None)
+    sees = Simulation(load_scene("feasibility-1")).settings
+    assert None not in (sees.compliance, sees.feasibility, sees.conformity)
 
 
 @pytest.mark.parametrize("seeds", [(1, 2), pytest.param((1, 2, 7), marks=pytest.mark.long)])
@@ -105,11 +106,6 @@ def test_feet_that_take_the_shape_of_bumps_walk_further(seeds: tuple[int, ...]) 
         return sum(float(Simulation(scene, seed).run()["sim_time_s"]) for seed in seeds)
 
     assert upright() > upright("conform=false") + 10.0
-
-
-def test_feet_that_take_the_shape_of_the_ground_need_proximity() -> None:
-    with pytest.raises(SceneError, match="pfc"):
-        Simulation(load_scene("flat", ["conform=true"]))
 
 
 @pytest.mark.long

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.geometry.polygon import area, centroid, inner_offset, part_inside
+from plantar.geometry.polygon import area, centroid, closest_point, inner_offset, part_inside
 
 __all__ = ["AnkleLimits"]
 
@@ -58,17 +58,20 @@ class AnkleLimits:
             center: Where it would be best loaded by a strong ankle: its centroid (2,) in m.
 
         Returns:
-            That where the ankle reaches all of it, else the centroid (2,) of where the desired ZMP may lie; of what the
-            ankle reaches of a polygon that is too narrow for that.
+            That where the leg reaches all of it, else the centroid (2,) of where the desired ZMP may lie; where that is
+            nothing, the nearest place to what the leg reaches that keeps the margin. (Over an edge the robot falls; a
+            joint at its limit lets it sink a little.)
         """
         reached = self._cut(polygon)
         if area(reached) >= area(polygon) * (1.0 - 1e-9):
             return center
-        for left in (self._cut(inner_offset(polygon, self._margin)), reached):
-            found = centroid(left) if area(left) > 0.0 else None
-            if found is not None:
-                return found
-        return center
+        kept = inner_offset(polygon, self._margin)
+        left = self._cut(kept)
+        found = centroid(left) if area(left) > 0.0 else None
+        if found is None:
+            near = centroid(reached) if area(reached) > 0.0 else None
+            found = closest_point(kept, center if near is None else near)
+        return center if found is None else found
 
     def _cut(self, polygon: NDArray[np.float64], margin: float = 0.0) -> NDArray[np.float64]:
         """What of a polygon (k, 2) lies within the limits, or up to a margin in m outside of them."""

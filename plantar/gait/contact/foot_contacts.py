@@ -31,6 +31,9 @@ from plantar.sides import SIDES, Side
 __all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole"]
 
 
+_FORGETS = 4  # steps after which a foothold that carried a part of the sole says nothing of the ground ahead
+
+
 def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
     """Where the VRP lies over a whole foothold: see `plantar.gait.contact.ankle_reach.loaded_middle`.
 
@@ -108,6 +111,7 @@ class FootContacts:
         layouts: Sole layout of each side.
         reach: How far in m from the sole frame's origin, along the sole, an ankle bears the robot.
         limits: Where each foot carries the body alone within its ankle's torque limits; anywhere where not given.
+        sensing_range: Range of the taxels' proximity sensors in m.
     """
 
     def __init__(
@@ -116,6 +120,7 @@ class FootContacts:
         layouts: Mapping[Side, SoleLayout],
         reach: float = math.inf,
         limits: Mapping[Side, AnkleLimits] | None = None,
+        sensing_range: float = math.inf,
     ) -> None:
         self._settings = settings
         self._reach = reach
@@ -124,10 +129,12 @@ class FootContacts:
         self._borne = {side: borne_part(layouts[side].outline, reach) for side in SIDES}
         self._alone = {side: self._within_limits(side, self._borne[side]) for side in SIDES}
         self._feet = {
-            side: _Foot(StanceContact(layouts[side], settings), self._middle[side], self._borne[side]) for side in SIDES
+            side: _Foot(StanceContact(layouts[side], settings, sensing_range), self._middle[side], self._borne[side])
+            for side in SIDES
         }
         self._edges = EdgeMemory(settings.body)
         self._foreseen = -1
+        self._part = -_FORGETS - 1
         self._region_of: list[object] = []
         self._region = np.empty((0, 2))
 
@@ -139,6 +146,14 @@ class FootContacts:
         """What (k, 2) of a foot's foothold its ankle bears the robot on, in its sole frame in m; of the whole sole
         while it is not known."""
         return self._feet[side].borne
+
+    def partial(self, side: Side) -> bool:
+        """Whether a foot stands on a foothold that carries a part of its sole, as far as known."""
+        return not self._feet[side].contact.whole
+
+    def firm(self, step: int) -> bool:
+        """Whether no foothold of the last few steps before one was found, or seen ahead, to carry a part of a sole."""
+        return step > self._part + _FORGETS
 
     def lift_off(self, side: Side, step: int) -> None:
         """A swing begins: what its foot stood on no longer counts, where it will stand is not known.
@@ -211,7 +226,7 @@ class FootContacts:
         ground = contact.foresee(turn.T @ feet.ahead)
         if ground is None:
             return None
-        self._foreseen = phase.step
+        self._foreseen = self._part = phase.step
         center = self._center(side, ground)
         return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
 
@@ -263,7 +278,10 @@ class FootContacts:
         polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
         center = self._center(side, contact.polygon_in_sole)
         vrp, middle = ((position + rotation[:, :2] @ place)[:2] for place in (center, contact.center_in_sole))
-        as_planned = contact.whole and not known
+        # Where less was seen ahead, the plan goes by that; what is found now has to correct it.
+        if not contact.whole:
+            self._part = foot.step
+        as_planned = contact.whole and not known and self._foreseen != foot.step
         if not as_planned:
             foot.center, foot.borne = center, borne_part(contact.polygon_in_sole, self._reach)
             every = foot.borne is contact.polygon_in_sole

@@ -24,6 +24,7 @@ from plantar.settings.schema import Settings, number, share, switch, whole
 __all__ = ["ContactSettings", "StanceContact"]
 
 _DENIALS = 3  # times in a row that silence denies what is remembered until it is forgotten: a load that jumps does once
+_IN_SIGHT = 1.5  # times a step down, below the range's end, from where a sole's sight of the ground counts
 _BESIDE = 0.3  # of a taxel's size from where the load is, towards the side that rises: what still lies under it
 
 
@@ -95,11 +96,14 @@ class StanceContact:
     Args:
         layout: Its sole, n taxels.
         settings: Settings.
+        sensing_range: Range of the taxels' proximity sensors in m.
     """
 
-    def __init__(self, layout: SoleLayout, settings: ContactSettings) -> None:
+    def __init__(self, layout: SoleLayout, settings: ContactSettings, sensing_range: float = math.inf) -> None:
         self.layout = layout
         self.settings = settings
+        # From higher up, taxels that see no ground may only be out of range: that needs the sight of a step down.
+        self._highest = sensing_range - _IN_SIGHT * settings.step_down
         self._fit = PartialContact(layout)
         most = max((len(near) for near in layout.neighbours), default=0)
         self._near = np.full((len(layout), max(1, most)), -1, dtype=np.intp)
@@ -212,6 +216,8 @@ class StanceContact:
         # Relative to the nearest ground: the foot is on its way down.
         ground = float(np.sort(near)[: max(self.settings.least_seen, len(near) // 3)].mean())
         depth = np.minimum(np.maximum(distance - ground, -self.settings.deep), self.settings.deep)
+        if ground > self._highest:
+            return
         self._looks += 1
         # Where nothing was known the first sight counts whole.
         share = self.settings.sight if self._depth is not None else 1.0

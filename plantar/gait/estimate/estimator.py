@@ -15,6 +15,7 @@ Kalman filter (`plantar.gait.estimate.dcm_filter`) may do the same in its place,
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
@@ -102,6 +103,10 @@ def live_kinematics(kinematics: LegKinematics) -> Callable[[NDArray[np.float64]]
     return kinematics.live_posture if isinstance(kinematics, LiveKinematics) else kinematics.posture
 
 
+_SAME_HEIGHT = 1 / 200  # leg, between two footholds of one height as they are estimated: twice the error of a step
+_ANCHOR = 0.5  # 1/beat, at which the base is drawn back to the height of its feet
+
+
 class EstimatorGains(Settings):
     """Gains of the estimator.
 
@@ -161,10 +166,11 @@ class FloatingBaseEstimator:
                 "as a pendulum of this height falls: what is slower runs away with it"
             )
         self._rotation, self._position, self._com, self._velocity = np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3)
+        self._places = np.zeros((2, 3))
         # The kernel writes the state into these arrays.
         state = (
             *(self._rotation, self._position, self._com, self._velocity),
-            *(np.zeros((2, 3)), np.zeros((2, 3, 3)), np.zeros(2), np.zeros(3)),
+            *(self._places, np.zeros((2, 3, 3)), np.zeros(2), np.zeros(3)),
         )
         self._base = FloatingBase(
             self.omega,
@@ -180,6 +186,9 @@ class FloatingBaseEstimator:
         self._watched: Posture | None = None
         self._tare: dict[Side, float] = {"left": 0.0, "right": 0.0}
         self.push_acceleration = np.zeros(2)
+        self._heights = [math.nan, math.nan]
+        self._same_height = _SAME_HEIGHT * gains.body.leg
+        self._share = min(1.0, self.period * _ANCHOR / gains.body.beat)
 
     def update(
         self,
@@ -217,6 +226,7 @@ class FloatingBaseEstimator:
         if self._begun:
             planned = (0.0, 0.0) if planned_acceleration is None else planned_acceleration.tolist()
             zmp = base.follow(*gyro.tolist(), *accelerometer.tolist(), *planned)
+            self._anchor(loads)
         else:
             self._begun = True
             # The robot stands still at the start, so the specific force is gravity alone.
@@ -241,6 +251,26 @@ class FloatingBaseEstimator:
             {"left": left, "right": right},
             {"left": turn_left, "right": turn_right},
         )
+
+    def _anchor(self, loads: Mapping[str, float]) -> None:
+        """Draw the base back to the height at which its feet came to carry.
+
+        A foot that comes to carry as high as the other one, as far as can be told, is taken to stand at the same
+        height: what dead reckoning errs by in each step, a tilt of milliradians times the step, would add up.
+        """
+        heights, error, total = self._heights, 0.0, 0.0
+        left, right = self._places[:, 2].tolist()
+        for i, side in enumerate(SIDES):
+            weight, z = loads[side] - self.gains.minimum_load, (left, right)[i]
+            if not weight > 0.0:
+                heights[i] = math.nan
+                continue
+            if math.isnan(heights[i]):
+                other, rise = heights[1 - i], z - (right, left)[i]
+                heights[i] = z if math.isnan(other) else other if abs(rise) < self._same_height else other + rise
+            error, total = error + weight * (z - heights[i]), total + weight
+        if total > 0.0:
+            self._position[2] -= self._share * error / total
 
     def _carry(self, index: int, side: Side, soles: Mapping[Side, SoleLoad]) -> float:
         """Tell the kernel what a foot carries; the load in N."""

@@ -34,8 +34,13 @@ _RETAKE_HEIGHT = 1 / 15  # above what the foot met that a step taken once more r
 _CLOSE_BY = 0.1  # before its place from which a swing turns its sole to the ground
 _NEARLY_THERE = 0.02  # before its place from which a swing judges the ground that it will land on
 _TOUCHING = 1 / 60  # from the ground that it sees within which less than a blind foot's load is taken for a touch
+_AHEAD = 1 / 60  # below where it is estimated to be at which a foot that comes down is commanded at most
+_ELSEWHERE = 1 / 150  # between ground and where it was expected from which the next steps expect the like
 _SAME_PLACE = 1 / 6000  # between two places that are one
 _AT_THE_GROUND = 1 / 300  # from it within which the least load is
+
+
+_WARY = 6  # steps after ground that was elsewhere in which a swing comes down slowly
 
 
 class SoleSense(Record, frozen=True):
@@ -66,7 +71,7 @@ class Landing(Settings):
         probing: Whether such a foot, once it has load, turns until its centre of pressure is in the middle of what it
             is believed to stand on: taxels there carry, or deny it, before it gets the body's weight.
         approach_height: Height in m above the expected ground from which a swing goes down slowly (see
-            `SwingTrajectory`); 0 comes down in one move.
+            `SwingTrajectory`) for some steps after ground that was not where it was expected; 0 comes down in one move.
         approach_speed: Speed of that in m/s.
     """
 
@@ -140,6 +145,7 @@ class FootMotion:
         self._lowered = self._lowering = 0.0
         self._touch = (0.0, 0.0)
         self._rises_first: set[Side] = set()
+        self._wary = 0
 
     @property
     def last_side(self) -> Side | None:
@@ -351,7 +357,7 @@ class FootMotion:
             target.yaw - frame.turn,
             self._height,
             times[1] - times[0],
-            approach_height=self._landing.approach_height,
+            approach_height=self._landing.approach_height if self._wary > 0 else 0.0,
             approach_speed=self._landing.approach_speed,
             rises_first=side in self._rises_first,
         )
@@ -360,6 +366,7 @@ class FootMotion:
         rules = None if path.rises_first else self._fit_rules
         self._fit = None if rules is None else SwingFit(replace(rules, height=self._height), position, self._period)
         self._rises_first.discard(side)
+        self._wary -= 1
         self._step, self._side, self._target = index, side, target
         self._start = times[0]
         self.surprise = 0.0
@@ -400,7 +407,10 @@ class FootMotion:
             if self.comes_down and compliance.update_load(load) and self._may_touch(compliance, view, load):
                 self.landed = True
                 self._touch = (time, float(sense.position[2]))
-                self.surprise = max(self.surprise, self._touch[1] - frame.offset[2] - self._expected)
+                rise = self._touch[1] - frame.offset[2] - self._expected
+                self.surprise = max(self.surprise, rise)
+                if abs(rise) > _ELSEWHERE * self._leg:
+                    self._wary = _WARY
                 compliance.ground.touched()
                 self._distance = compliance.ground.distance
                 self._distance.flags.writeable = False
@@ -422,7 +432,10 @@ class FootMotion:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
             if view is not None and remaining < _CLOSE_BY * self._leg:
                 self._turn(compliance, side, view)
-            self.footholds[side] = (vector(planned[0], planned[1], position[2] - drop), heading)
+            # A leg that is stretched leaves its foot behind; commanded further down, it would slam where it gets there.
+            lowest = float(sense.position[2] - frame.offset[2]) - _AHEAD * self._leg
+            height = max(position[2] - drop, min(position[2], lowest))
+            self.footholds[side] = (vector(planned[0], planned[1], height), heading)
             return
         touched_at, height = self._touch
         hold = compliance.holding(time - touched_at) if press is None else press

@@ -103,6 +103,7 @@ class Tick(Record, frozen=True):
         seen: What the swing foot has been seen to stand on soon.
         inward: By how much in m, along its y axis, a foot that touches down now shall carry further inside.
         pendulum: Where the body is, where balance is fed back.
+        firm: Whether the ground has carried every sole as a whole lately, so that a foot may be put down anywhere.
     """
 
     time: float
@@ -117,6 +118,7 @@ class Tick(Record, frozen=True):
     seen: FootholdSeen | None = None
     inward: float = 0.0
     pendulum: Pendulum | None = None
+    firm: bool = True
 
     def place(self, side: Side) -> Footstep:
         """Where a foot is commanded, as a level place in the world without its height."""

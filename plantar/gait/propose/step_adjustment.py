@@ -33,6 +33,7 @@ from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick, nearest_place
 from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
+from plantar.gait.propose.step_timing import StepTiming
 from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.settings.schema import Settings, choice, number, share, switch
 from plantar.sides import Side, other_side
@@ -124,6 +125,7 @@ class StepAdjustment:
         weights: Weights of "ssp_opt".
         ankle: Which part of the support polygon a changed footstep is planned with.
         period: Control period in s, the unit of a change of time.
+        timing: What changes only the time of a step, for ground that does not carry everywhere.
     """
 
     priority = Priority.TIMING
@@ -136,8 +138,10 @@ class StepAdjustment:
         weights: StepWeights,
         ankle: AnkleRules,
         period: float,
+        timing: StepTiming | None = None,
     ) -> None:
         self._rules = rules
+        self._timing = timing
         self._box = region
         self._touching = touching
         self._weights = weights
@@ -155,6 +159,8 @@ class StepAdjustment:
         pendulum = tick.pendulum
         if pendulum is None or tick.feet.side is None:
             return None
+        if not tick.firm:
+            return None if self._timing is None else self._timing.propose(tick)
         if tick.feet.landed:
             return self._landed(tick, tick.feet.side)
         swing = tick.phase.swing

@@ -217,14 +217,15 @@ class FloatingBase:
             x -= planned[0]
             y -= planned[1]
         size = math.sqrt(x * x + y * y + z * z)
-        # An impact says nothing of what is up.
-        if 0.7 * self.gravity < size < 1.3 * self.gravity:
+        # A swing jerks the base one way and brakes it longer the other way: the mean over a stride is gravity, of what
+        # is left of it without its larger part it is not. Only hard impacts are left out, which sampling may miss.
+        if 0.2 * self.gravity < size < 3.0 * self.gravity:
             # While the robot holds still, the running mean of what came so far; then a slow filter. (Balance control
             # has to wait that long: it would sway the robot by a wrong tilt and the sway would look like more tilt.)
             self.samples += 1
             since = self.period * (self.samples + 1)
             gain = 1.0 / since if since < self.averaging else self.tilt_rate
-            x, y = gain * y / size, -gain * x / size  # specific force x up
+            x, y = gain * y / self.gravity, -gain * x / self.gravity  # specific force x up
             rx += rotation[0, 0] * x + rotation[1, 0] * y
             ry += rotation[0, 1] * x + rotation[1, 1] * y
             rz += rotation[0, 2] * x + rotation[1, 2] * y

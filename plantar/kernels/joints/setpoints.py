@@ -14,9 +14,9 @@ _NONE = float("nan")
 class Setpoints:
     """The set-points of k joints, which move on between control ticks without a jump.
 
-    A control tick replaces the goal of the set-points at once; what is written approaches that goal by a low pass of
-    second order, critically damped, and moves at the goal's own speed meanwhile: a goal of constant speed is followed
-    without lag.
+    A control tick replaces the goal of the set-points at once; what is written follows that goal by a low pass of
+    second order, critically damped. (One that moved at the goal's own speed meanwhile, without lag, would have to be
+    faster than the goal to make up for its late lead: 1.2 times a joint's speed limit.)
 
     Args:
         controls: Set-points (n,) of all servos, where the simulator reads them.
@@ -116,8 +116,8 @@ class Setpoints:
     def advance(self):
         """Let the set-points move on by a step."""
         for i in range(self.servos.shape[0]):
-            self.setpoint[i] += self.rate[i] + self.share * (self.between[i] - self.setpoint[i])
-            self.between[i] += self.rate[i] + self.share * (self.goal[i] - self.between[i])
+            self.setpoint[i] += self.share * (self.between[i] - self.setpoint[i])
+            self.between[i] += self.share * (self.goal[i] - self.between[i])
             self.goal[i] += self.rate[i]
 
     def drive(self):

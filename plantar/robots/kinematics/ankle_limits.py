@@ -1,4 +1,4 @@
-"""How far from its ankle a foot can carry the whole robot, by the torque limits of the ankle's joints."""
+"""How far from its ankle a foot can carry the whole robot, by the torque limits of ankle and knee."""
 
 from __future__ import annotations
 
@@ -13,16 +13,20 @@ from plantar.sides import SIDES, Side
 __all__ = ["ankle_limits"]
 
 
-def ankle_limits(robot: Robot, model: mujoco.MjModel, weight: float) -> dict[Side, NDArray[np.float64]]:
-    """Where the weight may act on each sole while the robot stands on it, without an ankle joint beyond its limit.
+def ankle_limits(
+    robot: Robot, model: mujoco.MjModel, weight: float, crouch: float = 0.0
+) -> dict[Side, NDArray[np.float64]]:
+    """Where the weight may act on each sole while the robot stands on it, without a joint beyond its limit.
 
     The weight W e_z at p has the torque a . ((p - c) x W e_z) on a joint with axis a through c: a strip of the sole for
-    each joint. The ankle's joints are the last that pitches and the last that rolls.
+    each joint. The ankle's joints are the last that pitches and the last that rolls. The knee moves with the hip, which
+    is above p: see `_knee_strip`.
 
     Args:
         robot: The robot.
         model: A model with the robot in it.
         weight: Its weight in N.
+        crouch: How much lower in m than in its posture it walks.
 
     Returns:
         Strips (m, 4) in each sole's frame: a unit normal (x, y), and the strip's middle and half width along it in m;
@@ -35,7 +39,8 @@ def ankle_limits(robot: Robot, model: mujoco.MjModel, weight: float) -> dict[Sid
         site = model.site(robot.legs[side].sole_site).id
         origin, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
         strips = []
-        for turning in (pitching_joints(robot, side, model, data), rolling_joints(robot, side, model, data)):
+        pitching = pitching_joints(robot, side, model, data)
+        for turning in (pitching, rolling_joints(robot, side, model, data)):
             if len(turning) < 2 or turning[-1] not in limits:  # one joint alone is the hip's
                 continue
             axis, anchor = rotation.T @ data.xaxis[turning[-1]], rotation.T @ (data.xanchor[turning[-1]] - origin)
@@ -43,8 +48,31 @@ def ankle_limits(robot: Robot, model: mujoco.MjModel, weight: float) -> dict[Sid
             size = float(np.hypot(*lever))
             lever /= size
             strips.append([*lever, float(lever @ anchor[:2]), limits[turning[-1]] / weight / size])
+        if len(pitching) == 3 and pitching[1] in limits:
+            places = (data.xanchor[pitching] - origin) @ rotation
+            strips.append(_knee_strip(places[:, [0, 2]], limits[pitching[1]] / weight, crouch))
         found[side] = np.array(strips).reshape(-1, 4)
     return found
+
+
+def _knee_strip(places: NDArray[np.float64], reach: float, crouch: float) -> list[float]:
+    """Strip of the sole, across it, in which the knee is within its limit.
+
+    With the hip above p and the ankle at a the knee lies a share s of the way from a to p, and k ahead of that line,
+    where the triangle of thigh and shank has its height. Its lever is |p - (a + s (p - a) + k)| <= r.
+
+    Args:
+        places: Hip, knee and ankle (3, 2), along and above the sole, in m.
+        reach: The lever r in m at which the weight takes the knee's limit.
+        crouch: How much nearer in m the hip comes to the ankle.
+    """
+    (hip, knee, ankle), up = places, places[0] - places[2]
+    thigh, shank = float(np.linalg.norm(hip - knee)), float(np.linalg.norm(knee - ankle))
+    apart = max(float(np.linalg.norm(up)) - crouch, 1e-6)
+    foot = (apart**2 + shank**2 - thigh**2) / (2.0 * apart)  # of the triangle's height, from the ankle
+    share, ahead = foot / apart, np.sqrt(max(shank**2 - foot**2, 0.0))
+    side = np.sign(up[1] * (knee - ankle)[0] - up[0] * (knee - ankle)[1])
+    return [1.0, 0.0, float(ankle[0] + side * ahead / (1.0 - share)), reach / (1.0 - share)]
 
 
 def _torque_limits(model: mujoco.MjModel) -> dict[int, float]:

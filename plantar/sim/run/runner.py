@@ -98,7 +98,7 @@ class Simulation:
             robot,
             self.body,
             ankle_sensors(self.legs.model, robot),
-            ankle_limits(robot, self.legs.model, self.body.weight),
+            ankle_limits(robot, self.legs.model, self.body.weight, min(walk.crouch, robot.largest_crouch_partial)),
             skin if scene.sensing.body_skin else None,
         )
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs)
@@ -168,7 +168,7 @@ class Simulation:
 
     def start_walk(self) -> Start:
         """Where the feet are at the start, and what is planned and commanded."""
-        scene, height = self.scene, com_height_of(self.scene.walk, self.scene.control, self.robot)
+        scene, height = self.scene, com_height_of(self.scene.walk, self.robot)
         try:
             return start_of_walk(scene.walk, self.robot, height, scene.terrain.height, self.velocities)
         except SceneError as error:

@@ -5,6 +5,7 @@ from plantar.sim.terrain.block import Block
 from plantar.sim.terrain.course import Course
 from plantar.sim.terrain.ground import GROUND_GROUP, Flat, Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 from plantar.sim.terrain.kinds import terrain_kinds
+from plantar.sim.terrain.mixed import Mixed
 from plantar.sim.terrain.stones import Partial, Pebbles, Stones, Uneven
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "Flat",
     "Footprint",
     "Ground",
+    "Mixed",
     "Motion",
     "Partial",
     "Pebbles",

@@ -16,7 +16,7 @@ from plantar.settings.schema import share as share_of_body
 from plantar.sides import SIDES
 from plantar.sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
-__all__ = ["Partial", "Pebbles", "Stones", "Uneven"]
+__all__ = ["Partial", "Pebbles", "Stones", "Uneven", "drawn_slope", "overlapping", "same_place", "stone_under"]
 
 _MARGIN = 0.433  # of the half length of the sole that a whole stone is larger than it, on each end: 50 mm of 231
 _GAP = 0.002  # m between the stones of two lanes
@@ -45,8 +45,9 @@ class Partial(Terrain):
             raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
         prints = _distinct(feet)
         partial = feet.steps[self.step]
-        solids = [_stone(foot, feet, self.height, self.depth) for foot in prints if not _same_place(foot, partial)]
-        solids.append(_stone(partial, feet, self.height + self.rise, self.depth + self.rise, self.share, self.part))
+        solids = [stone_under(foot, feet, self.height, self.depth) for foot in prints if not same_place(foot, partial)]
+        height, depth = self.height + self.rise, self.depth + self.rise
+        solids.append(stone_under(partial, feet, height, depth, self.share, self.part))
         return Ground(tuple(solids), self.height - self.depth, self.friction)
 
 
@@ -66,15 +67,15 @@ class Stones(Terrain):
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.share_min > self.share_max:
             raise SceneError(f"terrain.share_min is {self.share_min:g}; allowed: up to share_max, {self.share_max:g}")
-        solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
+        solids = [stone_under(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
         for k, foot in enumerate(feet.steps):
             share = float(rng.uniform(self.share_min, self.share_max))
             part = _PARTS[int(rng.integers(len(_PARTS)))]
             if k >= len(feet.steps) - 2:
                 share = 1.0
-            if any(_same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
+            if any(same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
                 continue
-            solids.append(_stone(foot, feet, self.height, self.depth, share, part))
+            solids.append(stone_under(foot, feet, self.height, self.depth, share, part))
         return Ground(tuple(solids), self.height - self.depth, self.friction)
 
 
@@ -97,15 +98,16 @@ class Uneven(Terrain):
     depth: float = share_of_body(0.25, "leg", 0.02, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        solids = {side: [_stone(feet.standing[side], feet, self.height, self.depth, gap=self.gap)] for side in SIDES}
+        standing = feet.standing
+        solids = {side: [stone_under(standing[side], feet, self.height, self.depth, gap=self.gap)] for side in SIDES}
         place, height = dict(feet.standing), dict.fromkeys(SIDES, 0.0)
         for foot in feet.steps:
             rise = float(rng.uniform(-1.0, 1.0)) * self.height_range
-            pitch, roll = _slope(rng, self.slope_range)
-            if _overlap(foot, place[foot.side]) and not _same_place(foot, place[foot.side]):
+            pitch, roll = drawn_slope(rng, self.slope_range)
+            if overlapping(foot, place[foot.side]) and not same_place(foot, place[foot.side]):
                 rise, pitch, roll = height[foot.side], 0.0, 0.0
             height[foot.side] = rise
-            if _same_place(foot, place[foot.side]):
+            if same_place(foot, place[foot.side]):
                 stone = solids[foot.side][-1]
                 now = stone.position.copy()
                 now[2] = self.height + rise - stone.size[2]
@@ -113,7 +115,7 @@ class Uneven(Terrain):
                 solids[foot.side][-1] = replace(stone, motions=(*stone.motions, Motion(middle, 0.0, now)))
             else:
                 solids[foot.side].append(
-                    _stone(foot, feet, self.height + rise, self.depth + rise, pitch=pitch, roll=roll, gap=self.gap)
+                    stone_under(foot, feet, self.height + rise, self.depth + rise, pitch=pitch, roll=roll, gap=self.gap)
                 )
             place[foot.side] = foot
         return Ground((*solids["left"], *solids["right"]), self.height - self.depth, self.friction)
@@ -143,19 +145,19 @@ class Pebbles(Terrain):
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.bump_min > self.bump_max:
             raise SceneError(f"terrain.bump_min is {self.bump_min:g} m; allowed: up to bump_max, {self.bump_max:g} m")
-        solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
+        solids = [stone_under(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
         level = [*feet.standing.values(), *feet.steps[-2:]]
         for k, foot in enumerate(feet.steps):
             # Drawn in any case: what chance gives to one step does not depend on the steps before it.
-            pitch, roll = _slope(rng, self.slope_range)
+            pitch, roll = drawn_slope(rng, self.slope_range)
             places = rng.uniform(-1.0, 1.0, (self.bumps, 2)) * foot.half
             heights = rng.uniform(self.bump_min, self.bump_max, self.bumps)
-            if any(_same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
+            if any(same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
                 continue
-            if any(foot.side == other.side and _overlap(foot, other) for other in level):
-                solids.append(_stone(foot, feet, self.height, self.depth))
+            if any(foot.side == other.side and overlapping(foot, other) for other in level):
+                solids.append(stone_under(foot, feet, self.height, self.depth))
                 continue
-            stone = _stone(foot, feet, self.height, self.depth, pitch=pitch, roll=roll)
+            stone = stone_under(foot, feet, self.height, self.depth, pitch=pitch, roll=roll)
             solids += [stone, *self._bumps(stone, foot, places, heights)]
         return Ground(tuple(solids), self.height - self.depth, self.friction)
 
@@ -173,17 +175,17 @@ class Pebbles(Terrain):
             )
 
 
-def _slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
+def drawn_slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
     """Pitch and roll in rad of a slope of up to `largest` degrees in a random direction."""
     size, way = math.radians(largest) * float(rng.uniform()), float(rng.uniform(0.0, 2.0 * math.pi))
     return size * math.cos(way), size * math.sin(way)
 
 
-def _same_place(foot: Footprint, other: Footprint) -> bool:
+def same_place(foot: Footprint, other: Footprint) -> bool:
     return foot.side == other.side and bool(np.hypot(*(foot.center - other.center)) < 1e-3)
 
 
-def _overlap(foot: Footprint, other: Footprint) -> bool:
+def overlapping(foot: Footprint, other: Footprint) -> bool:
     """Whether the stones of two footprints of the same foot overlap, along the feet."""
     dx, dy = (other.center - foot.center).tolist()
     along = math.cos(foot.yaw) * dx + math.sin(foot.yaw) * dy
@@ -194,7 +196,7 @@ def _distinct(feet: PlannedFeet) -> list[Footprint]:
     """Standing and stepped footprints, places that are used again only once."""
     found: list[Footprint] = []
     for foot in [*feet.standing.values(), *feet.steps]:
-        if not any(_same_place(foot, other) for other in found):
+        if not any(same_place(foot, other) for other in found):
             found.append(foot)
     return found
 
@@ -213,7 +215,7 @@ def _lane(foot: Footprint, feet: PlannedFeet, gap: float) -> float:
     return 0.5 * min(gaps) - 0.5 * gap if gaps else foot.half[1] + _MARGIN * foot.half[0]
 
 
-def _stone(
+def stone_under(
     foot: Footprint,
     feet: PlannedFeet,
     height: float,

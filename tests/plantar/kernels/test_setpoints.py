@@ -55,8 +55,8 @@ def test_it_writes_what_numpy_would(limited, seed):
                 assert np.array_equal(written[servos], written_now)
                 assert np.count_nonzero(written) <= k
             rate = velocity * STEP
-            written_now = written_now + (rate + SHARE * (between - written_now))
-            between = between + (rate + SHARE * (wanted - between))
+            written_now = written_now + SHARE * (between - written_now)
+            between = between + SHARE * (wanted - between)
             wanted = wanted + rate
         for kernel in kernels:
             assert np.array_equal(kernel.reference, goal)

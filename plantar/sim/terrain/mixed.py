@@ -1,0 +1,80 @@
+"""A course of everything: under each step a piece of ground whose kind the seed draws."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.settings.schema import number
+from plantar.settings.schema import share as share_of_body
+from plantar.sides import SIDES
+from plantar.sim.terrain.ground import Footprint, Ground, PlannedFeet, Solid, Terrain
+from plantar.sim.terrain.stones import drawn_slope, overlapping, same_place, stone_under
+
+__all__ = ["Mixed"]
+
+_PIECES = ("level", "part", "height", "slope", "slab", "beam")
+_PARTS = ("rear", "front", "inner", "outer")
+
+
+class Mixed(Terrain):
+    """Level stones, partial, higher and lower ones, slopes, slabs and pieces of a beam across the walk, as drawn.
+
+    The standing feet and the last two steps have level stones, and so has a step whose stone would overlap with one of
+    those, or with the last one of the same foot.
+
+    Attributes:
+        share_min: Smallest share of the sole's rectangle that a partial stone carries.
+        height_range: Largest difference in m of a stone to the ground that the plan expects.
+        slope_range: Largest slope in degrees, in any direction.
+        slab: Height in m of a slab.
+        beam_width: Width in m of a piece of a beam, along the foot.
+        beam_offset: Largest distance in m of its middle from the sole's, either way.
+        depth: How deep in m the floor lies below.
+    """
+
+    share_min: float = number(0.5, "1", 0.02, 1)
+    height_range: float = share_of_body(0.025, "leg", 0, 0.1)
+    slope_range: float = number(5.0, "deg", 0, 20)
+    slab: float = share_of_body(0.05, "leg", 0, 0.1)
+    beam_width: float = share_of_body(0.52, "sole", 0.02, 1)
+    beam_offset: float = share_of_body(0.15, "sole", 0, 0.3)
+    depth: float = share_of_body(0.25, "leg", 0.02, 10)
+
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        solids = [stone_under(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
+        ends, last, pieces = feet.steps[-2:], dict(feet.standing), []
+        for k, foot in enumerate(feet.steps):
+            # Drawn in any case: what chance gives to one step does not depend on the steps before it.
+            piece, own = _PIECES[int(rng.integers(len(_PIECES)))], np.random.default_rng(int(rng.integers(2**32)))
+            before, last[foot.side] = last[foot.side], foot
+            if any(same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
+                continue
+            near = [other for other in (*ends, *feet.standing.values(), before) if other.side == foot.side]
+            last_two = k >= len(feet.steps) - len(ends)
+            if last_two or any(overlapping(foot, other) for other in near if other is not foot):
+                piece = "level"
+            solids.append(self._piece(piece, foot, feet, own))
+            pieces.append(piece)
+        return Ground(tuple(solids), self.height - self.depth, self.friction, {"pieces": pieces})
+
+    def _piece(self, piece: str, foot: Footprint, feet: PlannedFeet, rng: np.random.Generator) -> Solid:
+        if piece == "part":
+            share, part = float(rng.uniform(self.share_min, 1.0)), _PARTS[int(rng.integers(len(_PARTS)))]
+            return stone_under(foot, feet, self.height, self.depth, share, part)
+        if piece == "slope":
+            pitch, roll = drawn_slope(rng, self.slope_range)
+            return stone_under(foot, feet, self.height, self.depth, pitch=pitch, roll=roll)
+        if piece == "beam":
+            return self._beam(stone_under(foot, feet, self.height, self.depth), foot, rng)
+        rise = {"height": float(rng.uniform(-1.0, 1.0)) * self.height_range, "slab": self.slab}.get(piece, 0.0)
+        return stone_under(foot, feet, self.height + rise, self.depth + rise)
+
+    def _beam(self, stone: Solid, foot: Footprint, rng: np.random.Generator) -> Solid:
+        """The part of a stone that a beam across the foot leaves of it."""
+        away = float(rng.uniform(-1.0, 1.0)) * self.beam_offset
+        forward = rotation_from_angles(foot.yaw)[:, 0]
+        middle = np.array([*foot.center, stone.position[2]])
+        across = stone.position - middle - forward * float(forward @ (stone.position - middle))
+        size = (0.5 * self.beam_width, stone.size[1], stone.size[2])
+        return Solid("box", size, middle + across + away * forward, stone.rotation)
