@@ -59,12 +59,15 @@ def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default() -> Non
         (["dcm_gian=2"], "nearest: balance.dcm_gain"),
         (["estimator.gravty=2"], "nearest: estimator.gravity"),
         (["estimator.gravity=-1"], r"\[estimator\] 'gravity' is -1; allowed: a number 0 to 50"),
-        (["compliance.damping=0.05"], "does nothing; allowed: with control.pfc = true"),
+        (["pfc=false", "compliance.damping=0.05"], "does nothing; allowed: with control.pfc = true"),
         (
             ["control.step_adjustment=true", "step_weights.dynamics=10"],
             "sets step_weights.dynamics, which does nothing; allowed: .* step_adjustment.method = 'ssp_opt'",
         ),
-        (["step_adjustment.method=ssp_opt"], "does nothing; allowed: with control.step_adjustment = true"),
+        (
+            ["control.step_adjustment=false", "step_adjustment.method=ssp_opt"],
+            "does nothing; allowed: with control.step_adjustment = true",
+        ),
         (
             ["control.step_adjustment=true", "dsp_weights.dynamics=10"],
             "allowed: .* step_adjustment.double_support = true",

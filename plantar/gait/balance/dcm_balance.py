@@ -19,7 +19,7 @@ from plantar.sides import Side
 
 __all__ = ["BalanceGains", "DcmBalance"]
 
-_ZMP_SHARE = 0.2  # of the ZMP's error, which feet that stand give way to; all of it lets a push tip the robot over
+_ZMP_SHARE = 0.3  # of the ZMP's error, which feet that stand give way to; all of it lets a push tip the robot over
 _NO_INTEGRAL = (0.0, 0.0, 0.0)
 
 

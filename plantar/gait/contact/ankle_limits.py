@@ -70,7 +70,8 @@ class AnkleLimits:
         found = centroid(left) if area(left) > 0.0 else None
         if found is None:
             near = centroid(reached) if area(reached) > 0.0 else None
-            found = closest_point(kept, center if near is None else near)
+            near = center if near is None else near
+            found = closest_point(kept, near) if area(kept) > 0.0 else near
         return center if found is None else found
 
     def _cut(self, polygon: NDArray[np.float64], margin: float = 0.0) -> NDArray[np.float64]:

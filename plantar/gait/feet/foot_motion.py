@@ -380,6 +380,7 @@ class FootMotion:
     def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
         """Lift the foot that has landed again and take its step once more, to another place."""
         expected, height = self._expected, self._height
+        self._wary = _WARY
         # It has to clear only what it has just met, in what is left of the step.
         self._height = min(height, _RETAKE_HEIGHT * self._leg)
         self._begin(self._step, (time, touchdown), target, frame)

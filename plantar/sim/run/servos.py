@@ -17,7 +17,7 @@ __all__ = ["LegServos"]
 
 _SPEED_SHARE = 0.9  # of a joint's speed limit that its set-point may have: the joint itself overshoots by up to a tenth
 _REACH_ERROR = 0.02  # rad, or m on a leg of 0.6 m, of a joint solution; the motion of one control period leaves 8 mm
-_LOW_PASS = 0.005  # s, time constant of each of two stages at the servo's own rate: no tick steps a torque
+_LOW_PASS = 0.0202  # beat, time constant of each of two stages at the servo's own rate: 5 ms on a leg of 0.6 m
 _SLOW = 0.0247  # rad/beat from which a joint moves against its friction: 0.1 rad/s on a leg of 0.6 m
 
 
@@ -56,7 +56,7 @@ class LegServos:
             1.0 / (_SPEED_SHARE * limits * period),
             period,
             world.period,
-            world.period / (_LOW_PASS + world.period),
+            world.period / (_LOW_PASS * world.body.beat + world.period),
             *(legs.joints, legs.torques),
         )
         self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)

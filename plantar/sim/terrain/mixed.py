@@ -56,7 +56,8 @@ class Mixed(Terrain):
                 piece = "level"
             solids.append(self._piece(piece, foot, feet, own))
             pieces.append(piece)
-        return Ground(tuple(solids), self.height - self.depth, self.friction, {"pieces": pieces})
+        facts = {f"{piece}_pieces": float(pieces.count(piece)) for piece in _PIECES}
+        return Ground(tuple(solids), self.height - self.depth, self.friction, facts)
 
     def _piece(self, piece: str, foot: Footprint, feet: PlannedFeet, rng: np.random.Generator) -> Solid:
         if piece == "part":

@@ -63,11 +63,11 @@ class Reference:
         if planned is not None:
             up[:2] -= planned
         size = float(np.linalg.norm(up))
-        if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
+        if 0.2 * GRAVITY < size < 3.0 * GRAVITY:
             self.samples += 1
             since = PERIOD * (self.samples + 1)
             gain = 1.0 / since if since < AVERAGING else TILT
-            rate += gain * rotation.T @ np.cross(up / size, [0.0, 0.0, 1.0])
+            rate += gain * rotation.T @ np.cross(up / GRAVITY, [0.0, 0.0, 1.0])
         if by_legs:
             self.astray -= 0.0 if missed is None else float(rotation[2] @ missed)
             error = self.astray

@@ -47,7 +47,8 @@ def walked(robot: Path, folder: Path, scene: str, settings: list[str]) -> tuple[
 @pytest.mark.parametrize("s", [0.35, pytest.param(1.2, marks=pytest.mark.long)])
 def test_a_scaled_robot_takes_the_same_steps(tmp_path: Path, s: float) -> None:
     # What is left is how the feet settle on the ground in the beginning, which rounding decides.
-    settings = ["steps=3", *CLOCK]
+    # A foot that sees the ground lands a reading sooner or later, which the noise decides.
+    settings = ["steps=3", "pfc=false", *CLOCK]
     own, first = walked(scaled_h1(tmp_path / "own", 1.0), tmp_path, "flat", settings)
     other, motion = walked(scaled_h1(tmp_path / "other", s), tmp_path, "flat", settings)
     assert own["completed"], own["reasons"]

@@ -38,7 +38,9 @@ def test_two_seconds_after_a_walk_each_foot_carries_half_near_its_middle(robot: 
     assert run.scene.walk.settle == 2.0
     assert run.run()["completed"]
     forces, off = loads(run)
-    assert 0.45 < forces["left"] / sum(forces.values()) < 0.55
+    # The gains of a real sole's taxels differ from the layout's by some percent, which no other sensor shows.
+    off_half = 0.05 if plant == "nominal" else 0.07
+    assert abs(forces["left"] / sum(forces.values()) - 0.5) < off_half
     for side in SIDES:
         assert abs(off[side][1]) < 0.010
         assert abs(off[side][0]) < 0.020
