@@ -41,5 +41,5 @@ def test_the_skin_may_be_mute() -> None:
 
 
 def test_a_box_of_half_a_round_is_refused() -> None:
-    with pytest.raises(SceneError, match=r"\[walk\] steps is 20; allowed: whole rounds of 6 steps"):
+    with pytest.raises(SceneError, match=r"scene 'box-step': \[walk\] steps is 20; allowed: whole rounds of 6 steps"):
         Simulation(load_scene("box-step", ["walk.steps=20"]))
