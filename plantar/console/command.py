@@ -1,4 +1,4 @@
-"""What all commands share: running the one that is named, the options of its output, and telling what it found."""
+"""What all commands share: running the one that is named, the options of its output, and printing what it found."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def run_command(app: typer.Typer) -> int:
 
 
 def _command_path(command: Any) -> str:
-    """The command that the process's arguments name: the error of an option without its value does not tell it."""
+    """The command that the process's arguments name: the error of an option without its value lacks it."""
     first = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
     return f"plantar {first}" if first in getattr(command, "commands", {}) else "plantar"
 

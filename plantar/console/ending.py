@@ -1,4 +1,4 @@
-"""How a command ends: what goes wrong is one line on stderr and an exit code, and nothing temporary is left behind.
+"""How a command ends: an error is one line on stderr and an exit code, and no temporary file is left.
 
 | exit code | means |
 |---|---|
@@ -47,7 +47,7 @@ INTERRUPTED = 128 + signal.SIGINT
 
 _AGAIN = 0.01  # s until an interruption that Python ignored comes once more
 _NOBODY_READS = 128 + 13  # SIGPIPE, which Windows has not
-_ENDED_BY = {"SIGTERM": "told to end (SIGTERM)", "SIGHUP": "ended: its terminal was closed (SIGHUP)"}
+_ENDED_BY = {"SIGTERM": "ended (SIGTERM)", "SIGHUP": "ended: its terminal was closed (SIGHUP)"}
 
 
 class Terminated(SystemExit):
@@ -217,16 +217,16 @@ def _prepare_streams() -> None:
 
 
 def _drop_output() -> None:
-    """Send what stdout still holds nowhere: the interpreter would try once more to write it when it ends."""
+    """Discard what stdout still holds: the interpreter would try again to write it when it ends."""
     with suppress(OSError, ValueError, AttributeError):
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, sys.stdout.fileno())
-        os.close(nowhere)
+        null = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(null, sys.stdout.fileno())
+        os.close(null)
 
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Raise `Terminated` at signals that would end the process on the spot, unless somebody else takes them."""
+    """Raise `Terminated` at signals that would end the process on the spot, unless another handler takes them."""
     numbers = [signal.Signals[name] for name in _ENDED_BY if hasattr(signal, name)]
     ours = []
     if threading.current_thread() is threading.main_thread():

@@ -21,8 +21,8 @@ def progress_bar() -> Iterator[Progress]:
         What moves the bar: takes the fraction done, 0..1, and what is being done.
 
     Example:
-        >>> with progress_bar() as tell:
-        ...     tell(0.5, "half of it")
+        >>> with progress_bar() as show:
+        ...     show(0.5, "half of it")
     """
     from rich.console import Console  # 0.1 s, which `plantar --help` need not wait for
     from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
@@ -42,7 +42,7 @@ def part_of(whole: Progress, start: float, share: float, name: str = "") -> Prog
         whole: Progress of the whole.
         start: Fraction of the whole that is done when the part begins.
         share: Fraction of the whole that the part is.
-        name: What stands before the part's texts.
+        name: Text put before the part's texts.
 
     Returns:
         Progress of the part.

@@ -85,7 +85,7 @@ def _environment(folder: str) -> dict[str, str]:
 
 
 def _reason(done: subprocess.CompletedProcess[bytes], memory: float, seconds: float) -> str:
-    """Why the process gave nothing."""
+    """Why the process returned no arrays."""
     if done.returncode < 0:
         name = signal.Signals(-done.returncode).name
         if name == "SIGXCPU":
@@ -99,7 +99,7 @@ def _reason(done: subprocess.CompletedProcess[bytes], memory: float, seconds: fl
 
 
 def _called_on_file() -> None:
-    """In the process of its own: call the function that the arguments name, and write what it returns to stdout."""
+    """In the separate process: call the function that the arguments name, and write what it returns to stdout."""
     function, path, *limits = sys.argv[1:]
     output = os.dup(1)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # libraries may print

@@ -108,11 +108,11 @@ PROMISES: Mapping[str, str] = {
     "An archive is sized before it is unpacked.": "tests/plantar/files/test_zip_archive.py",
     "A model reads files of its folder and package alone, links followed.": "tests/plantar/files/test_model_files.py",
     "A model of more parts than a robot's, or of tables of any size, is not made.": "tests/plantar/files/test_gate.py",
-    "Native readers run in a process of their own, with limits of memory and time.": "tests/plantar/files/test_gate.py",
+    "Native readers run in a separate process, with limits of memory and time.": "tests/plantar/files/test_gate.py",
     "A message of a recording that is damaged is left out and counted.": "tests/plantar/viewer/test_walk.py",
     "No cell of a written table is a formula.": "tests/plantar/test_csv_table.py",
     "No text of a file moves the terminal's cursor.": "tests/plantar/console/test_ending.py",
-    "A page runs its own scripts alone and asks for nothing.": "tests/plantar/pages/test_policy.py",
+    "A page runs only its own scripts and makes no request.": "tests/plantar/pages/test_policy.py",
     "A Dask scheduler is trusted by certificates, or on this machine alone without a note.": (
         "tests/sim/sweep/test_scheduler_address.py"
     ),

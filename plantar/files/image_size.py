@@ -1,4 +1,4 @@
-"""What an image says of its size before it is decoded: a small file may announce any amount of memory."""
+"""The size that an image states, before it is decoded: a small file may ask for any amount of memory."""
 
 from __future__ import annotations
 

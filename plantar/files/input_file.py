@@ -1,4 +1,4 @@
-"""Opening files that somebody else made: a regular file, at most so large, or one line that explains why not.
+"""Opens foreign files: a regular file, at most so large, or one line that explains why not.
 
 A pipe would wait for a writer that never comes, a device may never end, and what is larger than a reader can hold must
 be refused before it is read.

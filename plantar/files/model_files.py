@@ -1,4 +1,4 @@
-"""Where the files may lie that a robot's file names: a downloaded robot reads nothing but what came with it.
+"""Where the files that a robot's file names may lie: a downloaded robot reads only files that came with it.
 
 - A robot TOML names files in its own folder and below.
 - A model (MJCF, URDF) names files in its own folder and below, and in the folder above it, where packages keep their
@@ -82,7 +82,7 @@ def _besides() -> tuple[Path, ...]:
 
 
 def _is_a_package(folder: Path) -> bool:
-    """Whether a folder may be one robot's: not one that holds everything of somebody's."""
+    """Whether a folder can be one robot's: not the home folder or that of temporary files."""
     common = [Path(tempfile.gettempdir()).resolve()]
     home = os.path.expanduser("~")
     common += [Path(home).resolve()] if home != "~" else []
@@ -111,7 +111,7 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
 
     Args:
         file: The URDF.
-        name: The mesh's name as it stands there.
+        name: The mesh's name in the file.
         error: What is raised.
         where: Beginning of the message.
 
@@ -225,7 +225,7 @@ def check_model(file: Path, error: type[PlantarError]) -> None:
 
 
 def _tried(file: Path, changed: int, error: type[PlantarError]) -> None:
-    """Let MuJoCo read a model in a process of its own; one that passed is not read there again."""
+    """Let MuJoCo read a model in a separate process; one that passed is not read there again."""
     key = file.resolve(), changed
     if key in _PASSED:
         return

@@ -1,4 +1,4 @@
-"""TOML and JSON that somebody else wrote: at most so large and so deep, or one line that says where it goes wrong."""
+"""Reads foreign TOML and JSON: limited in size and depth; an error is one line with its place."""
 
 from __future__ import annotations
 

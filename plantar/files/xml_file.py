@@ -1,4 +1,4 @@
-"""XML of strangers (models, drawings): at most so large, so deep and of so many elements, and without entities."""
+"""Parses foreign XML (models, drawings, sheets): limited in size, depth and elements, without entities."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""ZIP archives of strangers (numpy's NPZ, 3MF): what they say they unpack to is known before anything is unpacked."""
+"""Opens foreign ZIP archives (NPZ, 3MF, XLSX): the size they unpack to is checked before anything is unpacked."""
 
 from __future__ import annotations
 

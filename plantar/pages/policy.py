@@ -1,4 +1,4 @@
-"""The content security policy of pages: a page runs the scripts that it was written with, and asks for nothing else."""
+"""The content security policy of pages: a page runs the scripts it was written with, and makes no request."""
 
 from __future__ import annotations
 

@@ -363,7 +363,7 @@ def _times(drawn: _Drawn, layouts: Mapping[Side, SoleLayout]) -> NDArray[np.floa
 
 
 def _sole_poses(count: int, layouts: Mapping[Side, SoleLayout]) -> dict[str, NDArray[np.float64]]:
-    """Soles that lie side by side, as nothing is known of where they are."""
+    """Soles that lie side by side, for recordings without poses."""
     poses = {}
     for number, side in enumerate(SIDES):
         if side in layouts:

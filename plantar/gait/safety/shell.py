@@ -156,7 +156,7 @@ class SafetyShell:
         return last.changed(feet=feet, footholds=(), moved_steps=())
 
     def _problem(self, sensors: Sensors) -> int:
-        """What is wrong with encoders and IMU; 0 for nothing. What is no number is the controller's to bridge."""
+        """What is wrong with encoders and IMU, 0 for none; the controller itself bridges NaN."""
         joints, gyro, accelerometer = sensors.joint_positions, sensors.gyro, sensors.accelerometer
         if self._body is None:
             self._joints = len(joints) if self._joints is None else self._joints
@@ -171,7 +171,7 @@ class SafetyShell:
         """What the soles report, each under its own side; what a silent one carries follows from the other.
 
         Returns:
-            The very same where nothing is wrong; None where both are silent.
+            The same object where all is well; None where both are silent.
         """
         readings, soles, counts = sensors.readings, self._soles, self._counts
         left, right = _sound(readings, "left", counts["left"]), _sound(readings, "right", counts["right"])
@@ -189,15 +189,15 @@ class SafetyShell:
         return readings if lost is None else self._replaced(sensors, readings, lost)
 
     def _both_silent(self, soles: SoleCheck) -> bool:
-        """Whether both soles report the very same for long, or nothing while the robot is carried."""
+        """Whether both soles are stuck, or report no force while the robot is carried."""
         silent = self._unloaded * self._period > _WEIGHTLESS and soles.left + soles.right < 0.05 * self._weight
-        if silent and self._last.phase.stance is None:  # of a foot in the air it is right to report nothing
+        if silent and self._last.phase.stance is None:  # a foot in the air reports no force
             return True
         both = min(soles.left_same, soles.right_same) >= self._stuck and soles.left + soles.right > 0.0
         return both and self._last.phase.kind != PhaseKind.STANDING
 
     def _silent_sole(self, soles: SoleCheck, accelerometer: NDArray[np.float64]) -> Side | None:
-        """The sole that reports nothing, or the very same, while the robot is carried."""
+        """The sole that is stuck, or reports no force while the robot is carried."""
         weight, phase = self._weight, self._last.phase
         if phase.kind != PhaseKind.STANDING:
             if soles.left_same >= self._stuck and soles.left > 0.05 * weight:

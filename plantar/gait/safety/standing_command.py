@@ -1,4 +1,4 @@
-"""The command of a robot that has not been heard of yet: stand as the walk begins."""
+"""The command before the first sound reading: stand as the walk begins."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far targets may move in a tick: a legged body does not jump, whatever its controller was given."""
+"""Limits how far targets move in a tick."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The time of control ticks: monotone, and plausible, whatever a robot's clock reports."""
+"""The time of control ticks: monotone and plausible for any reported time."""
 
 from __future__ import annotations
 

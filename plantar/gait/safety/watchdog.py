@@ -15,7 +15,7 @@ __all__ = ["Watchdog"]
 
 
 class Watchdog:
-    """Calls a function once where ticks stop, from a thread of its own.
+    """Calls a function once where ticks stop, from a separate thread.
 
     Args:
         limit: Time in s without a tick.

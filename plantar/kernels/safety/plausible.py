@@ -48,7 +48,7 @@ class BodyCheck:
             accelerometer: Specific force (3,) in m/s^2.
 
         Returns:
-            0 for nothing, 1 for a joint angle and 2 for an IMU that cannot be, 3 for a stuck IMU, 4 for stuck joints.
+            0 for none, 1 for a joint angle and 2 for an IMU that cannot be, 3 for a stuck IMU, 4 for stuck joints.
         """
         q, w, a = memory.values(joints), memory.values(gyro), memory.values(accelerometer)
         kept, n = memory.room(self.kept), self.joints

@@ -1,4 +1,4 @@
-"""A robot's model as its author left it, MJCF or URDF: read, with what its file says of motors and sensors kept."""
+"""A robot's model as its author left it, MJCF or URDF: with what its file states of motors and sensors."""
 
 from __future__ import annotations
 
@@ -28,25 +28,25 @@ _URDF_COMPILER = {
     "boundmass": "1e-9",
     "boundinertia": "1e-12",
 }
-"""How MuJoCo shall read a URDF: with what is drawn, link by link, and with links that have no mass."""
+"""How MuJoCo must read a URDF: with what is drawn, link by link, and with links that have no mass."""
 
 _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 
 @dataclass(frozen=True)
 class ModelSource:
-    """A compiled model and what its file says beside bodies, joints and shapes.
+    """A compiled model, and what its file states besides bodies, joints and shapes.
 
     Attributes:
         file: The file.
         name: The model's name.
-        model: The compiled model with all of its joints, nothing driven, nothing constrained.
+        model: The compiled model with all of its joints, without motors or constraints.
         efforts: Largest torque in N m of each joint whose motor or joint the file limits, by the joint's name.
         speeds: Largest speed in rad/s of each joint that the file limits, by name.
         imus: Sites and bodies that may be the IMU, as "site" or "body" and the name, the likeliest first: what carries
             a gyro, what carries an accelerometer, what is called IMU.
         coupled: Pairs of joint names of which the file lets the first follow the second.
-        loops: Pairs of bodies that the file ties together beside the tree of joints.
+        loops: Pairs of bodies that the file ties together outside the tree of joints.
         upper_posture: Joint angles of the file's first keyframe by name; empty where it has none.
         notes: What was left out or changed in reading.
     """
@@ -64,8 +64,8 @@ class ModelSource:
 
 
 @dataclass
-class _Said:
-    """What a file says, collected before it is taken out of the model."""
+class _Stated:
+    """What a file states, collected before it is removed from the model."""
 
     efforts: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
@@ -87,11 +87,11 @@ def read_model(file: Path, folder: Path) -> ModelSource:
         RobotError: If it cannot be read, or names files that lie where they may not.
     """
     check_model(file, RobotError)
-    said = _Said()
+    stated = _Stated()
     try:
         root = parsed_model(file, RobotError)
         if root.tag == "robot":
-            spec = mujoco.MjSpec.from_string(_urdf_text(root, file, folder, said))
+            spec = mujoco.MjSpec.from_string(_urdf_text(root, file, folder, stated))
         else:
             spec = mujoco.MjSpec.from_file(str(file))
     except RobotError:
@@ -99,12 +99,12 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
         raise RobotError(f"{file}: cannot be read: {' '.join(str(error).split())}") from None
     _name_all(spec)
-    _drop_other_things(spec, said.notes)
-    _drop_unreadable(spec, file, folder, said.notes)
+    _drop_other_things(spec, stated.notes)
+    _drop_unreadable(spec, file, folder, stated.notes)
     keyframe = _first_keyframe(spec)
     loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS]
-    said.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
-    _collect_efforts(spec, said)
+    stated.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
+    _collect_efforts(spec, stated)
     imus = _imus_of(spec)
     forget_own_simulation(spec)
     model = _compiled(spec, file)
@@ -112,17 +112,17 @@ def read_model(file: Path, folder: Path) -> ModelSource:
         file=file,
         name=spec.modelname if spec.modelname not in ("", "MuJoCo Model") else file.stem,
         model=model,
-        efforts=said.efforts,
-        speeds=said.speeds,
+        efforts=stated.efforts,
+        speeds=stated.speeds,
         imus=imus,
-        coupled=tuple(said.coupled),
+        coupled=tuple(stated.coupled),
         loops=tuple(_bodies_of(model, pair) for pair in loops),
         upper_posture=_angles_of(model, keyframe),
-        notes=tuple(said.notes),
+        notes=tuple(stated.notes),
     )
 
 
-def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, said: _Said) -> str:
+def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Stated) -> str:
     """A URDF as MuJoCo reads it: meshes by their full names in kinds that it knows, its own settings."""
     for link in root.iter("link"):
         for shape in [*link.findall("visual"), *link.findall("collision")]:
@@ -132,7 +132,7 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, said: _Said)
             path = mesh_of_urdf(file, mesh.get("filename", ""), RobotError, f"{file}: <{shape.tag}>")
             found = mesh_for_mujoco(path, folder)
             if found is None:
-                said.notes.append(f"{shape.tag} mesh {path.name} of link {link.get('name')} cannot be read; left out")
+                stated.notes.append(f"{shape.tag} mesh {path.name} of link {link.get('name')} cannot be read; left out")
                 link.remove(shape)
             else:
                 mesh.set("filename", str(found.resolve()))
@@ -140,15 +140,15 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, said: _Said)
         root.remove(own)
     locked = [name for joint in root.findall("joint") if (name := _locked(joint, file))]
     if locked:
-        said.notes.append(
+        stated.notes.append(
             f"held, as their limits leave no range (lower and upper are 0 where a URDF leaves them out): "
             f"{', '.join(locked)}"
         )
     for joint in root.findall("joint"):
         name, limit, mimic = joint.get("name", ""), joint.find("limit"), joint.find("mimic")
         if mimic is not None:
-            said.coupled.append((name, mimic.get("joint", "")))
-        for key, found_limits in (("effort", said.efforts), ("velocity", said.speeds)):
+            stated.coupled.append((name, mimic.get("joint", "")))
+        for key, found_limits in (("effort", stated.efforts), ("velocity", stated.speeds)):
             value = _number(None if limit is None else limit.get(key))
             if value > 0.0:
                 found_limits[name] = value
@@ -199,8 +199,7 @@ def _name_all(spec: Any) -> None:
 
 
 def _drop_other_things(spec: Any, notes: list[str]) -> None:
-    """Take out what a scene holds beside the robot, tables and balls: of what stands in the world the robot has most
-    hinges."""
+    """Remove other things of a scene, as tables and balls: the robot is the one with most hinges."""
     things = list(spec.worldbody.bodies)
     if len(things) < 2:
         return
@@ -257,12 +256,12 @@ def _angles_of(model: Any, qpos: NDArray[np.float64] | None) -> dict[str, float]
     return {model.joint(i).name: float(qpos[model.jnt_qposadr[i]]) for i in hinges}
 
 
-def _collect_efforts(spec: Any, said: _Said) -> None:
+def _collect_efforts(spec: Any, stated: _Stated) -> None:
     """Largest torque of each joint: of its motor by force or control range, or of the joint itself."""
     for joint in spec.joints:
         limited = joint.actfrclimited != mujoco.mjtLimited.mjLIMITED_FALSE
         if limited and joint.actfrcrange[0] < joint.actfrcrange[1]:
-            said.efforts[joint.name] = float(np.abs(joint.actfrcrange).max())
+            stated.efforts[joint.name] = float(np.abs(joint.actfrcrange).max())
     for motor in spec.actuators:
         if motor.trntype not in (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT):
             continue
@@ -278,7 +277,7 @@ def _collect_efforts(spec: Any, said: _Said) -> None:
         ):
             limits.append(gear * abs(float(motor.gainprm[0])) * float(np.abs(motor.ctrlrange).max()))
         if limits:
-            said.efforts[motor.target] = min([*limits, said.efforts.get(motor.target, math.inf)])
+            stated.efforts[motor.target] = min([*limits, stated.efforts.get(motor.target, math.inf)])
 
 
 def _imus_of(spec: Any) -> tuple[tuple[str, str], ...]:

@@ -137,7 +137,7 @@ class ClusterWorkers:
             raise WorkerError(f"{self._scheduler} has had no worker for {_ALONE:g} s")
 
     def _watch(self) -> None:
-        """Ask for the workers once a second, in a thread of its own: the scheduler may take as long as it likes."""
+        """Ask for the workers once a second, in a separate thread: the scheduler may take any time."""
         while not self._closed.is_set():
             try:
                 self._threads = sum(self._client.nthreads().values())

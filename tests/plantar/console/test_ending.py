@@ -34,7 +34,7 @@ def raising(error: BaseException) -> Callable[[], int]:
         (InputError("no such thing; allowed: another"), 2, "plantar: no such thing; allowed: another"),
         (InputError("two\nlines\x1b[2J and \udcff"), 2, "plantar: two\\nlines\\x1b[2J and \\udcff"),
         (KeyboardInterrupt(), 130, "plantar: interrupted"),
-        (Terminated(signal.SIGTERM), 143, "plantar: told to end (SIGTERM)"),
+        (Terminated(signal.SIGTERM), 143, "plantar: ended (SIGTERM)"),
         (MemoryError(), 2, "plantar: not enough memory for this input"),
         (OSError(errno.ENOSPC, "No space left on device"), 2, "plantar: cannot write the output: No space left"),
         (OSError(errno.ENAMETOOLONG, "File name too long", "x" * 9), 2, "plantar: xxxxxxxxx: File name too long"),
