@@ -27,7 +27,7 @@ ROOMS: Mapping[str, tuple[str, ...]] = {
     "balance": ("gait/balance/",),
     "feet": ("gait/feet/",),
     "controller": ("gait/",),
-    "IK": ("plantar/robots/kinematics/inverse_kinematics.py", "plantar/robots/kinematics/tasks/", "sim/run/servos.py"),
+    "IK": ("robots/kinematics/inverse_kinematics.py", "robots/kinematics/tasks/", "sim/run/servos.py"),
     "judge": ("sim/judging/",),
     "recording": ("sim/run/log.py", "sim/figures/", "recordings/"),
     "loop": ("sim/run/",),

@@ -19,7 +19,7 @@ def test_every_file_that_a_room_names_is_there():
 def test_a_file_belongs_to_the_first_room_that_names_it():
     assert room_of("gait/estimate/skin_load.py") == "perception"
     assert room_of("gait/controller.py") == "controller"
-    assert room_of("plantar/robots/kinematics/leg_model.py") is None  # the estimator asks for it, and the servos do
+    assert room_of("robots/kinematics/leg_model.py") is None  # the estimator asks for it, and the servos do
 
 
 def test_time_counts_for_the_room_that_takes_it():
