@@ -33,7 +33,7 @@ def led(direction: str, force: float, gain: float) -> tuple[Guide, GuideTruth, l
         if k % 5 == 0:
             arm.read()
             arm.step(touch.read())
-            truth.update()
+            truth.update(world.data.time)
             forces.append(guide.force)
         touch.step()
     return guide, truth, forces

@@ -86,7 +86,6 @@ def test_all_ends_in_a_page(
         ("all", "--scene", "flat"),
         ("skip", "--robot", "h1"),
         ("contact", "--scenarios", "3"),
-        ("kernels", "--readings", "3"),
         ("stress", "--layout", "sole.json"),
     ],
 )
