@@ -36,7 +36,7 @@ def test_an_honest_walk_has_no_reasons() -> None:
     assert criteria(summary) == set()
     assert summary["steps_taken"] == 4
     assert not summary["moved_steps"]
-    assert summary["final"]["height_m"] == pytest.approx(0.80, abs=0.005)
+    assert summary["final"]["height_m"] == pytest.approx(0.77, abs=0.005)  # 0.80 m, less a twentieth of its leg of 0.6
     assert summary["slip_max_m"] < 0.002
     assert summary["torque_limit"]["share_of_time"] < 0.001
     assert 0.7 < summary["joint_speed"]["share_of_limit"] < 1.0
@@ -70,7 +70,7 @@ def test_a_block_under_the_last_but_one_step_without_attempts_does_not_count() -
 def test_a_torso_that_leans_soles_into_each_other_does_not_count() -> None:
     simulation = Simulation(load_scene("flat", BELIEVES))
     for body in ("base", "chest"):
-        simulation.world.model.body(body).ipos[1] += 0.01
+        simulation.world.model.body(body).ipos[1] += 0.02  # m; 0.015 is balanced without a touch
     summary = simulation.run()
     assert criteria(summary) == {"collision"}
     assert "left_foot touched right_foot" in summary["reasons"][0]["text"]
@@ -89,7 +89,8 @@ def test_a_fifth_more_mass_than_the_controller_knows_does_not_count() -> None:
 
 
 def test_a_fall_on_what_the_ankle_took_for_a_foothold_counts_the_steps_before_it() -> None:
-    summary = run_scene(load_scene("feasibility-3", ["feasibility=force_torque"]))
+    """By the ankle's moment alone: soles that see what they are on after landing cross the block without a fall."""
+    summary = run_scene(load_scene("feasibility-3", ["feasibility=force_torque", "footholds=off"]))
     assert {"fall", "steps"} <= criteria(summary)
     assert summary["steps_taken"] == 4  # of 8, by 9 landings
 
@@ -135,7 +136,9 @@ def test_steps_at_other_places_than_planned_do_not_count() -> None:
     summary = walked_otherwise(4, 0.14)
     assert {"steps", "position"} <= criteria(summary)
     text = next(r["text"] for r in summary["reasons"] if r["criterion"] == "steps")
-    assert re.search(r"step 0 .* 6\d mm and 0.0 deg from its place", text)
+    found = re.search(r"step 0 .* (\d+) mm and 0.0 deg from its place", text)
+    assert found is not None
+    assert int(found[1]) == pytest.approx(200 - 140, abs=3)  # a foot lands 2 mm off its place
 
 
 def test_shorter_steps_do_not_count_by_reporting_each_as_moved() -> None:
