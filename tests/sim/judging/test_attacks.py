@@ -92,7 +92,8 @@ def test_a_fall_on_what_the_ankle_took_for_a_foothold_counts_the_steps_before_it
     """By the ankle's moment alone: soles that see what they are on after landing cross the block without a fall."""
     summary = run_scene(load_scene("feasibility-3", ["feasibility=force_torque", "footholds=off"]))
     assert {"fall", "steps"} <= criteria(summary)
-    assert summary["steps_taken"] == 4  # of 8, by 9 landings
+    assert summary["steps_taken"] == 4
+    assert len(summary["landings_s"]) >= 8  # which would count as 8 of 8 steps
 
 
 class _Other(WalkingController):
