@@ -147,7 +147,7 @@ def shown_model(page: str) -> str:
 
 
 def test_a_robot_that_is_shown_is_read(tmp_path: Path) -> None:
-    for layout in (ROOT / "plantar" / "sim" / "robots" / "h1").glob("layout_*.json"):
+    for layout in (ROOT / "plantar" / "robots" / "h1").glob("layout_*.json"):
         shutil.copy(layout, tmp_path)
     (tmp_path / "jvrc1.xml").write_text("<mujoco/>")
     for text in (shown_model("simulation.md"), re.sub(r"^# (?=\w+ = [^.\[])", "", shown_model("simulation.md"))):

@@ -36,6 +36,8 @@ def check_address(address: str) -> str:
         Traceback (most recent call last):
         plantar.errors.InputError: scheduler 'ucx://192.0.2.1:8786': allowed: tcp://HOST:PORT, or tls://HOST:PORT ...
     """
+    if address.startswith("inproc://"):  # a cluster in this process: no bytes leave it
+        return address
     match = _ADDRESS.fullmatch(address)
     if match is None or match["scheme"] not in (None, "tcp", "tls") or not 0 < int(match["port"]) < 65536:
         raise InputError(f"scheduler {address[:200]!r}: {_ALLOWED}")

@@ -69,5 +69,5 @@ def test_a_swing_that_comes_down_slowly_gets_the_time_that_its_motors_need() -> 
     assert uneven.walk.approach_height == pytest.approx(APPROACH_HEIGHT * SLOW.leg)
     assert uneven.walk.approach_speed == pytest.approx(APPROACH_SPEED * SLOW.leg / SLOW.beat)
     weak = replace(load_robot("h1"), single_support=0.8, approach_support=1.1)
-    for scene, single in ((uneven, 1.1), (load_scene("flat").for_body(SLOW), 0.8)):
+    for scene, single in ((uneven, 1.1), (load_scene("flat", ["approach_height=0"]).for_body(SLOW), 0.8)):
         assert controller_settings(scene, weak, SLOW, {}).timing.single_support == pytest.approx(single)

@@ -53,7 +53,7 @@ def test_numbers_of_seeds_and_robots_that_are_none_are_refused() -> None:
 
 
 def test_two_names_of_one_robot_are_one_point(repository: Path) -> None:
-    file = str(repository / "plantar" / "sim" / "robots" / "h1" / "robot.toml")
+    file = str(repository / "plantar" / "robots" / "h1" / "robot.toml")
     with pytest.raises(InputError, match="same run"):
         Sweep("flat", (("robot", ("h1", file)),))
 
