@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from plantar import FeetPercept, Percept, Reading, SolePose, fit_ground_plane, read_layout, sim
+from plantar import FeetPercept, Percept, Reading, SolePose, fit_ground_plane, read_layout, robots
 from plantar.geometry.inscribed import inscribed_rectangle
 from plantar.geometry.outline import concave_outline
 from plantar.geometry.polygon import area
@@ -22,7 +22,7 @@ from plantar.sim.sensing.sole_pressure import SolePressure
 
 FORCE, TOUCH = COLOURS["left"], COLOURS["right"]  # Fig. 40: force in blue, pre-touch in red
 NEAR = 0.015  # m: what counts as pre-touch in these pictures
-H1 = Path(sim.__file__).parent / "robots" / "h1"
+H1 = Path(robots.__file__).parent / "h1"
 LAYOUTS = {
     side: replace(layout, thresholds={**layout.thresholds, "proximity": NEAR})
     for side in ("left", "right")

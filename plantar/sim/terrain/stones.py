@@ -182,6 +182,15 @@ def drawn_slope(rng: np.random.Generator, largest: float) -> tuple[float, float]
 
 
 def same_place(foot: Footprint, other: Footprint) -> bool:
+    """Whether two footprints are of the same foot at the same place.
+
+    Args:
+        foot: One footprint.
+        other: The other one.
+
+    Returns:
+        True where side and center agree, the latter to a millimetre.
+    """
     return foot.side == other.side and bool(np.hypot(*(foot.center - other.center)) < 1e-3)
 
 
