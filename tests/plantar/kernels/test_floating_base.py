@@ -123,7 +123,8 @@ def test_a_tick_is_that_of_the_equations(seed, by_legs):
             np.testing.assert_allclose(places[k], position + rotation @ posture[1 + k], **EXACT)
             np.testing.assert_allclose(turns[k], rotation @ posture[3 + k], **EXACT)
         cop = [None if c is None else (places[k] + turns[k][:, :2] @ c)[:2] for k, c in enumerate(cops)]
-        expected = zmp_of_feet(cop, loads)
+        weights = [0.0 if c is None else load for c, load in zip(cops, loads, strict=True)]  # no point, no part in it
+        expected = zmp_of_feet(cop, weights)
         carries = carried is not None
         assert carries == (expected is not None)
         assert not carries or np.array_equal(carried, zmp)
