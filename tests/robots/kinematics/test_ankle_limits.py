@@ -17,10 +17,10 @@ def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name: str) -
     data = stood(robot, model)
     mujoco.mj_comPos(model, data)
     for side, strips in ankle_limits(robot, model, weight).items():
-        assert len(strips) == 2
+        assert len(strips) == 3  # the third is the knee's: see the test of it
         site = model.site(robot.legs[side].sole_site).id
         origin, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
-        for (x, y, middle, half), kind in zip(strips.tolist(), ("pitch", "roll"), strict=True):
+        for (x, y, middle, half), kind in zip(strips[:2].tolist(), ("pitch", "roll"), strict=True):
             joint = model.joint(f"{side}_ankle_{kind}")
             for edge in (middle - half, middle + half):
                 place = origin + rotation[:, :2] @ (edge * np.array([x, y]))
@@ -30,6 +30,37 @@ def test_weight_at_the_edge_of_a_strip_takes_the_limit_of_its_joint(name: str) -
                 torque = weight * jacobian[2, joint.dofadr[0]]
                 limit = model.actuator(f"{side}_ankle_{kind}").forcerange[1]
                 assert abs(torque) == pytest.approx(limit, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["h1", "hrp2kai"])
+def test_weight_under_the_hip_loads_the_knee_as_its_strip_says(name: str) -> None:
+    robot = load_robot(name)
+    model = build_leg_model(robot).model
+    weight = body_of(robot, model).weight
+    data = stood(robot, model)
+    mujoco.mj_comPos(model, data)
+    for side, strips in ankle_limits(robot, model, weight).items():
+        x, y, middle, half = strips[2].tolist()
+        assert (x, y) == (1.0, 0.0)
+        knee = model.joint(f"{side}_knee")
+        hip, ankle = (data.xanchor[model.joint(f"{side}_{name}_pitch").id] for name in ("hip", "ankle"))
+        foot = int(model.site_bodyid[model.site(robot.legs[side].sole_site).id])
+        jacobian = np.zeros((3, model.nv))
+        mujoco.mj_jac(model, data, jacobian, None, hip, foot)
+        upright = np.arctan2(hip[0] - ankle[0], hip[2] - ankle[2])
+        found = []  # with the leg turned about its ankle: where the hip is along the sole, and the knee's torque
+        for tilt in (-0.2, 0.0, 0.2):
+            turn = upright - tilt  # the weight turns instead, the other way
+            up, along = np.array([np.sin(turn), 0, np.cos(turn)]), np.array([np.cos(turn), 0, -np.sin(turn)])
+            place = ankle[0] - data.site(f"{side}_sole").xpos[0] + along @ (hip - ankle)
+            found.append((float(place), weight * float(up @ jacobian[:, knee.dofadr[0]])))
+        (back, less), (place, torque), (front, more) = found
+        limit = float(model.actuator(f"{side}_knee").forcerange[1])
+        assert abs(torque) == pytest.approx(limit * abs(place - middle) / half, rel=1e-9)
+        # The knee's way ahead of the line to the hip turns by the cosine alone, which cancels between two tilts.
+        assert front > place > back
+        assert abs(more - less) == pytest.approx(limit * (front - back) / half, rel=1e-9)
+        assert (abs(more) < abs(torque) < abs(less)) == (middle > front)
 
 
 def test_joints_without_limits_have_no_strips() -> None:
