@@ -6,7 +6,11 @@ __all__ = ["main"]
 
 
 def main() -> None:
-    """Entry point of the console script."""
+    """Entry point of the console script.
+
+    Example:
+        >>> main()  # doctest: +SKIP
+    """
     leave_at_interrupt()
     from plantar import cli
 

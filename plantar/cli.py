@@ -54,5 +54,9 @@ for _command in sorted(_found(), key=lambda command: command.place):
 
 
 def main() -> None:
-    """Entry point of the console script."""
+    """Entry point of the console script.
+
+    Example:
+        >>> main()  # doctest: +SKIP
+    """
     sys.exit(run(lambda: run_command(app)))

@@ -42,6 +42,12 @@ def write_csv_rows(stream: TextIO, rows: Iterable[Sequence[Any]]) -> None:
     Args:
         stream: Where to; opened with newline="".
         rows: Cells of each row.
+
+    Example:
+        >>> import sys
+        >>> write_csv_rows(sys.stdout, [["time_s", "name"], [0.1, "=1+1"]])
+        time_s,name
+        0.1,'=1+1
     """
     csv.writer(stream, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
 
@@ -54,6 +60,10 @@ def csv_row(cells: Sequence[Any]) -> str:
 
     Returns:
         The row with its line end.
+
+    Example:
+        >>> csv_row([1, None, "a,b"])
+        '1,,"a,b"\\n'
     """
     out = io.StringIO()
     write_csv_rows(out, [cells])
@@ -69,6 +79,10 @@ def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Ite
 
     Returns:
         The cells of each row in the order of names; what a row lacks is None.
+
+    Example:
+        >>> list(mapping_rows(["a", "b"], [{"b": 2}]))
+        [[None, 2]]
     """
     return ([row.get(name) for name in names] for row in rows)
 

@@ -88,7 +88,7 @@ def open_input(path: Name, error: type[PlantarError], most: float | None = None,
     Example:
         >>> with open_input(__file__, PlantarError) as stream:
         ...     stream.readline()[3:16]
-        b'Opening files'
+        b'Opens foreign'
     """
     where = f"{path}:" if where is None else where
     if not os.fspath(path):

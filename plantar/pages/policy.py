@@ -25,7 +25,7 @@ def with_policy(page: str) -> str:
         The page; a browser refuses scripts, requests and forms that something else brings into it.
 
     Example:
-        >>> with_policy("<head></head><p>text</p>")[:91]
+        >>> with_policy("<head></head><p>text</p>")[:90]
         '<head><meta http-equiv="Content-Security-Policy" content="default-src \\'none\\'; base-uri \\'no'
     """
     hashes = [base64.b64encode(hashlib.sha256(code.encode()).digest()).decode() for code in _SCRIPT.findall(page)]

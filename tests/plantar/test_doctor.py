@@ -19,7 +19,7 @@ def test_it_knows_every_library_that_is_declared(repository: Path) -> None:
     declared = {"": project["dependencies"]} | project["optional-dependencies"]
     for extra, libraries in LIBRARIES.items():
         assert [re.split("[>=]", line)[0] for line in declared[extra]] == list(libraries)
-    assert set(declared) - set(LIBRARIES) == {"all", "dev", "docs"}
+    assert set(declared) - set(LIBRARIES) == {"all", "bench", "dev", "docs"}
     assert set(PURPOSES) == set(LIBRARIES)
 
 

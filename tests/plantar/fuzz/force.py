@@ -266,7 +266,7 @@ def _balance_points(block: Block, tally: Tally) -> None:
     tally.add("centroidal_moment_pivot", block, not_finite(pivot))
     dcm = divergent_component(np.broadcast_to(com, (len(block), 3)), world[:, :3] * 0.0 + 0.5, 3.5)
     tally.add("divergent_component", block, np.abs(dcm - com - 0.5 / 3.5).max(axis=1) / float(np.abs(com).max()), 1e-15)
-    composite = [zmp.zmp_of_feet([c, c], [1.0, 2.0]) for c in cops]
+    composite = [zmp.zmp_of_feet([c, c], [0.0, 0.0] if c is None else [1.0, 2.0]) for c in cops]
     there_is = np.array([a is not None and b is not None for a, b in zip(composite, cops, strict=True)])
     found = np.array([np.zeros(2) if c is None else c for c in composite])
     off = np.where(there_is, np.abs(found - place[:, :2]).max(axis=1), 0.0)

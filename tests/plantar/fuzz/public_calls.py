@@ -241,7 +241,7 @@ def _of_polygons(sole: SoleLayout) -> list[Call]:
         *(inscribed.inscribed_rectangle_any_angle, inscribed.inscribed_triangle),
     ]
     found = [Call(_name(f), f, {"polygon": _polygon()}) for f in shapes]
-    found += [Call(_name(f), f, {"polygon": _polygon()}) for f in (polygon.area, polygon.centroid)]
+    found += [Call(_name(f), f, {"polygon": _polygon()}) for f in (polygon.area, polygon.centroid, polygon.convex_ring)]
     found += [Call(_name(f), f, {"points": _polygon("points polygon", nan=True)}) for f in (polygon.convex_hull,)]
     found += [Call(_name(f), f, {"points": _polygon("points polygon")}) for f in (enclosing.bounding_box,)]
     pairs = [polygon.closest_point, polygon.signed_margin]
@@ -654,6 +654,7 @@ def _of_objects(sole: SoleLayout) -> list[Call]:
     place = Argument(np.array([1.0, 2.0, 0.5]), (3,), "position sole pose")
     turn = Argument(_TURN, (3, 3), "rotation sole pose")
     pose = sole_pose.SolePose(_TURN, place.value)
+    plane_or_space = Argument(_RING, ("k", "2 or 3"), "polygon")
     shape = outline.Outline.of_rings([_RING])
     fit = partial_contact.PartialContact(sole)
     lines = Argument(_LINES, ("m", 3), "lines")
@@ -666,7 +667,7 @@ def _of_objects(sole: SoleLayout) -> list[Call]:
             {"active": active, "stuck": active},
         ),
         Call("sole_pose.SolePose", lambda turn, place: sole_pose.SolePose(turn, place), {"turn": turn, "place": place}),
-        Call("sole_pose.SolePose.polygon_to_world", pose.polygon_to_world, {"polygon": _polygon()}),
+        Call("sole_pose.SolePose.polygon_to_world", pose.polygon_to_world, {"polygon": plane_or_space}),
         Call(
             "sole_pose.SolePose.to_world",
             pose.to_world,

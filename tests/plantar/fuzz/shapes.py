@@ -166,12 +166,13 @@ def _percept_outline_shapes(block: Block, tally: Tally) -> None:
     over = np.maximum(got - hull, 0.0) / np.maximum(hull, 1e-300)
     tally.add("Percept.outline_rectangle_in_sole: within the hull's", block, over, 1e-12)
     _in_outline(block, tally, "Percept.outline_rectangle_in_sole: inside", corners, range(0, len(block), 50))
-    free = [p.outline_rectangle_any_angle_in_sole.corners for p in percepts]
+    found = [p.outline_rectangle_any_angle_in_sole for p in percepts]
+    free, gap = [f.corners for f in found], np.array([f.gap for f in found])
     rare = range(block.number % 20, len(block), 100)
     _in_outline(block, tally, "Percept.outline_rectangle_any_angle_in_sole: inside", free, rare)
     wide = _areas(_shapes(free, 4))
-    less = np.maximum(got - wide, 0.0) / np.maximum(got, 1e-300)
-    tally.add("Percept.outline_rectangle_any_angle_in_sole: not less", block, less, 1e-12)
+    less = np.maximum(got - wide * (1.0 + gap), 0.0) / np.maximum(got, 1e-300)
+    tally.add("Percept.outline_rectangle_any_angle_in_sole: not less than its stated gap allows", block, less, 1e-12)
     hull = _areas(_shapes([p.inscribed_rectangle_any_angle_in_sole for p in percepts], 4))
     over = np.maximum(wide - hull, 0.0) / np.maximum(hull, 1e-300)
     tally.add("Percept.outline_rectangle_any_angle_in_sole: within the hull's", block, over, 1e-6)
