@@ -24,8 +24,12 @@ def test_a_level_foot_finds_the_rear_half_that_carries(robot: str) -> None:
 
 
 def test_a_foot_that_comes_as_it_does_stays_on_the_edge_that_it_met() -> None:
-    """Neither levelled nor told by its slope where the ground is, it takes the edge for the foothold."""
-    off = ("landing.levelling=0", "contact.level=0.5")
+    """Neither levelled nor told by its slope where the ground is, it takes the edge for the foothold.
+
+    Nor does it come slowly, from as high as over rough ground, or does the robot crouch or move its steps.
+    """
+    off = ("landing.levelling=0", "contact.level=0.5", "approach_height=0", "swing_height=1/12 leg", "crouch=0")
+    off += ("pfc=false", "step_adjustment=false")
     summary = run_scene(load_scene("partial-rear", ["footholds=force", *off]), 0)
     assert summary["fell"]
     assert summary["footholds"]["area_ratio_found"][2] < 0.5 * summary["footholds"]["area_ratio_true"][2]
