@@ -176,7 +176,15 @@ class Pebbles(Terrain):
 
 
 def drawn_slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
-    """Pitch and roll in rad of a slope of up to `largest` degrees in a random direction."""
+    """Pitch and roll of a slope in a random direction.
+
+    Args:
+        rng: The random numbers.
+        largest: Largest slope in degrees.
+
+    Returns:
+        Pitch and roll in rad.
+    """
     size, way = math.radians(largest) * float(rng.uniform()), float(rng.uniform(0.0, 2.0 * math.pi))
     return size * math.cos(way), size * math.sin(way)
 
@@ -195,7 +203,15 @@ def same_place(foot: Footprint, other: Footprint) -> bool:
 
 
 def overlapping(foot: Footprint, other: Footprint) -> bool:
-    """Whether the stones of two footprints of the same foot overlap, along the feet."""
+    """Whether the stones of two footprints of the same foot overlap, along the feet.
+
+    Args:
+        foot: One footprint.
+        other: The other one.
+
+    Returns:
+        True where they overlap.
+    """
     dx, dy = (other.center - foot.center).tolist()
     along = math.cos(foot.yaw) * dx + math.sin(foot.yaw) * dy
     return bool(abs(along) < (1.0 + _MARGIN) * (foot.half[0] + other.half[0]))
@@ -236,7 +252,22 @@ def stone_under(
     roll: float = 0.0,
     gap: float = _GAP,
 ) -> Solid:
-    """A box whose upper face carries a share of the footprint: all of it with a margin around, or a part."""
+    """A box whose upper face carries a share of the footprint: all of it with a margin around, or a part.
+
+    Args:
+        foot: The footprint.
+        feet: All footprints, beside which the box leaves room.
+        height: Height of the upper face in m.
+        depth: Depth of the box in m.
+        share: Share of the footprint that is carried.
+        part: Which part that is: "rear", "front", "inner" or "outer".
+        pitch: Slope of the upper face along the foot in rad.
+        roll: Slope across it in rad.
+        gap: Room between the boxes of both feet in m.
+
+    Returns:
+        The box.
+    """
     outward = 1.0 if foot.side == "left" else -1.0
     half_length, half_width = foot.half
     margin = _MARGIN * half_length
