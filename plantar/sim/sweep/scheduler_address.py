@@ -12,6 +12,7 @@ from plantar.errors import InputError
 __all__ = ["check_address", "network_note", "tls_files"]
 
 _ADDRESS = re.compile(r"(?:(?P<scheme>[a-z]+)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[A-Za-z0-9_.-]+):(?P<port>\d{1,5})/?")
+_THIS_PROCESS = re.compile(r"inproc://[0-9a-fA-F.:]+/\d+/\d+")  # as `LocalCluster(protocol="inproc://")` names itself
 _ALLOWED = "allowed: tcp://HOST:PORT, or tls://HOST:PORT with certificates"
 _FILES = {"ca_file": "CA_FILE", "client_cert": "CLIENT__CERT", "client_key": "CLIENT__KEY"}
 _VARIABLE = "DASK_DISTRIBUTED__COMM__TLS__"
@@ -21,7 +22,7 @@ def check_address(address: str) -> str:
     """The address of a scheduler as Dask takes it.
 
     Args:
-        address: "tcp://host:port", "tls://host:port" or "host:port".
+        address: "tcp://host:port", "tls://host:port", "host:port", or that of a cluster in this process.
 
     Returns:
         The address with its scheme.
@@ -36,7 +37,7 @@ def check_address(address: str) -> str:
         Traceback (most recent call last):
         plantar.errors.InputError: scheduler 'ucx://192.0.2.1:8786': allowed: tcp://HOST:PORT, or tls://HOST:PORT ...
     """
-    if address.startswith("inproc://"):  # a cluster in this process: no bytes leave it
+    if _THIS_PROCESS.fullmatch(address):  # a cluster in this process: no bytes leave it
         return address
     match = _ADDRESS.fullmatch(address)
     if match is None or match["scheme"] not in (None, "tcp", "tls") or not 0 < int(match["port"]) < 65536:
