@@ -231,7 +231,7 @@ def layer(rng):
         lambda x: within_support(double_support_vrp(x, goal, none, 0.2, 0.1, none, OMEGA), SOLE),
         places,
     )
-    fit = SwingFit(SwingFitRules(), np.zeros(3), PERIOD)
+    fit = SwingFit(SwingFitRules(), np.zeros(3), PERIOD, 0.05)
     goals = np.column_stack([places, np.zeros(COUNT)])
     yield "swing fit, goal and time new at each call (K 13-16)", lambda g: fit.aim(g, 0.3, 0.7 + g[0]), goals
     seen = np.zeros(3)

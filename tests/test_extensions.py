@@ -40,6 +40,24 @@ def hello(name: str = "you") -> None:
 COMMAND = Command(hello, "Greet.")
 """
 
+SWING = """
+from plantar.gait.feet.swing_flight import PolynomialSwing
+from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
+from plantar.settings.schema import number
+
+class HighSwing(SwingKind, table="high_swing", needs={"control.swing_shape": ("high",)}):
+    '''Lifts the foot higher than asked.
+
+    Attributes:
+        more: Height in m on top.
+    '''
+
+    more: float = number(0.01, "m", 0, 0.1)
+
+    def begin(self, start: SwingStart) -> Swing:
+        return PolynomialSwing().begin(start.changed(height=start.height + self.more))
+"""
+
 
 @pytest.fixture
 def plugin(tmp_path: Path) -> Path:
@@ -50,9 +68,11 @@ def plugin(tmp_path: Path) -> Path:
     (package / "__init__.py").write_text("")
     (package / "ditch.py").write_text(TERRAIN)
     (package / "hello.py").write_text(COMMAND)
+    (package / "high_swing.py").write_text(SWING)
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text(
         "[plantar.terrain]\nditch = mine.ditch:Ditch\n[plantar.commands]\nhello = mine.hello:COMMAND\n"
+        "[plantar.swings]\nhigh = mine.high_swing:HighSwing\n"
     )
     return tmp_path
 
@@ -89,6 +109,27 @@ def test_a_scene_stands_on_a_users_ground(plugin: Path) -> None:
     )
     assert done.returncode == 0, done.stderr
     assert "ditch" in done.stdout.lower()
+
+
+def test_a_robot_swings_its_foot_as_a_users_package_does(plugin: Path) -> None:
+    pytest.importorskip("mujoco")
+    code = (
+        "import plantar, numpy as np; from plantar.gait.feet.swing_kind import SwingStart; "
+        "walker = plantar.load_controller('h1', {'control': {'swing_shape': 'high'}, 'high_swing': {'more': 0.02}}); "
+        "kind = walker.controller.settings.swing; "
+        "swing = kind.begin(SwingStart(np.zeros(3), 0.0, np.array([0.2, 0, 0]), 0.0, 0.05, 0.8, 0.005, 0.1)); "
+        "print(type(kind).__name__, round(max(swing.at(0.01 * k)[0][2] for k in range(80)), 3))"
+    )
+    path = os.pathsep.join([str(plugin), str(ROOT)])
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["HighSwing", "0.07"]
+    refused = plantar(plugin, "sim", "flat", "--set", "high_swing.more=0.03")
+    assert refused.returncode == 2
+    assert "allowed: with control.swing_shape = 'high'" in refused.stderr
+    assert "high_swing.more" in plantar(plugin, "list", "settings", "high_swing").stdout
 
 
 def test_a_part_of_another_kind_is_named(plugin: Path) -> None:

@@ -56,7 +56,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     ),
     "plantar.gait": (
         *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command"),
-        *("safety", "controller_settings", "controller", "controller_tables"),
+        *("safety", "controller_settings", "tick", "controller", "controller_tables"),
     ),
     "plantar.gait.analysis": (
         *("measures", "options", "subject", "spread", "prints", "steps", "health", "body_weight", "activity"),

@@ -1,11 +1,10 @@
-"""What a walking controller goes by: the settings of all its rooms, in one value."""
+"""The settings of a walking controller's parts in one value."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import AnkleRules
 from plantar.gait.balance.dcm_balance import BalanceGains
+from plantar.gait.balance.wrench_balance import WrenchBalanceGains
 from plantar.gait.contact.ground_map import GroundMapSettings
 from plantar.gait.contact.stance_contact import ContactSettings
 from plantar.gait.estimate.ankle_sensor import AnkleSensor
@@ -24,7 +24,8 @@ from plantar.gait.estimate.wrench_filter import WrenchFilterRules
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.gait.feet.foot_motion import Landing
 from plantar.gait.feet.ground_conformity import ConformityGains
-from plantar.gait.feet.swing_fit import SwingFitRules
+from plantar.gait.feet.swing_flight import PolynomialSwing
+from plantar.gait.feet.swing_kind import SwingKind
 from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.double_support_timing import DoubleSupportTimingRules
 from plantar.gait.propose.dsp_opt import DspWeights
@@ -40,14 +41,14 @@ from plantar.sensing.net_wrench import NetWrenchRules
 from plantar.settings.schema import Settings, choice, number, share, switch
 from plantar.sides import Side
 
-if TYPE_CHECKING:
-    from plantar.gait.balance.wrench_balance import WrenchBalanceGains
-
 __all__ = ["ControllerSettings"]
 
 
 class ControllerSettings(Settings):
-    """Settings of a walk.
+    """Settings of a walk: its numbers, and the parts of the controller under the names of their tables.
+
+    A part that is None does not run. What a part's table is called, and which switches it needs, its class declares
+    (`plantar.settings.part.Part`); `plantar.gait.controller_tables` derives all lists from the types of these fields.
 
     Attributes:
         com_height: CoM height above the soles in m.
@@ -56,45 +57,22 @@ class ControllerSettings(Settings):
         period: Control period in s.
         timing: Durations of the phases.
         swing_height: Clearance of the swing foot in m.
-        swing_fit: What the swing foot's path is fitted to, with that height; None takes polynomials of the time.
+        swing: Kind of path of the swing foot.
         ankle_reach: How far in m from its frame's origin, which is below the ankle, along the sole, an ankle bears the
             robot; nothing farther off is loaded.
-        landing: How a foot lands.
-        compliance: Preemptive foot compliance; None lands blindly.
-        touchdown: Loads of a foot that lands with compliance.
-        ground_map: Map of the ground under it.
-        slope: Ground that slopes across a foot which lands with compliance.
-        feasibility: Rules of step feasibility, which need compliance; None steps on everything.
-        conformity: Gains of feet that take the ground's shape, which need compliance; None leaves soles as they land.
         trunk_lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet.
         lean_reach: Distance in m from which on the torso leans no further.
         alignment_time: Time constant in s with which the command frame follows the real footholds.
-        gains: Gains of the balance law; their class says which.
-        estimator: Estimator gains.
-        dcm_filter: How far the Kalman filter of CoM and DCM trusts what; None leaves them to the estimator's observer.
-        identification: What is identified of the robot's differences from its model; None believes the model.
-        contact: How contact polygons are found from the taxels.
-        foothold: When what is found moves the plan.
-        step_timing: When a single support ends sooner or later than planned; None keeps the plan's times.
-        step_adjustment: When a footstep moves for balance, in place of `step_timing`; None keeps the footsteps.
-        learned_stride: How strides learn from steps that go along with pushes; None forgets them.
-        step_region: Where a footstep may move to.
-        step_weights: What a change of a footstep is weighed by in K 31.
-        double_support_timing: When a double support ends sooner or later.
-        dsp_weights: What another length of it is weighed by in K 37.
-        ankle_strategy: Which part of the support polygon a changed footstep is planned with (K 27).
-        push: When the soles and the IMU tell of a push on the body; None expects none.
-        push_felt: Which taxels of the upper body feel a push; None goes by the soles alone.
-        push_expected: How a push is expected to go on.
+        balance: Gains of the balance law; their class decides which.
         feedback: False walks the plan in open loop, for comparison.
-        zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
+        zmp_source: What measures the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
         ankles: Force-torque sensor of each ankle, where the robot has them.
         ankle_limits: Strips (m, 4) of each sole in which the robot's weight may act on that foot alone without a joint
             of its ankle beyond its torque limit (`plantar.gait.contact.ankle_limits`); empty for joints without limits.
-        footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
-            "force" goes by the taxels' forces, "skin" by what they see before they touch, too.
-        skin: Skin on its upper body, whose readings are `Sensors.skin`: on the base, so that its taxels stand in the
-            base frame, and on links that `Sensors.links` has the poses of; None for a robot without.
+        footholds: What shows what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
+            "force" uses the taxels' forces, "skin" also what they see before they touch.
+        skin: Skin on its upper body, whose readings are `Sensors.skin`: on the base, in the base frame, and on links
+            whose poses `Sensors.links` has; None for a robot without.
     """
 
     com_height: float
@@ -103,7 +81,7 @@ class ControllerSettings(Settings):
     period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
     swing_height: float = share(1 / 12, "leg", 0.0, 1.0)
-    swing_fit: SwingFitRules | None = None
+    swing: SwingKind = field(default_factory=PolynomialSwing)
     ankle_reach: float = number(1.0, "m", 0.0, 1.0)
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
@@ -115,7 +93,7 @@ class ControllerSettings(Settings):
     trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
     lean_reach: float = share(53 / 600, "leg", 0.0, 1.0)
     alignment_time: float = share(1.21, "beat", 0.01, 100.0)
-    gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
+    balance: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     dcm_filter: DcmFilterRules | None = None
     identification: IdentificationRules | None = None
@@ -129,7 +107,7 @@ class ControllerSettings(Settings):
     double_support_timing: DoubleSupportTimingRules = field(default_factory=DoubleSupportTimingRules)
     dsp_weights: DspWeights = field(default_factory=DspWeights)
     ankle_strategy: AnkleRules = field(default_factory=AnkleRules)
-    push: PushRules | None = None
+    push_estimate: PushRules | None = None
     push_felt: NetWrenchRules | None = None
     push_expected: WrenchFilterRules = field(default_factory=WrenchFilterRules)
     feedback: bool = switch(True)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from plantar.errors import InputError
+from plantar.gait.feet.swing_kinds import swing_kinds
 from plantar.gait.plan.phases import Timing
 from plantar.gait.propose.velocity_command import STOP, VelocityTable, table_of
 from plantar.robots.robot import Robot
@@ -167,7 +168,7 @@ class Control(Settings):
         dcm_estimate: What estimates the CoM's velocity, and so the DCM: "observer", or "kalman", a Kalman filter that
             takes what neither ZMP nor push explain for a push that nothing measures.
         swing_shape: Path of the swing foot: "polynomial" changes only with the plan; "fit" is fitted at every tick to
-            where and when the foot should land.
+            where and when the foot should land; other packages may bring more ("plantar.swings").
         period: Control period in s.
         physics_period: Time step of the simulated physics in s; a contact takes five of them.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
@@ -185,7 +186,7 @@ class Control(Settings):
     learn_strides: bool = switch(False)
     push_estimate: str = choice("skin", "soles", "off")
     dcm_estimate: str = choice("observer", "kalman")
-    swing_shape: str = choice("polynomial", "fit")
+    swing_shape: str = choice(*swing_kinds())
     period: float = number(0.005, "s", 0.0005, 0.05)
     physics_period: float = number(0.001, "s", 0.0001, 0.002)
     skip: str = choice("auto", "none")

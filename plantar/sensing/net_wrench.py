@@ -18,12 +18,13 @@ from plantar.arrays import array
 from plantar.errors import ReadingError
 from plantar.sensing.body_skin import active_cells, pseudo_force
 from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
-from plantar.settings.schema import Settings, number, share
+from plantar.settings.part import Part
+from plantar.settings.schema import number, share
 
 __all__ = ["NetWrench", "NetWrenchRules", "net_wrench"]
 
 
-class NetWrenchRules(Settings):
+class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("skin",)}):
     """What counts as a push, beside each patch's own threshold of force.
 
     Attributes:

@@ -32,17 +32,17 @@ def rolled(angle: float) -> np.ndarray:
 def test_the_trunk_leans_over_the_foot_that_the_com_moves_to(
     controller: WalkingController, yaw: float, aside: float
 ) -> None:
-    places = [controller.motion.footholds[side][0][:2] for side in ("left", "right")]
+    places = [controller.footing.motion.footholds[side][0][:2] for side in ("left", "right")]
     left = level_rotation(yaw)[:, 1]
     com = np.array([*np.mean(places, axis=0), 0.8]) + aside * left
-    controller._least_lean = 2.0
-    torso = controller._posture(com, yaw)
+    controller.body_targets.least_lean = 2.0
+    torso = controller.body_targets.posture(com, yaw)
     assert torso @ torso.T == pytest.approx(np.eye(3), abs=1e-12)
     assert np.linalg.det(torso) == pytest.approx(1.0)
     assert torso[:, 0] == pytest.approx(level_rotation(yaw)[:, 0], abs=1e-12)  # along the feet
     reach = min(abs(aside), controller.settings.lean_reach)
     assert torso[:, 2] @ left == pytest.approx(math.copysign(math.sin(2.0 * reach), aside), abs=1e-9)
-    upright = controller._posture(com - aside * left, yaw)
+    upright = controller.body_targets.posture(com - aside * left, yaw)
     assert upright[:, 2] == pytest.approx([0.0, 0.0, 1.0], abs=1e-12)
 
 
@@ -52,7 +52,7 @@ def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(
 ) -> None:
     """What is commanded, seen from the body and turned by its lean, is the place that was wanted."""
     side = "left"
-    controller.motion = SimpleNamespace(last_side=side)  # type: ignore[assignment]
+    controller.footing.motion = SimpleNamespace(last_side=side)  # type: ignore[assignment]
     place, com = np.array([0.1, 0.085, 0.03]), np.array([0.02, -0.05, 0.8])
     state: Any = BaseState(
         rotation_base_to_world=rolled(lean),
@@ -67,7 +67,7 @@ def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(
     phase: Any = next(p for p in controller.schedule.phases if p.swing == side)
     for _ in range(400):
         feet = {side: FootTarget(place, np.eye(3), np.zeros(3), np.zeros(2))}
-        controller._compensate(feet, phase, com, 0.0, np.eye(3), state)  # type: ignore[arg-type]
+        controller.foot_targets.compensate(feet, phase, com, 0.0, np.eye(3), state)  # type: ignore[arg-type]
     target = feet[side]
     executed = state.com + rolled(lean) @ (target.position - com)
     assert executed == pytest.approx(place, abs=2e-3)
@@ -79,7 +79,7 @@ def test_a_swing_foot_of_a_body_that_leans_comes_to_its_place_in_the_world(
 def first_tick(robot: str = "h1", settings: tuple[str, ...] = (), body: Any = None) -> tuple[Simulation, Command]:
     """A robot that stands, and the first command that it is given."""
     run = Simulation(load_scene("flat", ["steps=2", *settings], robot))
-    run.controller.body = body
+    run.controller.estimation.body = body
     for _ in range(20):
         run.step_physics()
     run.sensors.read_skins()
@@ -125,6 +125,6 @@ def test_where_the_feet_level_themselves_each_tick_teaches_the_slope(controller:
     state: Any = SimpleNamespace(rotations_sole={"left": np.eye(3)}, loads={"left": 400.0, "right": 400.0})
     phases = controller.schedule.phases
     for phase in (phases[0], next(p for p in phases if p.swing)):
-        controller._level(slope, phase, state)
+        controller.footing._level(slope, phase, state)
     assert [given[2] for given in seen] == [True, False]
     assert all(given[:2] == (state.rotations_sole, state.loads) for given in seen)

@@ -69,18 +69,11 @@ def test_a_controller_needs_a_height_and_a_mass(name: str, value: float) -> None
 
 
 @pytest.mark.parametrize(
-    ("table", "old", "new"),
-    [
-        ("compliance", "haste", "compliance.late_speed_ratio"),
-        ("compliance", "pliancy", "touchdown.admittance"),
-        ("compliance", "readings", "ground_map.readings"),
-        ("compliance", "ankle_reach", "slope.ankle_reach"),
-        ("contact", "least_move", "foothold.least_move"),
-        ("ground_map", "sensing_range", "sensing.proximity_range"),
-    ],
+    ("table", "name"), [(table, name) for table, (kind, *_) in CONTROLLER_TABLES.items() for name in kind.given_by]
 )
-def test_a_setting_that_has_moved_is_told_with_its_place(table: str, old: str, new: str) -> None:
-    with pytest.raises(InputError, match=f"'{old}' is given by '{new}'"):
-        check_controller_table(table, {old: 1.0}, f"[{table}]")
-    place, _, name = new.partition(".")
-    assert name in (*controller_keys(place), "proximity_range") if place in CONTROLLER_TABLES else place == "sensing"
+def test_a_setting_that_a_scene_gives_elsewhere_is_refused_with_its_name_there(table: str, name: str) -> None:
+    kind = CONTROLLER_TABLES[table][0]
+    assert name in kind.names()
+    assert name not in controller_keys(table)
+    with pytest.raises(InputError, match=f"'{name}' is given by '{kind.given_by[name]}'"):
+        check_controller_table(table, {name: 1.0}, f"[{table}]")

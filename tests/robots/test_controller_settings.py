@@ -19,7 +19,7 @@ ALL_ON = ["pfc=true", "control.feasibility=skin", "conform=true", "footholds=ski
 ALL_ON += ["control.step_adjustment=true", "control.learn_strides=true", "control.push_estimate=skin"]
 ALL_ON += ["control.dcm_estimate=kalman", "control.swing_shape=fit"]
 ALL_ON += ["step_adjustment.method=ssp_opt", "step_adjustment.double_support=true"]
-PART_OF = {"balance": "gains", "push_estimate": "push"}
+PART_OF = {"swing_fit": "swing"}
 
 
 def value_of(settings: object, table: str, name: str) -> object:
@@ -50,7 +50,7 @@ def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default() -> Non
     robot = replace(load_robot("h1"), controller={"estimator": {"gravity": 0.3, "observer": 15.0}})
     made = controller_settings(load_scene("flat", ["estimator.gravity=0.4"]), robot, REFERENCE_BODY, {})
     assert (made.estimator.gravity, made.estimator.observer, made.estimator.tare) == (0.4, 15.0, EstimatorGains().tare)
-    assert controller_settings(load_scene("flat", ["dcm_gain=2"]), robot, REFERENCE_BODY, {}).gains.dcm_gain == 2.0
+    assert controller_settings(load_scene("flat", ["dcm_gain=2"]), robot, REFERENCE_BODY, {}).balance.dcm_gain == 2.0
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,7 @@ def test_heading_does_not_drift_in_a_long_walk() -> None:
 
 def test_where_there_is_no_way_the_robot_stops() -> None:
     simulation = Simulation(load_scene("feasibility-3", ["settle=0.5"]), 0)
-    guard = simulation.controller.guard
+    guard = simulation.controller.footing.guard
     assert guard is not None
     guard.rules = replace(guard.rules, attempts=0)
     summary = simulation.run()

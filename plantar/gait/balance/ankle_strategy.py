@@ -22,7 +22,7 @@ from plantar.arguments import number
 from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.geometry.polygon import closest_point
-from plantar.settings.schema import Settings
+from plantar.settings.part import Part
 from plantar.settings.schema import number as number_setting
 
 __all__ = [
@@ -55,7 +55,7 @@ product of a few such numbers overflows."""
 _NODES, _WEIGHTS = (x.tolist() for x in np.polynomial.legendre.leggauss(10))
 
 
-class AnkleRules(Settings):
+class AnkleRules(Part, table="ankle_strategy", needs={"control.step_adjustment": (True,)}):
     """How much of the support polygon the ankle strategy uses before a step is changed (K 27).
 
     Attributes:

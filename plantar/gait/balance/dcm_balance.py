@@ -14,7 +14,8 @@ from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
 from plantar.gait.balance.load_transfer import transferred
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.dcm_feedback import DcmFeedback
-from plantar.settings.schema import Settings, share
+from plantar.settings.part import Part
+from plantar.settings.schema import share
 from plantar.sides import Side
 
 __all__ = ["BalanceGains", "DcmBalance"]
@@ -23,7 +24,7 @@ _ZMP_SHARE = 0.3  # of the ZMP's error, which feet that stand give way to; all o
 _NO_INTEGRAL = (0.0, 0.0, 0.0)
 
 
-class BalanceGains(Settings):
+class BalanceGains(Part, table="balance"):
     """Gains of the DCM feedback with CoM admittance.
 
     Attributes:

@@ -28,7 +28,8 @@ from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.settings.schema import Setting, Settings, number, share
+from plantar.settings.part import Part
+from plantar.settings.schema import Setting, number, share
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
 __all__ = ["WrenchBalance", "WrenchBalanceGains"]
@@ -37,7 +38,7 @@ _NO_WRENCH = np.zeros(6)
 _LENGTH = 1 / 6  # leg: lever that makes moments as large as forces in the distribution; 0.1 m for a leg of 0.6 m
 
 
-class WrenchBalanceGains(Settings):
+class WrenchBalanceGains(Part, table="balance"):
     """Gains of the law.
 
     Attributes:

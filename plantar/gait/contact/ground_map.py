@@ -20,7 +20,8 @@ from plantar.layouts.layout import SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
-from plantar.settings.schema import Settings, choice, number, share, whole
+from plantar.settings.part import Part
+from plantar.settings.schema import choice, number, share, whole
 
 __all__ = ["GroundMap", "GroundMapSettings", "GroundView"]
 
@@ -36,7 +37,9 @@ _LEAST_BIAS = 0.75  # standard deviations of a taxel's distance that noise canno
 _REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
 
 
-class GroundMapSettings(Settings):
+class GroundMapSettings(
+    Part, table="ground_map", needs={"control.pfc": (True,)}, given_by={"sensing_range": "sensing.proximity_range"}
+):
     """How the map of the ground under a swing foot is kept, and read as a plane.
 
     Attributes:

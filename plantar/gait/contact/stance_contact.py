@@ -19,7 +19,8 @@ from plantar.layouts.layout import SoleLayout
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.proximity import cells_polygon
 from plantar.sensing.reading import Reading
-from plantar.settings.schema import Settings, number, share, switch, whole
+from plantar.settings.part import Part
+from plantar.settings.schema import number, share, switch, whole
 
 __all__ = ["ContactSettings", "StanceContact"]
 
@@ -28,7 +29,7 @@ _IN_SIGHT = 1.5  # times a step down, below the range's end, from where a sole's
 _BESIDE = 0.3  # of a taxel's size from where the load is, towards the side that rises: what still lies under it
 
 
-class ContactSettings(Settings):
+class ContactSettings(Part, table="contact", needs={"control.footholds": ("force", "skin")}):
     """How the contact polygon of a foot is found from the taxels.
 
     Attributes:

@@ -21,12 +21,13 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import number
 from plantar.arrays import array
 from plantar.errors import InputError
-from plantar.settings.schema import Settings, share
+from plantar.settings.part import Part
+from plantar.settings.schema import share
 
 __all__ = ["DcmFilter", "DcmFilterRules", "PushedPendulum"]
 
 
-class DcmFilterRules(Settings):
+class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("kalman",)}):
     """How far each source is trusted: standard deviations at one tick.
 
     Attributes:

@@ -34,7 +34,8 @@ from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
 from plantar.record import Record
-from plantar.settings.schema import Settings, share
+from plantar.settings.part import Part
+from plantar.settings.schema import share
 from plantar.sides import SIDES
 
 __all__ = [
@@ -107,7 +108,7 @@ _SAME_HEIGHT = 1 / 200  # leg, between two footholds of one height as they are e
 _ANCHOR = 0.5  # 1/beat, at which the base is drawn back to the height of its feet
 
 
-class EstimatorGains(Settings):
+class EstimatorGains(Part, table="estimator"):
     """Gains of the estimator.
 
     Attributes:

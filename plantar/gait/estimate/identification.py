@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from plantar.settings.schema import Settings, number, share, switch
+from plantar.settings.part import Part
+from plantar.settings.schema import number, share, switch
 
 __all__ = ["IdentificationRules"]
 
 
-class IdentificationRules(Settings):
+class IdentificationRules(Part, table="identification", needs={"control.identify": (True,)}):
     """What is identified while the robot stands and walks, and how fast.
 
     Attributes:

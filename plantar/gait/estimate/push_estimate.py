@@ -15,12 +15,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.settings.schema import Settings, share
+from plantar.settings.part import Part
+from plantar.settings.schema import share
 
 __all__ = ["PushEstimate", "PushRules"]
 
 
-class PushRules(Settings):
+class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("soles", "skin")}):
     """When a disagreement of ZMP and acceleration is a push.
 
     Attributes:

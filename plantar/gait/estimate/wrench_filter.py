@@ -18,7 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import number
 from plantar.arrays import array
 from plantar.errors import InputError
-from plantar.settings.schema import Settings, share
+from plantar.settings.part import Part
+from plantar.settings.schema import share
 
 __all__ = ["WrenchFilter", "WrenchFilterRules"]
 
@@ -27,7 +28,7 @@ MOST_OFFSET = 10.0
 product of it with what a pendulum grows by overflows."""
 
 
-class WrenchFilterRules(Settings):
+class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estimate": ("soles", "skin")}):
     """How a push is expected to go on.
 
     Attributes:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from plantar.settings.schema import Settings, number, share
+from plantar.settings.part import Part
+from plantar.settings.schema import number, share
 
 __all__ = ["ComplianceGains", "TouchdownGains"]
 
 
-class ComplianceGains(Settings):
+class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     """How a swing foot comes down on the ground that its taxels see.
 
     Attributes:
@@ -44,7 +45,7 @@ class ComplianceGains(Settings):
     turn_rate: float = share(0.371, "rad/beat", 0.01, 20)
 
 
-class TouchdownGains(Settings):
+class TouchdownGains(Part, table="touchdown", needs={"control.pfc": (True,)}):
     """From which load a foot counts as down, and which load it carries until weight is put on it.
 
     Attributes:

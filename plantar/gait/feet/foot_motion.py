@@ -4,27 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.contact.ground_map import GroundView
 from plantar.gait.estimate.command_frame import CommandFrame
-from plantar.gait.feet.swing import SwingTrajectory
 from plantar.gait.feet.swing_compliance import SwingCompliance, turned_to_ground
-from plantar.gait.feet.swing_fit import SwingFit, SwingFitRules
-from plantar.gait.feet.swing_flight import LEAST_TIME, SwingFlight
+from plantar.gait.feet.swing_flight import PolynomialSwing
+from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
 from plantar.kernels.base.vectors import close, vector, vector2
-from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
 from plantar.record import Record
-from plantar.settings.schema import Settings, number, share, switch
+from plantar.settings.part import Part
+from plantar.settings.schema import number, share, switch
 from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["FootMotion", "Landing", "SoleSense"]
@@ -39,7 +37,7 @@ _ELSEWHERE = 1 / 150  # between ground and where it was expected from which the 
 _SAME_PLACE = 1 / 6000  # between two places that are one
 _AT_THE_GROUND = 1 / 300  # from it within which the least load is
 
-
+_LEAST_TIME = 0.404  # beats before touchdown from which a foot would have to be thrown to reach another place
 _WARY = 6  # steps after ground that was elsewhere in which a swing comes down slowly
 
 
@@ -51,7 +49,7 @@ class SoleSense(Record, frozen=True):
     rotation: NDArray[np.float64]
 
 
-class Landing(Settings):
+class Landing(Part, table="landing", given_by={n: f"walk.{n}" for n in ("approach_height", "approach_speed")}):
     """How a foot lands.
 
     Attributes:
@@ -104,8 +102,7 @@ class FootMotion:
         swing_height: Clearance of the swing foot in m.
         landing: How a foot lands.
         compliance: Preemptive compliance of each foot; None lands blindly.
-        fit: What a swing is fitted to, anew at every tick; its height is the clearance. None takes polynomials that
-            change only with the plan.
+        swing: Kind of swing; None takes polynomials of the time.
     """
 
     def __init__(
@@ -115,7 +112,7 @@ class FootMotion:
         swing_height: float,
         landing: Landing,
         compliance: Mapping[Side, SwingCompliance] | None = None,
-        fit: SwingFitRules | None = None,
+        swing: SwingKind | None = None,
     ) -> None:
         self.footholds: dict[Side, tuple[NDArray[np.float64], float]] = {
             s: (feet[s].position.copy(), feet[s].yaw) for s in SIDES
@@ -127,14 +124,12 @@ class FootMotion:
         self._landing = landing
         self._leg = landing.body.leg
         self._compliance = compliance
-        self._fit_rules = fit
-        self._fit: SwingFit | None = None
-        self._falls = 0.0
+        self._kind = PolynomialSwing() if swing is None else swing
         self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in SIDES}
         self._rotations: dict[Side, tuple[float, NDArray[np.float64], NDArray[np.float64]]] = {}
         self._lifted_tilt = np.zeros(3)
         self._expected = float(np.mean([feet[s].z for s in SIDES]))
-        self._swing: SwingFlight | None = None
+        self._swing: Swing | None = None
         self._side: Side = "left"
         self._target: Footstep | None = None
         self._start = 0.0
@@ -285,32 +280,10 @@ class FootMotion:
             if self.comes_down and load > self._landing.contact_force:
                 self.landed = True
             if not self.landed:
-                self.footholds[self._side] = self._reference(self._swing, time - self._start)
+                self.footholds[self._side] = self._swing.at(time - self._start)
                 return
         self.landed = True  # it touched, or the plan puts weight on it now
         self._press(self._side, load)
-
-    def _reference(self, swing: SwingFlight, elapsed: float) -> tuple[NDArray[np.float64], float]:
-        """Where the swing foot shall be (3,) in m, and its heading in rad, some time in s after lift-off; asked for
-        once a tick, since a fitted path goes on from where it was at the tick before."""
-        if self._fit is None:
-            return swing.at(elapsed)
-        path = swing.path
-        # A swing with a slow approach is above its place before that; from there on it goes down as it would anyhow.
-        approaches = path.approach_height > 0.0
-        share = path.arrived / path.duration if approaches else 1.0
-        point = self._fit.aim(swing.end, elapsed, share * swing.duration)
-        position, self._falls = point.position, -point.velocity.item(2)
-        planned, yaw = swing.at(elapsed)
-        if approaches:
-            position[2] = planned.item(2)
-        return position, yaw
-
-    def _falling(self, swing: SwingFlight, elapsed: float, height: float) -> float:
-        """Speed downwards in m/s that the swing's plan asks for, at some time in s after lift-off at a height in m."""
-        if self._fit is not None and swing.path.approach_height == 0.0:
-            return self._falls
-        return (height - swing.at(elapsed + self._period)[0].item(2)) / self._period
 
     def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame) -> None:
         """Follow a plan that has changed while the foot swings: it goes elsewhere, or is there at another time.
@@ -338,8 +311,7 @@ class FootMotion:
         self._target = target
         place = frame.to_command(target.position[:2]) if moves else self._swing.end[:2]
         yaw = target.yaw - frame.turn if moves else self._swing.yaw_end
-        least = LEAST_TIME * self._landing.body.beat
-        self._swing = self._swing.aimed(time - self._start, place, yaw, phase.touchdown - self._start, least)
+        self._swing = self._swing.aimed(time - self._start, place, yaw, phase.touchdown - self._start)
 
     def _begin(self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame) -> None:
         """Begin the swing of a step, from and until some times in s."""
@@ -350,21 +322,20 @@ class FootMotion:
             self._expected += self._landing.ground_share * (landed - self._expected)
         position, yaw = self.footholds[side]
         place = np.array([*frame.to_command(target.position[:2]), self._expected - self._landing.depth])
-        path = SwingTrajectory(
-            position.copy(),
-            place,
-            yaw,
-            target.yaw - frame.turn,
-            self._height,
-            times[1] - times[0],
+        start = SwingStart(
+            position=position.copy(),
+            yaw=yaw,
+            end=place,
+            yaw_end=target.yaw - frame.turn,
+            height=self._height,
+            duration=times[1] - times[0],
+            period=self._period,
+            least_time=_LEAST_TIME * self._landing.body.beat,
             approach_height=self._landing.approach_height if self._wary > 0 else 0.0,
             approach_speed=self._landing.approach_speed,
             rises_first=side in self._rises_first,
         )
-        self._swing = SwingFlight.on(path)
-        # What stands beside the foot is no condition that a path is fitted to.
-        rules = None if path.rises_first else self._fit_rules
-        self._fit = None if rules is None else SwingFit(replace(rules, height=self._height), position, self._period)
+        self._swing = self._kind.begin(start)
         self._rises_first.discard(side)
         self._wary -= 1
         self._step, self._side, self._target = index, side, target
@@ -416,14 +387,13 @@ class FootMotion:
                 self._distance = compliance.ground.distance
                 self._distance.flags.writeable = False
         if not self.landed:
-            progress, lifted = swing.progress(elapsed), swing.path.lifted
-            planned, heading = self._reference(swing, elapsed)
-            if progress < lifted:
+            risen = swing.risen(elapsed)
+            planned, heading = swing.at(elapsed)
+            if risen < 1.0:
                 self.footholds[side] = (planned, heading)
-                share = 1.0 - minimum_jerk(progress / lifted)[0]
-                self._tilts[side] = rotation_from_vector(share * self._lifted_tilt)
+                self._tilts[side] = rotation_from_vector((1.0 - risen) * self._lifted_tilt)
                 return
-            falling = self._falling(swing, elapsed, planned.item(2))
+            falling = swing.falling(elapsed, planned.item(2))
             time_left = (phase.end if phase.swing is not None else phase.start) - time
             if time_left <= 0.0:
                 falling = self._landing.speed

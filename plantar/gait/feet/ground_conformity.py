@@ -28,7 +28,8 @@ from plantar.gait.plan.phases import Phase
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
-from plantar.settings.schema import Settings, number, share, whole
+from plantar.settings.part import Part
+from plantar.settings.schema import number, share, whole
 from plantar.sides import SIDES, Side
 
 __all__ = ["ConformityGains", "FootTurn", "GroundConformity", "SoleTurn"]
@@ -36,7 +37,7 @@ __all__ = ["ConformityGains", "FootTurn", "GroundConformity", "SoleTurn"]
 _ORIGIN = np.zeros(2)
 
 
-class ConformityGains(Settings):
+class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "control.conform": (True,)}):
     """Gains of feet that take the ground's shape.
 
     Attributes:

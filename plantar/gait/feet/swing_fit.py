@@ -16,22 +16,26 @@ it rises, and from some moment on it falls (K 2.4, monotonicity).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number as checked_number
 from plantar.arrays import array
 from plantar.errors import InputError
+from plantar.gait.feet.swing_flight import PolynomialSwing, SwingFlight
+from plantar.gait.feet.swing_kind import Swing, SwingKind, SwingStart
 from plantar.kernels.gait.swing_fit import fit
 from plantar.record import Record
-from plantar.settings.schema import Settings, number, share, whole
+from plantar.settings.schema import number, whole
 
 __all__ = ["SwingFit", "SwingFitRules", "SwingPoint"]
 
 _LEAST_SHARE = 1e-6  # of a swing: what is left of it at least, for a duration that has passed
 
 
-class SwingFitRules(Settings):
+class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": ("fit",)}):
     """What the path of a swing foot is fitted to (K Table 1).
 
     Attributes:
@@ -41,7 +45,6 @@ class SwingFitRules(Settings):
         position: sigma_pos: weight of conditions on the position; those on velocity and acceleration weigh as much
             times the control period, counted in swings, and its square.
         observation: sigma_obs: weight of what is measured of the foot.
-        height: Delta z: how high in m the foot is lifted.
         height_share: gamma: share of the swing after which, and before whose end, it is that high.
     """
 
@@ -49,8 +52,14 @@ class SwingFitRules(Settings):
     damping: float = number(1e-6, "1", 1e-9, 1e3)
     position: float = number(1.0, "1", 1e-9, 1e3)
     observation: float = number(1e-4, "1", 0, 1e3)
-    height: float = share(0.0833, "leg", 0, 0.5)
     height_share: float = number(1.0 / 3.0, "1", 0.01, 0.5)
+
+    def begin(self, start: SwingStart) -> Swing:
+        """The fitted swing; one that rises first is no condition that a path is fitted to, and takes polynomials."""
+        flight = PolynomialSwing().begin(start)
+        if start.rises_first:
+            return flight
+        return _FittedSwing(flight, SwingFit(self, start.position, start.period, start.height))
 
 
 class SwingPoint(Record, frozen=True):
@@ -74,6 +83,7 @@ class SwingFit:
         rules: What it is fitted to.
         start: Position (3,) at lift-off in m.
         period: Control period in s.
+        height: Delta z: how high in m the foot is lifted.
 
     Raises:
         InputError: If the position is not three finite numbers, or the period not a finite number above 0.
@@ -81,18 +91,18 @@ class SwingFit:
     Example:
         A step of 0.2 m whose goal moves by 0.1 m to the side half-way:
 
-        >>> fit, path = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], 0.005), []
+        >>> fit, path = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], 0.005, 0.05), []
         >>> for k in range(1, 161):
         ...     path.append(fit.aim([0.2, 0.0 if k < 80 else 0.1, 0.0], 0.005 * k, 0.8).position)
         >>> path[-1].round(4).tolist(), round(float(np.max(path, axis=0)[2]), 3)
         ([0.2, 0.1, 0.0], 0.063)
     """
 
-    def __init__(self, rules: SwingFitRules, start: ArrayLike, period: float) -> None:
+    def __init__(self, rules: SwingFitRules, start: ArrayLike, period: float, height: float) -> None:
         self._period = checked_number(period, "control period", finite=True)
         if self._period <= 0.0:
             raise InputError(f"control period is {period} s; allowed: above 0")
-        self._rules = rules
+        self._rules, self._height = rules, height
         self._start: NDArray[np.float64] = array(start, "start of the swing", (3,), finite=True).copy()
         self._state = np.array([self._start, np.zeros(3), np.zeros(3)])  # of the tick before
         self._seen: tuple[NDArray[np.float64], float] | None = None
@@ -163,7 +173,7 @@ class SwingFit:
                 weights[3], earlier = rules.observation, max(self._seen[1], 0.0) / lasts
         conditions[:, 0] = weights
         same = (np.array((1.0, tick, tick * tick)) @ self._same).reshape(n - 1, n)
-        top, found = max(0.0, float(way[2])) + rules.height, np.empty((3, 3))
+        top, found = max(0.0, float(way[2])) + self._height, np.empty((3, 3))
         before = max(now - self._period, 0.0) / lasts
         fit(n, now / lasts, before, earlier, conditions, same, self._high, top, way, self._work, found)
         found /= units
@@ -181,6 +191,51 @@ class SwingFit:
                 kept = min(max(at, min(was, to)), max(was, to))
             if kept != at:
                 found[:, k] = kept, (kept - was) / self._period, 0.0
+
+
+@dataclass
+class _FittedSwing:
+    """A swing fitted at every tick to where and when it should land; heading and a slow approach are its flight's."""
+
+    flight: SwingFlight
+    fit: SwingFit
+    _falls: float = 0.0
+
+    @property
+    def end(self) -> NDArray[np.float64]:
+        return self.flight.end
+
+    @property
+    def yaw_end(self) -> float:
+        return self.flight.yaw_end
+
+    @property
+    def duration(self) -> float:
+        return self.flight.duration
+
+    def at(self, time: float) -> tuple[NDArray[np.float64], float]:
+        path, flight = self.flight.path, self.flight
+        # A swing with a slow approach is above its place before that, and goes down along its flight.
+        approaches = path.approach_height > 0.0
+        share = path.arrived / path.duration if approaches else 1.0
+        point = self.fit.aim(flight.end, time, share * flight.duration)
+        position, self._falls = point.position, -point.velocity.item(2)
+        planned, yaw = flight.at(time)
+        if approaches:
+            position[2] = planned.item(2)
+        return position, yaw
+
+    def falling(self, time: float, height: float) -> float:
+        return self._falls if self.flight.path.approach_height == 0.0 else self.flight.falling(time, height)
+
+    def risen(self, time: float) -> float:
+        return self.flight.risen(time)
+
+    def comes_down(self, time: float) -> bool:
+        return self.flight.comes_down(time)
+
+    def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> _FittedSwing:
+        return _FittedSwing(self.flight.aimed(time, place, yaw, duration), self.fit, self._falls)
 
 
 def _rows(s: float, order: int) -> tuple[list[float], list[float], list[float]]:

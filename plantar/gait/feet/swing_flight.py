@@ -14,13 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.feet.swing import SwingTrajectory
+from plantar.gait.feet.swing_kind import SwingKind, SwingStart
+from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.same_time import SAME_TIME
-from plantar.settings.body_scale import REFERENCE_BODY
 
-__all__ = ["LEAST_TIME", "SwingFlight"]
-
-LEAST_TIME = 0.404
-"""Beats before touchdown from which a flight is not aimed anew: the foot would have to be thrown."""
+__all__ = ["PolynomialSwing", "SwingFlight"]
 
 _RAMP = 0.2  # share of the time left in which the clock comes to its new rate
 _STEP = 1e-4  # s of the differences that velocity and acceleration are taken from
@@ -99,11 +97,13 @@ class SwingFlight:
         duration: Time in s from lift-off to the planned touchdown.
         end: Planned sole position (3,) at touchdown in m.
         yaw_end: Heading in rad at touchdown.
+        period: Control period in s.
+        least_time: Time in s to touchdown below which it is not aimed again.
 
     Example:
         >>> path = SwingTrajectory(np.zeros(3), np.array([0.2, 0.0, 0.0]), 0.0, 0.0, 0.05, 0.9)
-        >>> flight = SwingFlight.on(path).aimed(0.4, np.array([0.3, 0.05]), 0.0, 1.2)
-        >>> flight.at(1.2)[0].round(6).tolist()
+        >>> flight = SwingFlight(path, path.duration, path.end, 0.0, 0.005, 0.1)
+        >>> flight.aimed(0.4, np.array([0.3, 0.05]), 0.0, 1.2).at(1.2)[0].round(6).tolist()
         [0.3, 0.05, 0.0]
     """
 
@@ -111,17 +111,23 @@ class SwingFlight:
     duration: float
     end: NDArray[np.float64]
     yaw_end: float
+    period: float
+    least_time: float
     _clock: _Clock | None = None
     _course: _Course | None = None
-
-    @classmethod
-    def on(cls, path: SwingTrajectory) -> SwingFlight:
-        """A flight at its beginning."""
-        return cls(path, path.duration, path.end, path.yaw_end)
 
     def progress(self, time: float) -> float:
         """Time in s on the trajectory's own clock, at a time in s since lift-off."""
         return time if self._clock is None else self._clock.at(time)
+
+    def risen(self, time: float) -> float:
+        """Share 0..1 of the rise that is over."""
+        progress, lifted = self.progress(time), self.path.lifted
+        return minimum_jerk(progress / lifted)[0] if progress < lifted else 1.0
+
+    def falling(self, time: float, height: float) -> float:
+        """Returns the speed downwards in m/s at a time at which it is at a height in m."""
+        return (height - self.at(time + self.period)[0].item(2)) / self.period
 
     def comes_down(self, time: float) -> bool:
         """Whether more than half of the swing is over at a time in s since lift-off."""
@@ -135,28 +141,17 @@ class SwingFlight:
             position[:2] = x, y
         return position, yaw
 
-    def aimed(
-        self,
-        time: float,
-        place: NDArray[np.float64],
-        yaw: float,
-        duration: float,
-        least_time: float = LEAST_TIME * REFERENCE_BODY.beat,
-    ) -> SwingFlight:
-        """The flight with another end, from a moment on; the same where too little time is left.
+    def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> SwingFlight:
+        """Returns the flight with another end, from a moment on; the same where too little time is left.
 
         Args:
             time: That moment in s since lift-off.
             place: Sole position (2,) at touchdown in m.
             yaw: Heading at touchdown in rad.
             duration: Time in s from lift-off to touchdown.
-            least_time: Time in s to touchdown below which the flight is left alone (`LEAST_TIME` of the robot's beats).
-
-        Returns:
-            The flight.
         """
         old, new = self.duration - time, duration - time
-        if min(old, new) < least_time:
+        if min(old, new) < self.least_time:
             return self
         shown = self.progress(time)
         rate = (self.progress(time + _STEP) - shown) / _STEP
@@ -177,3 +172,22 @@ class SwingFlight:
         """Position and heading (3,) at a time in s since lift-off."""
         position, yaw = self.at(max(0.0, time))
         return np.array([position[0], position[1], yaw])
+
+
+class PolynomialSwing(SwingKind):
+    """Swings along polynomials of the time, which change only with the plan."""
+
+    def begin(self, start: SwingStart) -> SwingFlight:
+        """The flight at its beginning."""
+        path = SwingTrajectory(
+            start.position,
+            start.end,
+            start.yaw,
+            start.yaw_end,
+            start.height,
+            start.duration,
+            approach_height=start.approach_height,
+            approach_speed=start.approach_speed,
+            rises_first=start.rises_first,
+        )
+        return SwingFlight(path, path.duration, path.end, path.yaw_end, start.period, start.least_time)

@@ -14,12 +14,17 @@ from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.dsp_opt import DspProblem, DspWeights, solve_dsp
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
-from plantar.settings.schema import Settings, share
+from plantar.settings.part import Part
+from plantar.settings.schema import share
 
 __all__ = ["DoubleSupportTiming", "DoubleSupportTimingRules"]
 
 
-class DoubleSupportTimingRules(Settings):
+class DoubleSupportTimingRules(
+    Part,
+    table="double_support_timing",
+    needs={"control.step_adjustment": (True,), "step_adjustment.double_support": (True,)},
+):
     """When a double support ends sooner or later than planned.
 
     Attributes:

@@ -21,7 +21,8 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import MOST_GROWTH, SHORTEST_TIME, double_support_pull
-from plantar.settings.schema import Settings, number
+from plantar.settings.part import Part
+from plantar.settings.schema import number
 
 __all__ = ["DspProblem", "DspSolution", "DspWeights", "solve_dsp"]
 
@@ -31,7 +32,9 @@ _SMALL = 1e-3  # 1 - cos(w_d x) below which the closed form of the pull cancels 
 _TURNS = 100  # far more than any bracket takes, halved now and then, to come to its last bit
 
 
-class DspWeights(Settings):
+class DspWeights(
+    Part, table="dsp_weights", needs={"control.step_adjustment": (True,), "step_adjustment.double_support": (True,)}
+):
     """What a change of the double support is weighed by (K Table 1).
 
     Attributes:

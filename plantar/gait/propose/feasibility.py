@@ -21,12 +21,18 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.geometry.polygon import area
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.sensing.proximity import cells_polygon
-from plantar.settings.schema import Settings, choice, number, share, whole
+from plantar.settings.part import Part
+from plantar.settings.schema import choice, number, share, whole
 
 __all__ = ["FeasibilityRules", "Foothold", "FootholdProbe", "room_ahead", "way_around"]
 
 
-class FeasibilityRules(Settings):
+class FeasibilityRules(
+    Part,
+    table="feasibility",
+    needs={"control.pfc": (True,), "control.feasibility": ("skin", "force_torque")},
+    given_by={"rule": "control.feasibility"},
+):
     """Rules of step feasibility.
 
     Attributes:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from plantar.settings.schema import Settings, share
+from plantar.settings.part import Part
+from plantar.settings.schema import share
 
 __all__ = ["FootholdRules"]
 
 
-class FootholdRules(Settings):
+class FootholdRules(Part, table="foothold", needs={"control.footholds": ("force", "skin")}):
     """When a foothold that is not what was planned moves the plan, and how far.
 
     Attributes:

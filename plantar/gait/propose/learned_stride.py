@@ -17,13 +17,16 @@ from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
-from plantar.settings.schema import Settings, number, share
+from plantar.settings.part import Part
+from plantar.settings.schema import number, share
 from plantar.sides import Side
 
 __all__ = ["LearnedStride", "LearnedStrideRules"]
 
 
-class LearnedStrideRules(Settings):
+class LearnedStrideRules(
+    Part, table="learned_stride", needs={"control.step_adjustment": (True,), "control.learn_strides": (True,)}
+):
     """How fast strides learn.
 
     Attributes:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
-from plantar.settings.schema import Settings, number
+from plantar.settings.part import Part
+from plantar.settings.schema import number
 from plantar.sides import Side
 
 __all__ = ["SlopeInside", "SlopeRules", "inward_distance"]
@@ -30,7 +31,7 @@ def inward_distance(side: Side, outward_rise: float, ankle_reach: float, com_hei
     return com_height * excess * (-1.0 if side == "left" else 1.0) if excess > 0.0 else 0.0
 
 
-class SlopeRules(Settings):
+class SlopeRules(Part, table="slope", needs={"control.pfc": (True,)}):
     """What slope across a foot an ankle can follow.
 
     Attributes:

@@ -28,7 +28,8 @@ from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import MOST_GROWTH, sway_share
 from plantar.geometry.polygon import part_inside
-from plantar.settings.schema import Settings, number, share
+from plantar.settings.part import Part
+from plantar.settings.schema import number, share
 from plantar.sides import Side
 
 __all__ = [
@@ -42,7 +43,9 @@ __all__ = [
 ]
 
 
-class StepWeights(Settings):
+class StepWeights(
+    Part, table="step_weights", needs={"control.step_adjustment": (True,), "step_adjustment.method": ("ssp_opt",)}
+):
     """What a change of a footstep is weighed by (K Table 1).
 
     Attributes:
@@ -60,7 +63,7 @@ class StepWeights(Settings):
     time: float = number(1.0, "1", 1e-3, 1e6)
 
 
-class StepRegionRules(Settings):
+class StepRegionRules(Part, table="step_region", needs={"control.step_adjustment": (True,)}):
     """Where the swing foot may land beside the stance foot (K 32).
 
     The paper's numbers are for a leg of 0.6 m with 0.15 m between the legs: 0.2 m forward and backward, 0 to 0.12 m out

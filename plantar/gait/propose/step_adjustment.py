@@ -35,7 +35,8 @@ from plantar.gait.propose.proposer import Pendulum, Priority, Tick, nearest_plac
 from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
 from plantar.gait.propose.step_timing import StepTiming
 from plantar.geometry.polygon import convex_hull, signed_margin
-from plantar.settings.schema import Settings, choice, number, share, switch
+from plantar.settings.part import Part
+from plantar.settings.schema import choice, number, share, switch
 from plantar.sides import Side, other_side
 
 __all__ = ["StepAdjustment", "StepAdjustmentRules"]
@@ -44,7 +45,7 @@ _PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and 
 _COARSE, _FINE = 10, 4  # times that are tried first, and how often the best one's neighbourhood is halved
 
 
-class StepAdjustmentRules(Settings):
+class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_adjustment": (True,)}):
     """When a footstep moves for balance, and how far.
 
     Attributes:

@@ -20,12 +20,13 @@ import math
 
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick
-from plantar.settings.schema import Settings, number, share
+from plantar.settings.part import Part
+from plantar.settings.schema import number, share
 
 __all__ = ["StepTiming", "StepTimingRules"]
 
 
-class StepTimingRules(Settings):
+class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (True,)}):
     """When a single support ends sooner or later than planned.
 
     Attributes:

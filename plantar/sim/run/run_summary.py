@@ -197,8 +197,8 @@ def _of_parts(run: FinishedRun, landings: list[float], balance: dict[str, Any]) 
         found["balance"] = balance
     if run.controller.balance.states:
         found["wrench_distribution"] = dict(run.controller.balance.states)
-    if run.controller.guard is not None:
-        found |= run.controller.guard.summary()
+    if run.controller.footing.guard is not None:
+        found |= run.controller.footing.guard.summary()
     if run.touched is not None:
         start = 0.5 * sum(run.feet[side].x + run.centers[side][0] for side in SIDES)
         walked = float(run.world.data.subtree_com[run.world.torso, 0]) - start

@@ -35,7 +35,7 @@ def walked(
     """The first step over ground at a height; the foot feels a stiff spring. Times and commanded sole heights."""
     feet, steps = straight_plan(2)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
-    motion = FootMotion(feet, PERIOD, 0.05, LANDING, fit=fit)
+    motion = FootMotion(feet, PERIOD, 0.05, LANDING, swing=fit)
     frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
     track = []
     for k in range(round(until / PERIOD)):
@@ -69,7 +69,7 @@ def test_a_fitted_swing_gets_there_too_rising_once_and_falling_once() -> None:
 def test_a_fitted_swing_follows_a_plan_that_changes_without_a_jump() -> None:
     feet, steps = straight_plan(2)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
-    motion = FootMotion(feet, PERIOD, 0.05, LANDING, fit=SwingFitRules())
+    motion = FootMotion(feet, PERIOD, 0.05, LANDING, swing=SwingFitRules())
     frame, loads = CommandFrame(feet["left"].position, PERIOD, 0.3), {"left": 0.0, "right": 800.0}
     phase = schedule.phases[2]
     places = []

@@ -11,7 +11,7 @@ from msgspec.structs import astuple
 from plantar.errors import InputError
 from plantar.gait.feet.swing_fit import SwingFit, SwingFitRules
 
-PERIOD = 0.005
+PERIOD, HEIGHT = 0.005, 0.05
 
 
 def basis(s: float, order: int, derivative: int = 0) -> np.ndarray:
@@ -65,14 +65,14 @@ class Written:
 @pytest.mark.parametrize("rules", [SwingFitRules(), SwingFitRules(damping=0.01, order=7, observation=0.3)])
 def test_each_tick_is_the_best_polynomial_through_both_ends(rules: SwingFitRules) -> None:
     rng, start = np.random.default_rng(0), np.array([0.1, -0.2, 0.05])
-    fit, before, seen_before = SwingFit(rules, start, PERIOD), (start, np.zeros(3), np.zeros(3)), None
+    fit, before, seen_before = SwingFit(rules, start, PERIOD, HEIGHT), (start, np.zeros(3), np.zeros(3)), None
     for k in range(1, 40):
         lasts, end = 0.3 + 0.05 * math.sin(k), np.array([0.4, -0.3, 0.08]) + 0.02 * rng.normal(size=3)
         seen = before[0] + 0.003 * rng.normal(size=3)
         found = fit.aim(end, PERIOD * k, lasts, seen)
         n, tick, s = rules.order, PERIOD / lasts, PERIOD * (k - 1) / lasts
         for axis in range(3):
-            top = max(start[2], end[2]) + rules.height
+            top = max(start[2], end[2]) + HEIGHT
             problem = Written(rules, lasts, start[axis], end[axis], top if axis == 2 else None)
             for d in range(3):
                 problem.add(basis(s, n, d), before[d][axis] * lasts**d, rules.position * tick**d)
@@ -98,7 +98,7 @@ def test_each_tick_is_the_best_polynomial_through_both_ends(rules: SwingFitRules
 
 def path(goal_at, duration_at, rules=None) -> np.ndarray:
     """Positions (n, 3) of a swing whose goal and duration follow the time."""
-    fit, found = SwingFit(rules or SwingFitRules(), [0.0, 0.0, 0.0], PERIOD), []
+    fit, found = SwingFit(rules or SwingFitRules(), [0.0, 0.0, 0.0], PERIOD, HEIGHT), []
     for k in range(1, 1000):
         time = PERIOD * k
         found.append(fit.aim(goal_at(time), time, duration_at(time)).position.copy())
@@ -136,7 +136,7 @@ def test_height_rises_and_then_falls_and_nothing_turns_round() -> None:
 
 @pytest.mark.parametrize("lasts", [0.02, 0.5, 100.0])
 def test_any_duration_is_well_conditioned(lasts: float) -> None:
-    fit = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], PERIOD)
+    fit = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], PERIOD, HEIGHT)
     for share in (PERIOD / lasts, 0.5, 1.0 - 1e-9):
         found = fit.aim([0.3, 0.1, 0.0], share * lasts, lasts, [0.0, 0.0, 0.0])
         assert np.isfinite(np.concatenate(astuple(found))).all()
@@ -146,10 +146,10 @@ def test_any_duration_is_well_conditioned(lasts: float) -> None:
 
 
 def test_wrong_arguments_are_named() -> None:
-    fit = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], PERIOD)
+    fit = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], PERIOD, HEIGHT)
     with pytest.raises(InputError, match="goal of the swing"):
         fit.aim([0.0, math.nan, 0.0], 0.1, 0.5)
     with pytest.raises(InputError, match="duration of the swing"):
         fit.aim([0.0, 0.0, 0.0], 0.1, math.inf)
     with pytest.raises(InputError, match="control period is 0"):
-        SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], 0.0)
+        SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], 0.0, HEIGHT)

@@ -44,8 +44,8 @@ def test_an_honest_walk_has_no_reasons() -> None:
 
 def test_a_rule_that_can_never_hold_stops_the_robot_and_the_run_does_not_count() -> None:
     simulation = Simulation(load_scene("feasibility-1", ["settle=0.3"]))
-    assert simulation.controller.guard is not None
-    simulation.controller.guard.rules = replace(simulation.controller.guard.rules, area_ratio=1.5)
+    assert simulation.controller.footing.guard is not None
+    simulation.controller.footing.guard.rules = replace(simulation.controller.footing.guard.rules, area_ratio=1.5)
     summary = simulation.run()
     assert {"emergency_stop", "steps", "position"} <= criteria(summary)
     assert summary["emergency_stop"]
@@ -60,8 +60,8 @@ def test_a_rule_that_can_never_hold_stops_the_robot_and_the_run_does_not_count()
 @pytest.mark.long
 def test_a_block_under_the_last_but_one_step_without_attempts_does_not_count() -> None:
     simulation = Simulation(load_scene("feasibility-3", ["settle=0.3", "terrain.step=6"]))
-    assert simulation.controller.guard is not None
-    simulation.controller.guard.rules = replace(simulation.controller.guard.rules, attempts=0)
+    assert simulation.controller.footing.guard is not None
+    simulation.controller.footing.guard.rules = replace(simulation.controller.footing.guard.rules, attempts=0)
     summary = simulation.run()
     assert {"emergency_stop", "steps"} <= criteria(summary)
     assert summary["steps_taken"] == 7

@@ -45,7 +45,7 @@ def test_a_force_on_the_arm_counts_where_the_arm_is() -> None:
     taxel = skin.slices["left_lower_arm"].start + 11
     force = np.zeros(len(skin))
     force[taxel] = 12.0
-    felt = controller._felt(reading.changed(skin=SkinReading(0.0, force, np.full(len(skin), np.inf))))
+    felt = controller.estimation.push_on_skin(reading.changed(skin=SkinReading(0.0, force, np.full(len(skin), np.inf))))
     body = simulation.world.data.body(skin.links[skin.link_of[taxel]])
     turn = body.xmat.reshape(3, 3)
     push, place = 12.0 * turn @ skin.normals[taxel], body.xpos + turn @ skin.positions[taxel]

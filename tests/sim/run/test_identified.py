@@ -56,5 +56,5 @@ def test_encoder_offsets_put_the_feet_where_they_are() -> None:
 
 def test_nothing_is_identified_where_that_is_switched_off() -> None:
     simulation = Simulation(load_scene("flat", ["walk.steps=0", "control.identify=false"], "h1"), 0)
-    assert simulation.controller.body is None
+    assert simulation.controller.estimation.body is None
     assert "identified" not in simulation.run()

@@ -1,0 +1,23 @@
+"""The kinds of swing: those of this package, and entry points of other packages (`plantar.swings`)."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from plantar.extensions import extensions
+from plantar.gait.feet.swing_fit import SwingFitRules
+from plantar.gait.feet.swing_flight import PolynomialSwing
+from plantar.gait.feet.swing_kind import SwingKind
+
+__all__ = ["swing_kinds"]
+
+
+@cache
+def swing_kinds() -> dict[str, type[SwingKind]]:
+    """Kinds of swing by the name that `control.swing_shape` gives; the first is the default.
+
+    Example:
+        >>> list(swing_kinds())[:2]
+        ['polynomial', 'fit']
+    """
+    return {"polynomial": PolynomialSwing, "fit": SwingFitRules, **extensions("plantar.swings", SwingKind)}

@@ -1,0 +1,71 @@
+"""Where the body should be: height of the CoM, heading and lean of the torso."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.controller_settings import ControllerSettings
+from plantar.gait.estimate.com_height import CoMHeight
+from plantar.gait.plan.phases import Phase
+from plantar.gait.tick.footing import Footing
+from plantar.kernels.base.vectors import matrix, vector
+from plantar.sides import SIDES
+
+__all__ = ["BodyTargets"]
+
+_FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
+
+
+class BodyTargets:
+    """Targets of CoM and torso over the commanded feet, in their frame."""
+
+    def __init__(self, settings: ControllerSettings, footing: Footing) -> None:
+        self._settings, self._footing = settings, footing
+        adjustment = settings.step_adjustment
+        self.least_lean = max(settings.trunk_lean, 0.0 if adjustment is None else adjustment.lean)
+        ground = float(np.mean([footing.motion.footholds[side][0].item(2) for side in SIDES]))
+        self._ground = CoMHeight(ground, settings.period, _FOLLOWS_GROUND / settings.body.beat)
+
+    def at(
+        self, phase: Phase, com: NDArray[np.float64], lean: float
+    ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
+        """Returns CoM (3,) in m, heading in rad and rotation (3, 3) of the torso.
+
+        Args:
+            phase: Phase of the walk.
+            com: CoM (2,) in the world in m.
+            lean: Least lean in rad/m that the robot was found to need.
+        """
+        left, right = self._footing.motion.footholds["left"][1], self._footing.motion.footholds["right"][1]
+        x, y = self._footing.frame.to_command(com).tolist()
+        target = vector(x, y, self._com_height(phase))
+        torso = left + 0.5 * math.remainder(right - left, 2.0 * math.pi)
+        return target, torso, self.posture(target, torso, lean)
+
+    def posture(self, com: NDArray[np.float64], torso: float, lean: float = 0.0) -> NDArray[np.float64]:
+        """Returns the torso's rotation (3, 3): along the feet, leaning over the foot that `com` (3,) in m moves to.
+
+        A pelvis that stays level carries the body on the stance leg's hip roll joint at a lever of half its width; the
+        lean brings hip and CoM together, as people do whose hip abductors are weak.
+        """
+        reach, footholds = self._settings.lean_reach, self._footing.motion.footholds
+        (lx, ly, _), (rx, ry, _) = footholds["left"][0].tolist(), footholds["right"][0].tolist()
+        x, y, _ = com.tolist()
+        c, d = math.cos(torso), math.sin(torso)
+        dx, dy = x - 0.5 * (lx + rx), y - 0.5 * (ly + ry)
+        left = -d * dx + c * dy
+        roll = -max(self.least_lean, lean) * min(reach, max(-reach, left))
+        e, f = math.cos(roll), math.sin(roll)
+        return matrix(c, -d * e, d * f, d, c * e, -c * f, 0.0, f, e)
+
+    def _com_height(self, phase: Phase) -> float:
+        """Height in m: follows the stance foot, blends in double support, higher over a part of a sole that carries."""
+        footing, rise = self._footing, self._settings.partial_rise
+        heights = {side: footing.motion.footholds[side][0].item(2) for side in SIDES}
+        target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
+        if rise and any(footing.contacts.partial(side) for side in SIDES):
+            target += rise
+        return self._ground.update(target) + self._settings.com_height

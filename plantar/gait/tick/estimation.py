@@ -1,0 +1,159 @@
+"""Sense and estimate: from a tick's readings to the state of the body."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.command import Sensors
+from plantar.gait.controller_settings import ControllerSettings
+from plantar.gait.estimate.ankle_sensor import SoleWrench
+from plantar.gait.estimate.dcm_filter import DcmFilter
+from plantar.gait.estimate.estimator import FloatingBaseEstimator, LegKinematics, SoleLoad
+from plantar.gait.estimate.gyro_bias import GyroBias
+from plantar.gait.estimate.identified_body import IdentifiedBody
+from plantar.gait.estimate.push_estimate import PushEstimate
+from plantar.gait.estimate.skin_load import percept_to_its_limit
+from plantar.gait.estimate.steady_load import SteadyLoad
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.phases import Phase
+from plantar.kernels.base.vectors import vector2
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.base_state import BaseState
+from plantar.mechanics.external_wrench import external_acceleration
+from plantar.mechanics.lip import GRAVITY, pendulum_frequency
+from plantar.percepts.percept import Percept
+from plantar.record import Record
+from plantar.sensing.net_wrench import net_wrench
+from plantar.sides import SIDES, Side
+
+__all__ = ["Estimation", "Sensed"]
+
+
+class Sensed(Record, frozen=True):
+    """One reading, which all parts of a tick share."""
+
+    time: float
+    phase: Phase
+    percepts: Mapping[Side, Percept]
+    ankles: Mapping[Side, SoleWrench]
+    soles: Mapping[Side, SoleLoad]
+
+
+class Estimation:
+    """Follows the state of the body, and how the robot differs from its model.
+
+    Attributes:
+        omega: Frequency in rad/s of the pendulum.
+        body: What is identified of the robot's differences; None believes the model.
+        estimator: The estimator of the floating base.
+        stands: Whether it is still averaging the stand at the start, before any feedback.
+    """
+
+    def __init__(
+        self,
+        settings: ControllerSettings,
+        feet: Mapping[Side, Footstep],
+        layouts: Mapping[Side, SoleLayout],
+        kinematics: LegKinematics,
+    ) -> None:
+        self._settings, self._layouts, period = settings, layouts, settings.period
+        self.omega = pendulum_frequency(settings.com_height)
+        self.stands = True
+        self._ticks = 0
+        self._state: BaseState | None = None
+        self._rotations: Mapping[str, NDArray[np.float64]] = {s: feet[s].rotation_sole_to_world for s in SIDES}
+        places: Mapping[Side, tuple[float, float, float, float]] = {
+            s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in SIDES
+        }
+        self.body: IdentifiedBody | None = None
+        bias = steady = None
+        rules = settings.identification
+        if rules is not None:
+            self.body = IdentifiedBody(kinematics, settings.mass * GRAVITY, places, rules, period)
+            if rules.gyro:
+                bias = GyroBias(period, rules.gyro_time, rules.gyro_largest, rules.gyro_piece, rules.gyro_slip)
+                steady = SteadyLoad(period, rules.steady_share, rules.steady_time, rules.steady_band)
+        self.estimator = FloatingBaseEstimator(
+            kinematics if self.body is None else self.body,
+            self.omega,
+            period,
+            places,
+            settings.estimator,
+            bias,
+            steady,
+            None if settings.push_estimate is None else PushEstimate(settings.push_estimate, period),
+            None if settings.dcm_filter is None else DcmFilter(settings.dcm_filter, self.omega, period),
+        )
+
+    def summary(self) -> dict[str, object]:
+        """What was identified of the robot's differences from its model."""
+        bias = self.estimator.gyro_bias
+        found: dict[str, object] = {} if bias is None else {"gyro_bias_rad_s": bias.value.round(6).tolist()}
+        return found if self.body is None else {**found, **self.body.summary()}
+
+    def sense(self, sensors: Sensors, phase: Phase) -> Sensed:
+        """Returns what `sensors` of soles and ankles measure in a phase, each taxel's force clipped at its limit."""
+        readings, layouts = sensors.readings, self._layouts
+        percepts: dict[Side, Percept] = {
+            "left": percept_to_its_limit(readings["left"], layouts["left"]),
+            "right": percept_to_its_limit(readings["right"], layouts["right"]),
+        }
+        ankles: dict[Side, SoleWrench] = {}
+        if sensors.ankles:
+            for side, sensor in self._settings.ankles.items():
+                if side in sensors.ankles:
+                    ankles[side] = sensor.sole_wrench(sensors.ankles[side], self._rotations[side])
+        soles: Mapping[Side, SoleLoad] = ankles if self._settings.zmp_source == "force_torque" else percepts
+        return Sensed(sensors.time, phase, percepts, ankles, soles)
+
+    def update(self, sensors: Sensors, sensed: Sensed, acceleration: NDArray[np.float64]) -> BaseState:
+        """Returns the state of the body by `sensors` and `sensed`, and the CoM's planned acceleration (2,) in m/s^2."""
+        s, phase = self._settings, sensed.phase
+        self._ticks += 1
+        self.stands = self._ticks * s.period <= s.estimator.averaging
+        if self.body is not None:
+            self._identify(self.body, sensors, sensed)
+        # Of its usual length: a single support that is made longer holds a foot that has landed.
+        share = (sensors.time - phase.start) / s.timing.single_support if phase.swing is not None else 0.0
+        state = self.estimator.update(
+            sensors.joint_positions,
+            sensors.gyro,
+            sensors.accelerometer,
+            sensed.soles,
+            acceleration,
+            phase.swing if 0.2 < share < 0.5 and s.zmp_source == "skin" else None,  # in the air: it finds its zero
+            self.push_on_skin(sensors),
+        )
+        self._rotations = state.rotations_sole
+        self._state = state
+        return state
+
+    def dcm(self, state: BaseState) -> NDArray[np.float64]:
+        """DCM (2,) in m of a state (T 4.27)."""
+        (x, y, _), (vx, vy, _) = state.com.tolist(), state.com_velocity.tolist()
+        return vector2(x + vx / self.omega, y + vy / self.omega)
+
+    def _identify(self, body: IdentifiedBody, sensors: Sensors, sensed: Sensed) -> None:
+        """Identify in the opening stand how the robot differs from its model, and use it afterwards."""
+        if self.stands:
+            body.stand(sensors.joint_positions, sensors.accelerometer, sensed.soles)
+        elif body.known:
+            body.advance()
+        else:
+            body.conclude()
+            self.estimator.stand_again(sensors.joint_positions)
+
+    def push_on_skin(self, sensors: Sensors) -> NDArray[np.float64] | None:
+        """Acceleration (2,) of the CoM in m/s^2 by what skin on the upper body measures, or None."""
+        s, state = self._settings, self._state
+        if s.push_felt is None or s.skin is None or sensors.skin is None or state is None:
+            return None
+        # Where the body was a tick ago: it has moved by a millimetre since.
+        place, turn = state.position_base, state.rotation_base_to_world
+        poses = dict.fromkeys(s.skin.links, (place, turn))
+        poses |= {link: (place + turn @ at, turn @ rotation) for link, (at, rotation) in sensors.links.items()}
+        push = net_wrench(s.skin, sensors.skin, poses, state.com, s.push_felt)
+        return external_acceleration(push.wrench, s.mass, self.omega) if len(push.taxels) else None

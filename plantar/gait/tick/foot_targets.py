@@ -1,0 +1,140 @@
+"""Feet: what each should carry, and how it gives way, by the balance law."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.balance.law import Feet, FootAction, FootState
+from plantar.gait.command import FootTarget
+from plantar.gait.controller_settings import ControllerSettings
+from plantar.gait.estimate.estimator import SoleLoad
+from plantar.gait.plan.phases import Phase
+from plantar.gait.tick.footing import Footing
+from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.kernels.base.vectors import vector
+from plantar.kernels.gait import lean_correction
+from plantar.kernels.gait.sole_targets import risen, turned
+from plantar.mechanics.base_state import BaseState
+from plantar.mechanics.contact import Contact
+from plantar.mechanics.rotation import level_rotation
+from plantar.mechanics.wrench_cone import Rectangle
+from plantar.sides import SIDES, Side
+
+__all__ = ["FootTargets"]
+
+_CONTACT_OFFSET = 0.0433  # sole that a foot's centre of pressure keeps from the edge of its contact: 10 mm in T 4.4.4
+
+
+class FootTargets:
+    """Poses and loads of the soles, in the command frame."""
+
+    def __init__(self, settings: ControllerSettings, footing: Footing) -> None:
+        self._footing = footing
+        self._offset = _CONTACT_OFFSET * settings.body.sole
+        self._fine = 6000.0 / settings.body.leg
+        self._rectangles: dict[Side, tuple[NDArray[np.float64], Rectangle]] = {}
+        self._contacts: dict[Side, tuple[NDArray[np.float64], tuple[object, ...], Contact]] = {}
+
+    def states(self, phase: Phase, soles: Mapping[Side, SoleLoad], contacts: bool, rests: bool) -> Feet:
+        """Returns the feet as a balance law sees them.
+
+        Args:
+            phase: Phase of the walk.
+            soles: Load of each sole.
+            contacts: Whether the law looks at the contacts and wrenches of feet on the ground.
+            rests: Whether the robot stands after a walk; wrenches are given then, too.
+        """
+        states: dict[Side, FootState] = {}
+        motion, crept = self._footing.motion, self._crept() if contacts else ()
+        for side in SIDES:
+            level = rotation = motion.rotation(side)
+            x, y = self._footing.damping[side].turn.tolist()
+            if x or y:
+                rotation = turned(level, x, y)
+            contact = wrench = None
+            if (contacts or rests) and (phase.swing != side or motion.landed):
+                contact = self._contact(side, crept) if contacts else None
+                wrench = soles[side].wrench_in_sole
+            center = self._footing.contacts.center(side)
+            states[side] = FootState(motion.footholds[side][0], level, rotation, center, contact, wrench)
+        return Feet(states, phase.stance, self._footing.frame, rests)
+
+    def targets(self, feet: Feet, actions: Mapping[Side, FootAction]) -> dict[Side, FootTarget]:
+        """Returns pose and load of each sole of `feet`, turned and shifted about its centre by the actions of a law."""
+        targets: dict[Side, FootTarget] = {}
+        for side, action in actions.items():
+            foot, roll, pitch, shift = feet.states[side], action.roll, action.pitch, action.shift
+            position, rotation = foot.position, foot.rotation
+            if roll or pitch or shift:
+                x, y = self._footing.damping[side].turn.tolist()
+                rotation = turned(foot.level, x + roll, y + pitch)
+                position = risen(position, foot.center, roll, pitch, shift)
+            targets[side] = FootTarget(position, rotation, action.force, action.center_of_pressure)
+        return targets
+
+    def compensate(
+        self,
+        feet: dict[Side, FootTarget],
+        phase: Phase,
+        com: NDArray[np.float64],
+        torso: float,
+        posture: NDArray[np.float64],
+        state: BaseState,
+    ) -> None:
+        """Correct the target of the foot that swings, or has just landed, for the body's lean.
+
+        Args:
+            feet: Targets, in which that foot's is replaced.
+            phase: Phase of the walk.
+            com: Commanded CoM (3,) in m.
+            torso: Commanded heading in rad.
+            posture: Commanded rotation (3, 3) of the torso.
+            state: The state of the body.
+        """
+        side, frame = self._footing.motion.last_side, self._footing.frame
+        if side is None:
+            return
+        foot = feet[side]
+        (x, y, z), (cx, cy, _) = frame.to_world(foot.position).tolist(), state.com.tolist()
+        # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
+        c, s = math.cos(frame.turn), math.sin(frame.turn)
+        aligned = vector(cx + c * (x - cx) + s * (y - cy), cy - s * (x - cx) + c * (y - cy), z)
+        shift, turn = self._footing.compensation.update(
+            phase.swing == side,
+            foot.position,
+            aligned,
+            com,
+            state.com,
+            posture,
+            lean_correction.headed(state.rotation_base_to_world, torso),
+        )
+        rotation = lean_correction.turned(turn, foot.rotation)
+        feet[side] = FootTarget(foot.position + shift, rotation, foot.force, foot.center_of_pressure)
+
+    def _crept(self) -> tuple[int, ...]:
+        """How far the command frame has crept, in 1/6000 of the leg (0.1 mm for H1) and 0.1 mrad."""
+        frame, fine = self._footing.frame, self._fine
+        x, y, z = frame.offset
+        return round(x * fine), round(y * fine), round(z * fine), round(frame.turn * 1e4)
+
+    def _contact(self, side: Side, crept: tuple[int, ...]) -> Contact:
+        """Contact of a foot that stands; the same object until the frame has crept by a step of `_crept`."""
+        contacts, frame = self._footing.contacts, self._footing.frame
+        polygon = contacts.polygon(side)
+        rectangle = self._rectangles.get(side)
+        if rectangle is None or rectangle[0] is not polygon:
+            (x0, y0), _, (x1, y1), _ = safe_rectangle(polygon, self._offset).tolist()
+            rectangle = self._rectangles[side] = (polygon, Rectangle(x0, x1, y0, y1))
+        position, yaw = self._footing.motion.footholds[side]
+        place = (rectangle[1], yaw, crept)
+        known = self._contacts.get(side)
+        if known is None or known[0] is not position or known[1] != place:
+            x, y = contacts.center(side).tolist()
+            turn = level_rotation(yaw + frame.turn)
+            contact = Contact(frame.to_world(position), turn, rectangle[1], preferred=(x, y))
+            known = self._contacts[side] = (position, place, contact)
+        return known[2]

@@ -1,0 +1,269 @@
+"""Swing and perceive: where the feet are commanded, how they land, and what they stand on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.arrays import read_only
+from plantar.errors import InputError
+from plantar.gait.contact.ankle_limits import AnkleLimits
+from plantar.gait.contact.foot_contacts import FootContacts
+from plantar.gait.controller_settings import ControllerSettings
+from plantar.gait.estimate.command_frame import CommandFrame
+from plantar.gait.estimate.estimator import SoleLoad
+from plantar.gait.estimate.sole_slope import SoleSlope
+from plantar.gait.estimate.wrench_filter import WrenchFilter
+from plantar.gait.feet.foot_motion import FootMotion, SoleSense
+from plantar.gait.feet.ground_conformity import GroundConformity
+from plantar.gait.feet.landing_compliance import DampingGains, LandingCompliance
+from plantar.gait.feet.posture_compensation import PostureCompensation
+from plantar.gait.feet.swing_compliance import SwingCompliance
+from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.phases import Phase, PhaseKind
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.foothold_refused import StepGuard
+from plantar.gait.propose.proposer import Pendulum, Tick
+from plantar.gait.propose.slope_inside import inward_distance
+from plantar.gait.tick.estimation import Estimation, Sensed
+from plantar.kernels.base.vectors import vector
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.base_state import BaseState
+from plantar.mechanics.rotation import heading
+from plantar.sides import SIDES, Side, other_side
+
+__all__ = ["Footing"]
+
+_NO_PUSH = read_only(np.zeros(2))
+_PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it
+_MAX_LANDING_OFFSET = 0.25  # leg that a foot that has landed beside its place is commanded away from it at most
+
+
+class Footing:
+    """The feet of a walk.
+
+    Attributes:
+        frame: Frame that the footholds are commanded in.
+        motion: Where the feet are commanded.
+        contacts: What they stand on.
+        damping: How each gives way to its load.
+        compensation: How the swing foot is corrected for the body's lean.
+        guard: Checks footholds; None steps on everything.
+        conformity: Turns soles to the ground's shape; None leaves them as they land.
+
+    Raises:
+        InputError: If the settings have a part that needs preemptive foot compliance, and not that.
+    """
+
+    def __init__(
+        self,
+        settings: ControllerSettings,
+        feet: Mapping[Side, Footstep],
+        layouts: Mapping[Side, SoleLayout],
+        plan: WalkPlan,
+        estimation: Estimation,
+        middles: Mapping[Side, NDArray[np.float64]],
+        turns_stance: bool,
+    ) -> None:
+        s = self._settings = settings
+        self._plan, self._estimation = plan, estimation
+        for part in ("feasibility", "conformity"):
+            if getattr(s, part) is not None and s.compliance is None:
+                raise InputError(f"{part} needs preemptive foot compliance; give its gains too")
+        compliance = None
+        if s.compliance is not None:
+            gains = s.compliance, s.touchdown, s.ground_map
+            compliance = {side: SwingCompliance(layouts[side], *gains) for side in SIDES}
+        self.frame = CommandFrame(feet["left"].position, s.period, s.alignment_time)
+        self.motion = FootMotion(feet, s.period, s.swing_height, s.landing, compliance, s.swing)
+        limits = {side: AnkleLimits(strips, s.balance.zmp_offset) for side, strips in s.ankle_limits.items()}
+        self.contacts = FootContacts(s.contact, layouts, s.ankle_reach, limits, s.ground_map.sensing_range)
+        damping = DampingGains().for_body(s.body)
+        self.damping = {side: LandingCompliance(s.period, damping) for side in SIDES}
+        self.compensation = PostureCompensation.for_body(s.body, s.period, 0.7 * s.timing.double_support)
+        self.guard = None if s.feasibility is None else StepGuard(s.feasibility, layouts)
+        self.conformity = None
+        if s.conformity is not None:
+            self.conformity = GroundConformity(s.conformity, layouts, middles, s.period, turns_stance)
+        blind = s.footholds == "force" and s.compliance is None
+        self._slope = SoleSlope(s.estimator.minimum_load) if blind else None
+        self._push = WrenchFilter(s.push_expected, estimation.omega, s.period)
+
+    @property
+    def proximity_sides(self) -> tuple[Side, ...]:
+        """Feet whose proximity it needs at the next tick."""
+        motion = self.motion
+        sides, last = motion.proximity_sides, motion.last_side
+        looks = self._settings.footholds == "skin" and not motion.landed and motion.comes_down
+        return (*sides, last) if looks and last is not None and last not in sides else sides
+
+    def align(self, state: BaseState) -> None:
+        """Let the command frame follow where the carrying foot really stands."""
+        side: Side = "left" if state.loads["left"] >= state.loads["right"] else "right"
+        if state.loads[side] <= self._settings.estimator.minimum_load:
+            return
+        position, yaw = self.motion.footholds[side]
+        turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
+        self.frame.update(position, state.positions_sole[side], turn)
+
+    def swing(self, sensed: Sensed, state: BaseState, feedback: bool) -> tuple[FeetView, float]:
+        """Advance the swing foot.
+
+        Args:
+            sensed: What soles measure.
+            state: The state of the body.
+            feedback: Whether balance is fed back.
+
+        Returns:
+            Where the feet are then, and by how much in m one that has just landed should carry further inside.
+        """
+        phase, percepts, s, motion = sensed.phase, sensed.percepts, self._settings, self.motion
+        senses = heights = None
+        if s.compliance is not None:
+            senses = {i: SoleSense(percepts[i], state.positions_sole[i], state.rotations_sole[i]) for i in SIDES}
+        target = None if phase.swing is None else self._plan.view.foothold(phase.step)
+        if phase.kind == PhaseKind.STANDING:  # feet relax then
+            heights = {i: state.positions_sole[i].item(2) for i in SIDES}
+        motion.update(phase, sensed.time, target, state.loads, self.frame, senses, self._press(), heights)
+        feet = motion.view
+        if feet.touchdown and feedback and s.step_adjustment is not None:
+            self._stand_at_landing(feet, state, s.step_adjustment.misplaced)
+            feet = motion.view
+        if feet.lift_off and feet.side is not None:
+            self.compensation.start()
+            self.contacts.lift_off(feet.side, phase.step)
+            self.damping[feet.side].reset()
+        inward = 0.0
+        if feet.touchdown and feet.side is not None and s.compliance is not None:
+            inward = inward_distance(feet.side, motion.outward_rise(feet.side), s.slope.ankle_reach, s.com_height)
+            if inward:
+                self.contacts.bear_inside(feet.side, inward)
+        return feet, inward
+
+    def _stand_at_landing(self, feet: FeetView, state: BaseState, misplaced: float) -> None:
+        """Command a foot that has landed next to its place to where it stands, where steps move for balance."""
+        if feet.side is None or state.loads[feet.side] <= self._settings.landing.contact_force:
+            return  # only the plan has it down
+        side, other, soles = feet.side, other_side(feet.side), state.positions_sole
+        x, y = self.frame.to_command(soles[side][:2]).tolist()
+        # A pelvis that sinks puts the foot down before its path does: it stands lower than it is commanded.
+        z = feet.footholds[other][0].item(2) + (soles[side] - soles[other]).item(2)
+        place, commanded = vector(x, y, z), feet.footholds[side][0]
+        away = math.dist(place, commanded)
+        if away > misplaced:
+            # Of a body that falls, or by encoders that err by degrees, a foot may seem to be anywhere.
+            place = commanded + min(1.0, _MAX_LANDING_OFFSET * self._settings.body.leg / away) * (place - commanded)
+            self.motion.stand_at(side, place, heading(state.rotations_sole[side]) - self.frame.turn)
+            self.compensation.keep(commanded - place)
+
+    def _press(self) -> float | None:
+        """Force in N that a foot that sees the ground holds in single support; None leaves it to its gains."""
+        if self.guard is not None and self.guard.press is not None:
+            return self.guard.press  # a probe, whatever the ground's shape
+        return None if self.conformity is None or not self._settings.feedback else self.conformity.gains.press
+
+    def perceive(
+        self, sensed: Sensed, state: BaseState, feet: FeetView, inward: float, dcm: NDArray[np.float64] | None
+    ) -> tuple[Tick, NDArray[np.float64]]:
+        """What the feet stand on, for proposers.
+
+        Args:
+            sensed: What soles measure.
+            state: The state of the body.
+            feet: Where the feet are commanded.
+            inward: What `swing` returned.
+            dcm: The DCM (2,) in m; None where balance is not fed back.
+
+        Returns:
+            What proposers receive, and where the desired ZMP may lie (`zmp_region`).
+        """
+        time, phase, percepts, s = sensed.time, sensed.phase, sensed.percepts, self._settings
+        looks = dcm is not None and s.footholds != "off"
+        self._damp(phase, sensed, state, feet, looks)
+        found = self.contacts.find(phase, time, feet, state, percepts, self._slope) if looks else ()
+        seen = self.contacts.find_ahead(phase, time, feet, state, percepts) if looks else None
+        region, pendulum = self.zmp_region(phase, feet), None
+        if dcm is not None and (s.step_timing is not None or s.step_adjustment is not None):
+            pendulum = self._pendulum(phase, time, dcm, region)
+        tick = Tick(
+            time=time,
+            phase=phase,
+            plan=self._plan.view,
+            feet=feet,
+            frame=self.frame.now(),
+            readings={side: percept.reading for side, percept in percepts.items()},
+            loads=state.loads,
+            moments={side: ankle.wrench_in_sole[3:5] for side, ankle in sensed.ankles.items()},
+            found=found,
+            seen=seen,
+            inward=inward,
+            pendulum=pendulum,
+            firm=self.contacts.firm(phase.step),
+        )
+        return tick, region
+
+    def zmp_region(self, phase: Phase, feet: FeetView) -> NDArray[np.float64]:
+        """Returns where the desired ZMP may lie in a phase with such feet: polygon (k, 2) in the world in m."""
+        return self.contacts.zmp_region(phase, feet, self.frame.offset, self._settings.balance.zmp_offset)
+
+    def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
+        """The pendulum now, with what a push is expected to do until the phase ends."""
+        offset, pushed, omega, plan = _NO_PUSH, _NO_PUSH, self._estimation.omega, self._plan
+        if self._settings.push_estimate is not None and self._settings.step_adjustment is not None:
+            expected = self._push.update(self._estimation.estimator.push_acceleration / omega**2)
+            if self._push.acts and phase.swing:
+                offset = self._push.mean(max(0.0, phase.end - time))
+                # xi' = w u_w, summed over the time that the low pass remembers.
+                pushed = expected * (omega * self._settings.push_expected.time_constant)
+        return Pendulum(omega, dcm, plan.at(time), plan.dcm_after(phase), region, offset, pushed)
+
+    def _level(self, slope: SoleSlope, phase: Phase, state: BaseState) -> None:
+        """Turn a foot that comes down blindly, or has just landed, parallel to the one that stands."""
+        standing = phase.kind == PhaseKind.STANDING and phase.step == 0
+        slope.update(state.rotations_sole, state.loads, standing)
+        side = self.motion.last_side
+        if side is None or not self.motion.comes_down:
+            return
+        landing, load = self._settings.landing, state.loads[side]
+        if not landing.probing or load <= self._settings.estimator.minimum_load:
+            self.damping[side].level(load, slope.slope(side), landing.levelling)
+
+    def _damp(self, phase: Phase, sensed: Sensed, state: BaseState, feet: FeetView, looks: bool) -> None:
+        """Damp feet that come to carry, once each: on its edge a sole shows no foothold, and makes a moment.
+
+        A foot that does not see the ground comes down level; then its load turns it towards the middle of what it is
+        believed to stand on, so that all of that is loaded, or denied.
+        """
+        damped: dict[Side, tuple[SoleLoad, float]] = {}
+        if looks and self._slope is not None:
+            self._level(self._slope, phase, state)
+        if looks and (self._slope is None or self._settings.landing.probing):
+            coming = self.contacts.coming_to_carry(phase, sensed.time, feet)
+            damped = {side: (sensed.percepts[side], self._settings.estimator.minimum_load) for side in coming}
+        if self.guard is not None and self.guard.probing and phase.swing is not None:
+            damped[phase.swing] = (sensed.soles[phase.swing], _PROBING * self._settings.body.weight)
+        for side, (sole, least) in damped.items():
+            cop = sole.position_cop_in_sole
+            if cop is not None and state.loads[side] > least:
+                self.damping[side].update(state.loads[side], cop, self.contacts.center(side))
+
+    def follow(self, phase: Phase, time: float) -> FeetView:
+        """Let the feet follow a plan that has changed in a phase, at a time in s; returns them."""
+        if phase.swing is not None:
+            self.motion.aim(phase, time, self._plan.view.foothold(phase.step), self.frame)
+        return self.motion.view
+
+    def conform(self, phase: Phase, zmp: NDArray[np.float64], state: BaseState, sensed: Sensed) -> None:
+        """Turn the soles that stand in a phase to the ground, as `sensed`, for a `state` and a desired ZMP `zmp`."""
+        if self.conformity is None:
+            return
+        plan, incoming = self._plan.view, None
+        if 0 < phase.step < plan.count:  # not at the two ends of the walk
+            incoming = phase.swing or other_side(plan.foothold(phase.step).side)
+        turned = self.conformity.update(phase, incoming, zmp, state, sensed.percepts, self.motion.landed)
+        for side, turn in turned.items():
+            self.motion.turn_standing(side, *turn)

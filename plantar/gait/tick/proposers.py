@@ -1,0 +1,79 @@
+"""Propose: which proposers a controller asks, in which order."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.contact.support_strip import SupportStrip
+from plantar.gait.controller_settings import ControllerSettings
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.walk_plan import WalkPlan
+from plantar.gait.propose.double_support_timing import DoubleSupportTiming
+from plantar.gait.propose.edge_beside import EdgeBeside
+from plantar.gait.propose.foothold_found import FootholdCarries
+from plantar.gait.propose.foothold_refused import StepGuard
+from plantar.gait.propose.foothold_seen import FootholdSeenAhead
+from plantar.gait.propose.learned_stride import LearnedStride
+from plantar.gait.propose.proposer import Proposer
+from plantar.gait.propose.slope_inside import SlopeInside
+from plantar.gait.propose.ssp_opt import touching_distance
+from plantar.gait.propose.step_adjustment import StepAdjustment
+from plantar.gait.propose.step_timing import StepTiming
+from plantar.layouts.layout import SoleLayout
+from plantar.sides import SIDES, Side
+
+__all__ = ["proposers"]
+
+_NO_GROUND = 0.8  # of the taxels' sensing range: a sole that stands sees this far only where there is no ground
+_SHORTEST_WALK = 1 / 12  # leg: a walk that is shorter has no direction of its own
+
+
+def proposers(
+    settings: ControllerSettings,
+    layouts: Mapping[Side, SoleLayout],
+    plan: WalkPlan,
+    feet: Mapping[Side, Footstep],
+    begin: float,
+    middles: Mapping[Side, NDArray[np.float64]],
+    guard: StepGuard | None,
+) -> list[Proposer]:
+    """Returns the proposers of a walk, in the order in which they are asked.
+
+    Args:
+        settings: Settings of the controller.
+        layouts: Sole layout of each side.
+        plan: Plan of the walk.
+        feet: Where the feet stand at the start.
+        begin: Time in s at which the plan begins.
+        middles: Point (2,) of each sole in m under its ankle.
+        guard: Checks footholds; None steps on everything.
+    """
+    s, outlines = settings, {side: layouts[side].outline for side in SIDES}
+    start = plan.at(begin).com
+    way = plan.end - start
+    length = float(np.hypot(*way))
+    forward = np.array([math.cos(feet["left"].yaw), math.sin(feet["left"].yaw)])
+    strip = SupportStrip.for_body(s.body, start, way / length if length > _SHORTEST_WALK * s.body.leg else forward)
+    found: list[Proposer] = [] if guard is None else [guard]
+    found += [
+        SlopeInside(),
+        FootholdSeenAhead(s.foothold),
+        FootholdCarries(s.foothold, middles, outlines, strip, s.ankle_reach),
+    ]
+    if s.compliance is not None and s.footholds == "off":
+        found.append(EdgeBeside(layouts, _NO_GROUND * s.ground_map.sensing_range, s.foothold.largest_shift))
+    timing = None if s.step_timing is None else StepTiming(s.step_timing, s.period)
+    if s.step_adjustment is None:
+        return found if timing is None else [*found, timing]
+    rules = s.step_adjustment, s.step_region, touching_distance(outlines), s.step_weights, s.ankle_strategy
+    found.append(StepAdjustment(*rules, s.period, timing))
+    if s.step_adjustment.double_support:
+        confidence = s.step_adjustment.confidence
+        found.append(DoubleSupportTiming(s.double_support_timing, s.dsp_weights, confidence, s.period))
+    if s.learned_stride is not None:
+        found.append(LearnedStride(s.learned_stride))
+    return found
