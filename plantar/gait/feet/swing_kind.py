@@ -82,7 +82,7 @@ class Swing(Protocol):
         ...
 
     def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> Swing:
-        """Returns the swing to another place (2,) in m, yaw and duration; the same if too late."""
+        """Returns the swing that goes at a time to another place (2,) in m, yaw and duration."""
         ...
 
 
