@@ -83,6 +83,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
             "body_skin",
             "contact_models",
             "figures",
+            "loop",
         ),
         *("companion", "arms", "partner", "run", "bench", "survey", "sweep"),
     ),

@@ -26,7 +26,7 @@ from plantar.shoes import ShoeParameters
 from plantar.shoes.cells.cell_file import read_cell
 from plantar.sim.companion.machine import load_machine
 from plantar.sim.run.listing import listed
-from plantar.sim.run.scene_kind import full_setting_name, open_scene
+from plantar.sim.run.scene_kind import open_scene
 from plantar.sim.run.setting_list import settings_of_robot
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -67,7 +67,7 @@ def understand(command: str) -> None:
         robot = found["robot"] if found["robot"] is None or "/" not in found["robot"] else None
         scene = open_scene(found["scene"], found["settings"] or [], robot)
         for key, _, values in (axis.partition("=") for axis in found.get("grid") or []):
-            full_setting_name(scene, key)
+            scene.setting_name(key)
             for value in values.split(","):
                 open_scene(found["scene"], [f"{key}={value}"], robot)
 

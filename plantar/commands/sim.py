@@ -66,12 +66,13 @@ def sim(
     if video is not None:
         os.environ.setdefault("MUJOCO_GL", "egl")
     need_libraries("sim", *LIBRARIES)
-    from plantar.sim.run.scene_kind import open_scene, run, summary_text
+    from plantar.sim.run.run_text import run_text
+    from plantar.sim.run.scene_kind import open_scene, run
 
     loaded = open_scene(scene, settings or [], robot)
     with progress_bar() as tell:
         summary = run(loaded, seed, record=record, video=video, plot=plot, progress=tell)
-    end_command(summary, as_json, summary_text(summary), failed=not summary["completed"])
+    end_command(summary, as_json, run_text(summary), failed=not summary["completed"])
 
 
 COMMAND = Command(sim, "Run one scenario in MuJoCo, judged by the true contacts.", 40)

@@ -13,7 +13,7 @@ from plantar.gait.estimate.estimator import EstimatorGains
 from plantar.robots.controller_settings import controller_settings
 from plantar.robots.robot_file import load_robot
 from plantar.settings.body_scale import REFERENCE_BODY
-from plantar.sim.run.scene import load_scene, setting_name
+from plantar.sim.run.scene import load_scene
 
 ALL_ON = ["pfc=true", "control.feasibility=skin", "conform=true", "footholds=skin"]
 ALL_ON += ["control.step_adjustment=true", "control.learn_strides=true", "control.push_estimate=skin"]
@@ -117,8 +117,8 @@ def test_a_robot_file_is_checked_when_it_is_read(lines: str, words: str, tmp_pat
 
 def test_a_short_name_is_completed() -> None:
     scene = load_scene("flat")
-    assert setting_name(scene, "dcm_gain") == "balance.dcm_gain"
-    assert setting_name(scene, "estimator.gravity") == "estimator.gravity"
+    assert scene.setting_name("dcm_gain") == "balance.dcm_gain"
+    assert scene.setting_name("estimator.gravity") == "estimator.gravity"
     with pytest.raises(SceneError, match="no setting 'clearance'"):
-        setting_name(scene, "clearance")
+        scene.setting_name("clearance")
     assert "approach_height" not in controller_keys("landing")

@@ -1,11 +1,10 @@
-"""Run a scene of the companion: physics, sensors, controller and judge, in the order in which they act."""
+"""An experiment on a machine with skin that is built and ready to run."""
 
 from __future__ import annotations
 
-import math
-import os
 import time as clock
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -13,10 +12,10 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from plantar.atomic import output_folder, parent_folder
-from plantar.errors import InputError, SceneError
+from plantar.errors import SceneError
+from plantar.recordings.recorder import RecordChannel, Recorder
 from plantar.sim.body_skin.sensing import SkinSensor
-from plantar.sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
+from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.drives import Drives
 from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.encoders import Encoders
@@ -24,14 +23,14 @@ from plantar.sim.companion.experiment import World
 from plantar.sim.companion.lidar import Lidar
 from plantar.sim.companion.machine import Machine, ServoTable, load_machine
 from plantar.sim.companion.scene import CompanionScene
-from plantar.sim.figures.render import FRAME_RATE, Camera, VideoWriter
+from plantar.sim.figures.film import BodyFilm
+from plantar.sim.loop import Result, Run
+from plantar.sim.model.world import add_looks
 
-__all__ = ["Companion", "run_companion", "run_companion_to_files"]
-
-Progress = Callable[[float, str], None]
+__all__ = ["Companion"]
 
 
-class Companion:
+class Companion(Run):
     """A scene of the companion, built and ready to run.
 
     Args:
@@ -66,92 +65,95 @@ class Companion:
         self.lidar = None
         if scene.lidar is not None:
             self.lidar = Lidar(self.world.model, machine.base.link, scene.lidar, seed)
-        self._scan_every = _steps(1.0 / scene.lidar.rate, self.world) if scene.lidar is not None else 0
+            self._scan_every = max(1, round(1.0 / (scene.lidar.rate * self.world.model.opt.timestep)))
+        self.periods = float(self.world.model.opt.timestep), control.period
+        self.skipped = Counter(rendered_frames=0)
+        self._channels: tuple[RecordChannel, ...] | None = None
         data = self.world.data
         data.qpos[self.world.positions[-len(machine.posture) :]] = machine.posture
         self.experiment.start(self.world)
         mujoco.mj_forward(self.world.model, data)
 
-    def run(self, film: Callable[[], None] | None = None, progress: Progress | None = None) -> dict[str, Any]:
-        """Run to the end of the experiment, or until the machine falls.
+    @property
+    def end(self) -> float:
+        """Duration of the experiment in s."""
+        return self.experiment.duration
 
-        Args:
-            film: Called at every frame of a video.
-            progress: Called about ten times a second with the fraction done and a text.
+    @property
+    def ended(self) -> bool:
+        """Whether the machine fell, or all has been seen."""
+        return self.experiment.fell or self.experiment.done
 
-        Returns:
-            The summary.
+    def state_text(self) -> str:
+        """Time of the experiment's duration."""
+        return f"{self.world.data.time:.1f} of {self.experiment.duration:.1f} s"
 
-        Raises:
-            SceneError: If the simulated physics becomes unstable.
-        """
-        world, data, experiment = self.world, self.world.data, self.experiment
-        every, frame = _steps(self.scene.control.period, world), _steps(1.0 / FRAME_RATE, world)
-        count = math.ceil(experiment.duration / world.model.opt.timestep)
-        ticks: list[float] = []
-        began = shown = clock.perf_counter()
-        for k in range(count):
-            experiment.act(world, float(data.time))
-            mujoco.mj_step1(world.model, data)
-            self.skin.apply(data)
-            if self.lidar is not None and k % self._scan_every == 0:
-                self.controller.scan(self.lidar.scan(data))
-            if k % every == 0:
-                self._check()
-                ticks.append(self._tick())
-            experiment.judge(world, self.skin, float(data.time))
-            if experiment.fell or experiment.done:
-                break
-            if film is not None and k % frame == 0:
-                film()
-            if progress is not None and clock.perf_counter() - shown > 0.1:
-                shown = clock.perf_counter()
-                progress(data.time / experiment.duration, f"{data.time:.1f} of {experiment.duration:.1f} s")
-            self.drives.drive()
-            mujoco.mj_step2(world.model, data)
-        return self._summary(ticks, clock.perf_counter() - began)
+    def open_log(self, path: Path, files: ExitStack) -> None:
+        """Begin the recording: taxels, joints, and the true force on each link with skin."""
+        world, skin = self.world, self.skin.skin
+        metadata = {"scene": self.scene.name, "robot": world.machine.name, "seed": self.seed}
+        recorder = files.enter_context(Recorder(path, metadata))
+        fields = [(f"link_{i}_{part}", 3) for i in range(len(skin.links)) for part in ("force", "moment")]
+        count = len(world.motors)
+        self._channels = (
+            recorder.channel("/body_skin", [("force", len(skin))]),
+            recorder.channel("/joints", [("position", len(world.positions)), ("torque", count)]),
+            recorder.channel("/truth/skin", fields),
+        )
 
-    def _tick(self) -> float:
-        """One control period; how long it took in us."""
-        reading = self.skin.read(self.world.data)
-        qpos, qvel = self.encoders.read()
-        start = clock.perf_counter()
-        self.robot.update(qpos, qvel, float(self.world.data.time))
-        torque = self.controller.step(self.robot, reading)
-        took = clock.perf_counter() - start
-        self.drives.command(self.robot, torque)
-        return 1e6 * took
+    def open_film(self, path: Path, files: ExitStack) -> Callable[[], None]:
+        """Begin a video of the machine and its taxels."""
+        body, view = self.experiment.view
+        world = self.world
+        film = BodyFilm(path, world.model, world.data, self.skin, body or world.machine.base.link, view)
+        return files.enter_context(film).add
 
-    def _check(self) -> None:
+    def summary(self, result: Result) -> dict[str, Any]:
+        """The summary, after the loop has ended."""
+        reasons, figures = self.experiment.verdict()
+        self.skipped.update(taxel_rays=self.skin.skipped, taxel_rays_cast=self.skin.cast)
+        names = self.scene.name, self.world.machine.name
+        common = self.common(result, names, reasons, self.experiment.fell, float(self.world.data.time))
+        return {**common, **figures}
+
+    def plot(self, folder: Path, recording: Path) -> Sequence[Path]:
+        """Draw the experiment's figures."""
+        return self.experiment.plot(folder)
+
+    def sense(self, k: int) -> None:
+        """Move the actors, press them on the skin, and scan around the base."""
+        data = self.world.data
+        self.experiment.act(self.world, float(data.time))
+        mujoco.mj_step1(self.world.model, data)
+        self.skin.apply(data)
+        if self.lidar is not None and k % self._scan_every == 0:
+            self.controller.scan(self.lidar.scan(data))
+
+    def control(self) -> float:
+        """One tick of the controller, whose wall time in us it returns."""
         data = self.world.data
         if not (np.isfinite(data.qpos).all() and np.abs(data.qvel).max(initial=0.0) < 1e3):
             raise SceneError(f"the simulation of scene '{self.scene.name}' became unstable at {data.time:.3f} s")
+        reading = self.skin.read(data)
+        qpos, qvel = self.encoders.read()
+        start = clock.perf_counter()
+        self.robot.update(qpos, qvel, float(data.time))
+        torque = self.controller.step(self.robot, reading)
+        used = 1e6 * (clock.perf_counter() - start)
+        self.drives.command(self.robot, torque)
+        if self._channels is not None:
+            rows = reading.force, np.concatenate([qpos, torque]), self.skin.wrenches.ravel()
+            for channel, row in zip(self._channels, rows, strict=True):
+                channel.write(float(data.time), row)
+        return used
 
-    def _summary(self, ticks: list[float], wall: float) -> dict[str, Any]:
-        reasons, figures = self.experiment.verdict()
-        time = float(self.world.data.time)
-        return {
-            "scene": self.scene.name,
-            "robot": self.world.machine.name,
-            "seed": self.seed,
-            "completed": not reasons and not self.experiment.fell,
-            "reasons": reasons,
-            "fell": self.experiment.fell,
-            "sim_time_s": round(time, 4),
-            "wall_time_s": round(wall, 4),
-            "real_time_factor": round(time / max(wall, 1e-9), 2),
-            "control_us": {
-                "p50": round(float(np.percentile(ticks, 50)), 1),
-                "p99": round(float(np.percentile(ticks, 99)), 1),
-            },
-            "skipped": {"taxel_rays": self.skin.skipped, "taxel_rays_cast": self.skin.cast},
-            **figures,
-        }
-
-
-def _steps(period: float, world: World) -> int:
-    """Physics steps in a period in s, one at least."""
-    return max(1, round(period / float(world.model.opt.timestep)))
+    def advance(self) -> None:
+        """The judge's look, then drives and physics unless that was the end."""
+        data = self.world.data
+        self.experiment.judge(self.world, self.skin, float(data.time))
+        if not self.ended:
+            self.drives.drive()
+            mujoco.mj_step2(self.world.model, data)
 
 
 def _misjudge(model: Any, share: float, seed: int) -> None:
@@ -166,6 +168,7 @@ def _misjudge(model: Any, share: float, seed: int) -> None:
 def _build(machine: Machine, alone: Any, add_to: Callable[[Any], None]) -> World:
     """Compile the machine with what an experiment puts around it, and find its coordinates again."""
     spec = machine.spec()
+    add_looks(spec, machine.base.link)
     add_to(spec)
     try:
         model = spec.compile()
@@ -189,69 +192,3 @@ def _build(machine: Machine, alone: Any, add_to: Callable[[Any], None]) -> World
         motors=np.array([model.actuator(name).id for name in names]),
         joints=np.array([model.joint(name).dofadr[0] for name in names]),
     )
-
-
-def run_companion(scene: CompanionScene, seed: int = 0, progress: Progress | None = None) -> dict[str, Any]:
-    """Run a scene of the companion.
-
-    Args:
-        scene: The scene.
-        seed: Seed of sensor noise and of what the experiment leaves to chance.
-        progress: Called about ten times a second with the fraction done and a text.
-
-    Returns:
-        The summary.
-    """
-    return Companion(scene, seed).run(progress=progress)
-
-
-def run_companion_to_files(
-    scene: CompanionScene,
-    seed: int,
-    *,
-    record: str | os.PathLike[str] | None = None,
-    video: Path | None = None,
-    plot: Path | None = None,
-    progress: Progress | None = None,
-) -> dict[str, Any]:
-    """Run a scene of the companion, film it and draw its figures.
-
-    Args:
-        scene: The scene.
-        seed: Seed of what is left to chance.
-        record: Must be None: recordings are of soles.
-        video: File of the video, .mp4; None makes none.
-        plot: Folder of the figures; None draws none.
-        progress: Called with the fraction done and a text.
-
-    Returns:
-        The summary, with the paths of the figures under "figures" where they were drawn.
-
-    Raises:
-        InputError: If a recording is asked for, or a file cannot be written.
-        SceneError: If the scene cannot be run.
-    """
-    if record is not None:
-        raise InputError(f"scene '{scene.name}' has no soles to record; allowed: --plot, --video")
-    with ExitStack() as stack:
-        folder = None if plot is None else stack.enter_context(output_folder(plot))
-        if video is not None:
-            stack.enter_context(parent_folder(video))
-        companion = Companion(scene, seed)
-        film = None
-        if video is not None:
-            world = companion.world
-            body, view = companion.experiment.view
-            camera = Camera(
-                world.model, world.model.body(body or world.machine.base.link).id, view=view, groups=[OBSTACLE_GROUP]
-            )
-            stack.callback(camera.close)
-            writer = stack.enter_context(VideoWriter(video))
-
-            def film() -> None:
-                writer.add(camera.picture(world.data))
-
-        summary = companion.run(film, progress)
-        if plot is not None and folder is not None:
-            summary["figures"] = [str(plot / file.name) for file in companion.experiment.plot(folder)]
-    return summary

@@ -18,7 +18,7 @@ from plantar.sim.body_skin.sensing import SkinSensing
 from plantar.sim.companion.experiment import CompanionControl, Experiment, experiment_class
 from plantar.sim.companion.lidar import LidarSettings
 
-__all__ = ["CompanionScene", "companion_scene", "companion_setting_name", "companion_tables"]
+__all__ = ["CompanionScene", "companion_scene", "companion_tables"]
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,17 @@ class CompanionScene:
     experiment: Settings
     control: CompanionControl
     lidar: LidarSettings | None
+
+    def setting_name(self, key: str) -> str:
+        """Full name "table.name" of a setting's key, or "robot".
+
+        Raises:
+            SceneError: If the scene has no such key.
+        """
+        if key.strip() in ("robot", "machine"):
+            return "robot"
+        kinds = {section: kind.names() for section, kind in companion_tables(self.kind).items()}
+        return ".".join(owner_of(key.strip(), "", kinds))
 
     @property
     def experiment_type(self) -> type[Experiment]:
@@ -124,22 +135,3 @@ def companion_scene(
         kind=kind,
         **{"lidar": None, **parts},
     )
-
-
-def companion_setting_name(scene: CompanionScene, key: str) -> str:
-    """Full name of a setting's key.
-
-    Args:
-        scene: A scene that has the setting.
-        key: Any name that the setting is given by.
-
-    Returns:
-        "table.name", or "robot".
-
-    Raises:
-        SceneError: If the scene has no such key.
-    """
-    if key.strip() in ("robot", "machine"):
-        return "robot"
-    kinds = {section: kind.names() for section, kind in companion_tables(scene.kind).items()}
-    return ".".join(owner_of(key.strip(), "", kinds))

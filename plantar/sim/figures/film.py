@@ -1,31 +1,59 @@
-"""The video of a run: the world, the forces on its soles, and their taxels."""
+"""Videos of a run: the world, the forces on it, and its taxels."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Mapping
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
-from plantar.sim.figures.render import Camera, VideoWriter, opencv
+from plantar.sim.body_skin.sensing import SkinSensor
+from plantar.sim.body_skin.surface import OBSTACLE_GROUP
+from plantar.sim.figures.drawn_run import scale_colours
+from plantar.sim.figures.render import Camera, VideoWriter, View, opencv
 from plantar.sim.figures.sole_inset import SoleInset
 from plantar.sim.model.world import World
 
-__all__ = ["Film"]
+__all__ = ["BodyFilm", "Film"]
 
 _INSET = 0.25  # of the picture's height
 _ARROW = 0.5  # leg: length of an arrow that stands for the robot's weight
 _LEAST = 0.05  # weight on a sole below which none is drawn: a swing foot's noise
 _COLOUR = (217, 26, 77)
+_WIDTH, _HEIGHT = 960, 540
+_TAXEL = 0.005  # m: half a side of the cube that is drawn for a taxel of a body
+_FULL_TAXEL = 0.01  # weight on a taxel of a body that has the last colour
+_LINES, _INK = 4, (40, 40, 40)  # patches whose force is written, and in which colour
 
 
-class Film:
-    """A video of a world; a context manager.
+class _Filmed:
+    """A camera that follows a body, and the file that its pictures go to; a context manager."""
+
+    def __init__(self, path: str | os.PathLike[str], model: Any, body: int, **shown: Any) -> None:
+        self._writer = VideoWriter(path)
+        self._camera = Camera(model, body, _WIDTH, _HEIGHT, fast=True, **shown)
+
+    def __enter__(self) -> Self:
+        self._writer.__enter__()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._writer.__exit__(kind, error, trace)
+        self._camera.close()
+
+
+class Film(_Filmed):
+    """A video of a robot that walks.
 
     Args:
         path: MP4 file to write.
@@ -33,15 +61,9 @@ class Film:
     """
 
     def __init__(self, path: str | os.PathLike[str], world: World) -> None:
+        super().__init__(path, world.model, world.torso)
         self._world = world
-        self._writer = VideoWriter(path)
-        width, height = 960, 540
-        self._camera = Camera(world.model, world.torso, width, height, fast=True)
-        self._inset = SoleInset(world.robot.layouts, world.body.weight, round(_INSET * height))
-
-    def __enter__(self) -> Self:
-        self._writer.__enter__()
-        return self
+        self._inset = SoleInset(world.robot.layouts, world.body.weight, round(_INSET * _HEIGHT))
 
     def add(self, readings: Mapping[Side, Reading]) -> None:
         """Add a frame of the world as it is now.
@@ -74,11 +96,52 @@ class Film:
             tip = 12.0 / max(12.0, float(np.hypot(*(ends[1] - ends[0]))))  # 12 pixels, regardless of the force
             cv2.arrowedLine(picture, *map(tuple, ends.tolist()), _COLOUR, 3, cv2.LINE_AA, tipLength=tip)
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
+
+class BodyFilm(_Filmed):
+    """A video of a machine with skin: taxels where they are, coloured by their force, and the force on each patch.
+
+    Args:
+        path: MP4 file to write.
+        model: The MjModel of the world.
+        data: Its MjData.
+        skin: The skin with the true forces on it.
+        body: Name of the body that the camera follows.
+        view: From where.
+    """
+
+    def __init__(
+        self, path: str | os.PathLike[str], model: Any, data: Any, skin: SkinSensor, body: str, view: View
     ) -> None:
-        self._writer.__exit__(kind, error, trace)
-        self._camera.close()
+        super().__init__(path, model, model.body(body).id, view=view, groups=[OBSTACLE_GROUP])
+        self._data, self._skin = data, skin
+        self._weight = float(
+            np.abs(model.opt.gravity[2]) * model.body_subtreemass[model.body_rootid[model.body(body).id]]
+        )
+        patches = skin.skin.patches
+        self._bodies = np.concatenate([np.full(len(p.positions), model.body(p.link).id) for p in patches])
+        self._places = np.concatenate([p.positions for p in patches])
+        self._colours = scale_colours(1.0)
+
+    def add(self) -> None:
+        """Add a frame of the world as it is now."""
+        data, force = self._data, self._skin.force
+        points = data.xpos[self._bodies] + np.einsum(
+            "ijk,ik->ij", data.xmat[self._bodies].reshape(-1, 3, 3), self._places
+        )
+        steps = np.minimum(force / (_FULL_TAXEL * self._weight), 1.0) * (len(self._colours) - 1)
+        colours = np.where((force > 0.0)[:, None], self._colours[steps.astype(int)], 0.45)
+        picture = np.array(self._camera.picture(data, dots=(points, colours, _TAXEL)))
+        self._write_loads(picture)
+        self._writer.add(picture)
+
+    def _write_loads(self, picture: NDArray[np.uint8]) -> None:
+        """The forces on the patches that are pressed, the largest first."""
+        cv2, skin = opencv(), self._skin.skin
+        loads = {p.name: float(self._skin.force[skin.slices[p.name]].sum()) / self._weight for p in skin.patches}
+        most = sorted(loads.items(), key=lambda load: -load[1])[:_LINES]
+        lines = [
+            f"{self._data.time:.1f} s",
+            *(f"{name.replace('_', ' ')}: {v:.3f} weights" for name, v in most if v > 0),
+        ]
+        for i, line in enumerate(lines):
+            cv2.putText(picture, line, (16, 30 + 24 * i), cv2.FONT_HERSHEY_SIMPLEX, 0.6, _INK, 1, cv2.LINE_AA)

@@ -108,12 +108,18 @@ class Camera:
         finally:
             quality.offsamples, quality.shadowsize = kept
 
-    def picture(self, data: Any, lines: Sequence[Line] = ()) -> NDArray[np.uint8]:
+    def picture(
+        self,
+        data: Any,
+        lines: Sequence[Line] = (),
+        dots: tuple[NDArray[np.float64], NDArray[np.float64], float] | None = None,
+    ) -> NDArray[np.uint8]:
         """The scene now.
 
         Args:
             data: The simulation's state.
             lines: Lines to draw into it.
+            dots: Small cubes to draw into it: places (n, 3) in m, red, green and blue (n, 3) of 0..1, and half a side in m.
 
         Returns:
             RGB picture (height, width, 3).
@@ -129,6 +135,12 @@ class Camera:
             mujoco.mjv_initGeom(geom, kind, np.zeros(3), np.zeros(3), np.zeros(9), rgba)
             mujoco.mjv_connector(geom, kind, line.radius, line.start, line.end)
             scene.ngeom += 1
+        if dots is not None:
+            size, turn = np.full(3, dots[2]), np.eye(3).ravel()
+            for place, colour in zip(dots[0], np.column_stack([dots[1], np.ones(len(dots[1]))]), strict=True):
+                geom = scene.geoms[scene.ngeom]
+                mujoco.mjv_initGeom(geom, mujoco.mjtGeom.mjGEOM_BOX, size, place, turn, colour.astype(np.float32))
+                scene.ngeom += 1
         return np.asarray(self._renderer.render())
 
     def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -27,6 +27,7 @@ __all__ = [
     "DIVERGED",
     "PHYSICS_PERIOD",
     "World",
+    "add_looks",
     "build_world",
     "check_stable",
 ]
@@ -65,8 +66,13 @@ def check_stable(warnings: NDArray[np.int32]) -> None:
         )
 
 
-def _add_looks(spec: Any, torso: str) -> None:
-    """Sky, light and floor of pictures and videos; no effect on the physics."""
+def add_looks(spec: Any, torso: str) -> None:
+    """Add sky, light and the material "ground" of pictures and videos; the physics is the same.
+
+    Args:
+        spec: The `mujoco.MjSpec`.
+        torso: Body that a light follows.
+    """
     spec.add_texture(
         name="sky",
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
@@ -221,7 +227,7 @@ def build_world(
     """
     spec = robot_spec(robot)
     _set_solver(spec, period)
-    _add_looks(spec, robot.torso_body)
+    add_looks(spec, robot.torso_body)
     for geom in spec.geoms:
         if geom.group == GROUND_GROUP:
             geom.group = 1  # as visible as before, but not for proximity sensors

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
@@ -24,6 +23,7 @@ from plantar.sim.judging.step_count import Count
 from plantar.sim.judging.velocity_truth import VelocityTruth
 from plantar.sim.judging.verdict import Ending, reasons
 from plantar.sim.judging.zmp_comparison import ZmpComparison
+from plantar.sim.loop import Result
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.run.pushing import Pusher
@@ -33,24 +33,7 @@ from plantar.sim.run.shares import body_told, shares_told
 from plantar.sim.run.touched import Touched
 from plantar.sim.terrain import Ground
 
-__all__ = ["FinishedRun", "Result", "summary_of"]
-
-
-@dataclass(frozen=True)
-class Result:
-    """What the loop of a run leaves behind.
-
-    Attributes:
-        ticks_us: Wall time of each control tick in us.
-        wall_time: Wall time of the run in s.
-        skipped: What was not computed, and how often.
-        overrun: Time in s at which the run was cut off, and its end in s as planned at first; None for no cut.
-    """
-
-    ticks_us: list[float]
-    wall_time: float
-    skipped: dict[str, int]
-    overrun: tuple[float, float] | None
+__all__ = ["FinishedRun", "summary_of"]
 
 
 class FinishedRun(Protocol):
@@ -75,6 +58,10 @@ class FinishedRun(Protocol):
     speeds: VelocityTruth | None
     touched: Touched | None
     zmps: ZmpComparison | None
+
+    def common(
+        self, result: Result, names: tuple[str, str], reasons: list[dict[str, Any]], fell: bool, time: float
+    ) -> dict[str, Any]: ...
 
 
 def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
@@ -117,22 +104,13 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
         why += run.speeds.reasons(landings)
     if run.touched is not None:
         why += run.touched.reasons(judge.steps.last_stands())
-    ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
     late = run.servos.out_of_reach_since
     sole = {s: 4.0 * float(np.prod(run.robot.sole_rectangle(s)[1])) for s in SIDES}
     summary: dict[str, Any] = {
-        "scene": run.scene.name,
-        "robot": run.robot.name,
-        "seed": run.seed,
-        "completed": not why,
-        "reasons": why,
+        **run.common(result, (run.scene.name, run.robot.name), why, judge.fell, float(data.time)),
         "emergency_stop": stopped is not None,
-        "fell": judge.fell,
         "steps_planned": len(run.steps) if run.speeds is None else None,
         "steps_taken": count.taken if run.speeds is None else len(judge.steps.last_stands()),
-        "sim_time_s": round(float(data.time), 4),
-        "wall_time_s": round(result.wall_time, 4),
-        "real_time_factor": round(float(data.time) / max(result.wall_time, 1e-9), 2),
         "tilt_max_deg": round(judge.tilt_max, 3),
         "zmp_margin_min_m": None if judge.margin_min is None else round(judge.margin_min, 5),
         "impacts_N": [round(x.impact, 1) for x in landed],
@@ -144,11 +122,6 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
         "out_of_reach_since_s": None if late is None else round(late, 3),
         "replans": run.controller.replans,
         "moved_steps": judge.goal.summary(),
-        "control_us": {
-            "p50": round(float(np.percentile(ticks, 50)), 1),
-            "p99": round(float(np.percentile(ticks, 99)), 1),
-        },
-        "skipped": result.skipped,
         "body": body_told(run.body),
         "shares": shares_told(run.scene),
         "final": {

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from plantar.console.command import file_lines
+from plantar.gravity import GRAVITY
 
 __all__ = ["demo_text", "run_text"]
 
@@ -16,29 +17,32 @@ Summary = Mapping[str, Any]
 _SHOWN = ("terrain.", "push.", "walk.length", "walk.sideways", "walk.swing_height")
 """Settings whose numbers people want to know of a run; the JSON lists all of them."""
 
-_PLANT_UNITS = {"_rad_s": "rad/s", "_Nm": "N m", "_m": "m", "_N": "N", "_deg": "deg", "_s": "s"}
-"""Units of the true plant's items by the ends of their names in the JSON."""
+_UNITS = {"_rad_s": "rad/s", "_Nm": "N m", "_mm_N": "mm/N", "_mm": "mm", "_m": "m", "_N": "N", "_deg": "deg", "_s": "s"}
+"""Units of values by the ends of their names in the JSON."""
+
+_COMMON = {"scene", "robot", "seed", "completed", "reasons", "fell", "sim_time_s", "wall_time_s", "real_time_factor"}
+_COMMON |= {"control_us", "control_us_by_active", "skipped", "figures"}
+"""What a summary of an experiment prints elsewhere or not at all."""
 
 
 def run_text(summary: Summary) -> str:
-    """A run's figures for people.
+    """A run's figures for people, of a walk or of an experiment on a machine with skin.
 
     Args:
-        summary: What `run_scene` gave.
+        summary: What the run gave.
 
     Returns:
         Lines.
     """
-    tick = summary["control_us"]
-    speed = (
-        f"  {summary['real_time_factor']:.1f} x real time; control tick {tick['p50']:.0f} us (median), "
-        f"{tick['p99']:.0f} us (99 %)"
-    )
-    files = [f"  {name}" for name in summary.get("figures", [])]
+    tick, walked = summary["control_us"], "steps_planned" in summary
+    parts = (_shares, _plant, _body, _joints, _balance) if walked else (_figures,)
     return "\n".join(
         [
-            *(*_outcome(summary), *_shares(summary), *_plant(summary)),
-            *(*_body(summary), *_joints(summary), *_balance(summary), speed, *files),
+            *_outcome(summary),
+            *(line for part in parts for line in part(summary)),
+            f"  {summary['real_time_factor']:.1f} x real time; control tick {tick['p50']:.0f} us (median), "
+            f"{tick['p99']:.0f} us (99 %)",
+            *(f"  {name}" for name in summary.get("figures", [])),
         ]
     )
 
@@ -67,15 +71,34 @@ def demo_text(made: Mapping[str, Any], output: Path) -> str:
 def _outcome(summary: Summary) -> list[str]:
     """How it ended, and every criterion that failed."""
     end = "completed" if summary["completed"] else ("FELL" if summary["fell"] else "NOT COMPLETED")
-    planned = "" if summary["steps_planned"] is None else f" of {summary['steps_planned']}"
+    steps = ""
+    if "steps_planned" in summary:
+        planned = "" if summary["steps_planned"] is None else f" of {summary['steps_planned']}"
+        steps = f"{summary['steps_taken']}{planned} steps in "
+    ran = f"{summary['scene']} with {summary['robot']}, seed {summary['seed']}"
     return [
-        f"{summary['scene']} with {summary['robot']}, seed {summary['seed']}: {end}, {summary['steps_taken']}{planned} "
-        f"steps in {summary['sim_time_s']:.1f} s",
-        *(
-            f"  not completed, {reason['criterion'].replace('_', ' ')}: {reason['text']}"
-            for reason in summary["reasons"]
-        ),
+        f"{ran}: {end}, {steps}{summary['sim_time_s']:.1f} s",
+        *(f"  not completed, {why['criterion'].replace('_', ' ')}: {why['text']}" for why in summary["reasons"]),
     ]
+
+
+def _figures(summary: Summary) -> list[str]:
+    """The figures of an experiment, with the units that their names end in."""
+    return [f"  {_named(name, value)}" for name, value in summary.items() if name not in _COMMON]
+
+
+def _named(name: str, value: Any) -> str:
+    ending = next((e for e in _UNITS if name.endswith(e)), "")
+    words = name.removesuffix(ending).replace("_", " ")
+    return f"{words}: {_value(value)} {_UNITS.get(ending, '')}".rstrip()
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} {_value(inner)}" for name, inner in value.items())
+    if isinstance(value, list):
+        return ", ".join(map(_value, value))
+    return "-" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _shares(summary: Summary) -> list[str]:
@@ -91,12 +114,12 @@ def _plant(summary: Summary) -> list[str]:
     """In what the true plant differed from the controller's model."""
     parts = []
     for key, value in summary.get("plant", {}).items():
-        ending = next((e for e in _PLANT_UNITS if key.endswith(e)), "")
+        ending = next((e for e in _UNITS if key.endswith(e)), "")
         numbers = value if isinstance(value, list) else [value]
         size = ", ".join(f"{v:.3g}" for v in numbers)
         if len(numbers) > 3:
             size = f"up to {max(map(abs, numbers)):.3g}"
-        parts.append(f"{key.removesuffix(ending).replace('_', ' ')} {size} {_PLANT_UNITS.get(ending, '')}".rstrip())
+        parts.append(f"{key.removesuffix(ending).replace('_', ' ')} {size} {_UNITS.get(ending, '')}".rstrip())
     words = f"true plant, which the controller does not know: {'; '.join(parts)}"
     return textwrap.wrap(words, 118, initial_indent="  ", subsequent_indent="    ") if parts else []
 
@@ -109,8 +132,12 @@ def _body(summary: Summary) -> list[str]:
         f"{'-' if margin is None else f'{1e3 * margin:.1f} mm'}"
     ]
     if summary["impacts_N"]:
-        impacts = sorted(summary["impacts_N"])
-        lines.append(f"  landing impact: median {impacts[len(impacts) // 2]:.0f} N, largest {impacts[-1]:.0f} N")
+        impacts, weight = sorted(summary["impacts_N"]), GRAVITY * summary["body"]["mass_kg"]
+        median, most = impacts[len(impacts) // 2], impacts[-1]
+        lines.append(
+            f"  landing impact: median {median / weight:.2f}, largest {most / weight:.2f} body weights "
+            f"({median:.0f} and {most:.0f} N)"
+        )
     drift = summary["drift"]
     if drift is not None:
         lines.append(

@@ -1,10 +1,10 @@
-"""Run one scenario: physics, skin, control and judge in one loop."""
+"""A walk that is built and ready to run: its robot, ground, controller, sensors and judge."""
 
 from __future__ import annotations
 
-import math
 import os
 import time as clock
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import asdict, replace
@@ -34,7 +34,7 @@ from plantar.sim.arms.compliant_arm import CompliantArm
 from plantar.sim.arms.settings import ArmSettings
 from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.figures.film import Film
-from plantar.sim.figures.render import FRAME_RATE
+from plantar.sim.figures.run_figure import plot_run
 from plantar.sim.judging.foothold_truth import FootholdTruth
 from plantar.sim.judging.judge import Judge
 from plantar.sim.judging.plain_ground import PlainGround
@@ -42,13 +42,14 @@ from plantar.sim.judging.recovery import Recovery
 from plantar.sim.judging.velocity_truth import VelocityTruth
 from plantar.sim.judging.walk_goal import WalkGoal
 from plantar.sim.judging.zmp_comparison import ZmpComparison
+from plantar.sim.loop import Progress, Result, Run
 from plantar.sim.model.world import World, build_world, check_stable
 from plantar.sim.plant.draw import drawn_plant
 from plantar.sim.run.hand_pushing import upper_body_skin_of
 from plantar.sim.run.log import RunLog
 from plantar.sim.run.planned_walk import planned_feet
 from plantar.sim.run.pushing import Pusher
-from plantar.sim.run.run_summary import Result, summary_of
+from plantar.sim.run.run_summary import summary_of
 from plantar.sim.run.scene import SECTIONS, Push, Scene
 from plantar.sim.run.servos import LegServos
 from plantar.sim.run.standing import stand
@@ -57,14 +58,11 @@ from plantar.sim.sensing.sensors import SensorSuite
 
 __all__ = ["Simulation", "run_scene"]
 
-Progress = Callable[[float, str], None]
-
 _MEMBERS = frozenset(Percept.members())
 _AROUND = 0.25  # leg around a sole within which an edge may be why a step is moved
-_LONGEST = 5  # times its first duration, after which a run whose end is put off again and again is cut off
 
 
-class Simulation:
+class Simulation(Run):
     """A scene with a robot in it, ready to run.
 
     Args:
@@ -147,6 +145,10 @@ class Simulation:
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing, begin)
         plain = PlainGround(ground, {s: robot.layouts[s].outline for s in SIDES}, _AROUND * self.body.leg)
         self.judge = Judge(self.world, self.settings.com_height, goal, plain)
+        self.periods = self.world.period, self.settings.period
+        self.skipped = Counter(percept_members=0, recorded_ticks=0, rendered_frames=0)
+        self._everything = scene.control.skip == "none"
+        self._log: RunLog | None = None
 
     def build_world(self, others: Sequence[Visitor]) -> World:
         """The world of this run, with the robot, its ground and who else is in it.
@@ -181,37 +183,68 @@ class Simulation:
             return self.controller.end
         return max(self.controller.end, self.velocities.times[-1] + self.settings.timing.settle)
 
-    def run(
-        self,
-        *,
-        record: str | os.PathLike[str] | None = None,
-        video: str | os.PathLike[str] | None = None,
-        progress: Progress | None = None,
-    ) -> dict[str, Any]:
-        """Run the scene to its end or to the fall.
+    @property
+    def ended(self) -> bool:
+        """Whether the robot fell."""
+        return self.judge.fall is not None
 
-        Args:
-            record: MCAP file to write; a run that is killed leaves what it had flushed.
-            video: MP4 file to write, in real time.
-            progress: Called about ten times a second with the fraction done and a text.
+    def state_text(self) -> str:
+        """Time, and landings so far."""
+        return f"{self.world.data.time:.1f} s, {len(self.judge.landings)} landings for {len(self.steps)} steps"
 
-        Returns:
-            The summary (see DESIGN: `plantar sim --json`).
+    def open_log(self, path: Path, files: ExitStack) -> None:
+        """Begin the recording."""
+        log = RunLog(path, self.world, self._identity(), zmps=bool(self.zmps), touch=self.touch, arm=self.arm)
+        self._log = files.enter_context(log)
 
-        Raises:
-            SceneError: If the simulated physics becomes unstable.
-        """
-        with ExitStack() as stack:
-            log = film = None
-            if record is not None:
-                identity, touch = self._identity(), self.touch
-                log = stack.enter_context(
-                    RunLog(Path(record), self.world, identity, zmps=bool(self.zmps), touch=touch, arm=self.arm)
-                )
-            if video is not None:
-                film = stack.enter_context(Film(video, self.world))
-            result = self._loop(log, film, progress)
+    def open_film(self, path: Path, files: ExitStack) -> Callable[[], None]:
+        """Begin a video of the robot and the taxels of its soles."""
+        film = files.enter_context(Film(path, self.world))
+        return lambda: film.add(self.sensors.readings)
+
+    def summary(self, result: Result) -> dict[str, Any]:
+        """The summary, after the loop has ended."""
+        if self.judge.fall is not None and self._log is not None:
+            self._log.say(self.world.data.time, self.judge.fall[2], "error")
+        if self.sensors.proximity:
+            self.skipped["proximity_rays"] = sum(s.skipped for s in self.sensors.proximity.values())
         return summary_of(self, result)
+
+    def plot(self, folder: Path, recording: Path) -> list[Path]:
+        """Draw balance, plane, feet and what else the scene has."""
+        return plot_run(recording, folder)
+
+    def sense(self, k: int) -> None:
+        """Read the soles where their rate has it."""
+        if k % self.sensors.skin_every == 0:
+            self.sensors.read_skins(self.controller.proximity_sides, self._everything)
+            if self._log is not None:
+                self._log.skin(self.sensors.readings)
+
+    def control(self) -> float:
+        """One tick of the controller and the inverse kinematics, whose wall time in us it returns."""
+        reading = self.sensors.read_body()
+        if self.arm is not None:
+            self.arm.step(reading.skin)
+            self.legs.hold_others(self.arm.angles)
+        start = clock.perf_counter()
+        command = self.controller.step(reading)
+        joints = self.servos.command(command)
+        used = 1e6 * (clock.perf_counter() - start)
+        self._tick = reading, command, joints
+        self.skipped["percept_members"] += self.compute_rest(command, self._everything)
+        return used
+
+    def advance(self) -> None:
+        """Servos, pushes and moving ground, one step of the physics, and the judge's look at it."""
+        self.servos.drive()
+        if self.pusher.shoves:
+            self.pusher.apply(self.world)
+        if self.world.moving_ground:
+            self.world.move_ground()
+        self.step_physics()
+        if self.judge.step():
+            check_stable(self.world.data.warning.number)
 
     def step_physics(self) -> None:
         """One step of the simulated physics, with the servos' set-points and pushes as they are now."""
@@ -220,71 +253,17 @@ class Simulation:
         else:
             self.touch.step()
 
-    def _loop(self, log: RunLog | None, film: Film | None, progress: Progress | None) -> Result:
-        world, data = self.world, self.world.data
-        controller, servos, sensors, judge = self.controller, self.servos, self.sensors, self.judge
-        everything = self.scene.control.skip == "none"
-        pushes, warnings = bool(self.pusher.shoves), data.warning.number
-        ticks: list[float] = []
-        skipped = {"percept_members": 0, "recorded_ticks": 0, "rendered_frames": 0}
-        began = shown = clock.perf_counter()
-        k, last = 0, math.ceil(self.end / world.period)
-        longest = _LONGEST * last
-        tick_every = round(self.settings.period / world.period)
-        frame_every = max(1, round(1.0 / (FRAME_RATE * world.period)))
-        skin_every, step_physics, judge_step = sensors.skin_every, self.step_physics, judge.step
-        drive, moving_ground = servos.drive, bool(world.moving_ground)
-        while k < last and k < longest and judge.fall is None:
-            if k % skin_every == 0:
-                sensors.read_skins(controller.proximity_sides, everything)
-                if log is not None:
-                    log.skin(sensors.readings)
-            is_tick = k % tick_every == 0
-            if is_tick:
-                reading = sensors.read_body()
-                if self.arm is not None:
-                    self.arm.step(reading.skin)
-                    self.legs.hold_others(self.arm.angles)
-                start = clock.perf_counter()
-                command = controller.step(reading)
-                joints = servos.command(command)
-                ticks.append(1e6 * (clock.perf_counter() - start))
-                last = math.ceil(self.end / world.period)  # a change of the plan may make it later
-                skipped["percept_members"] += self.compute_rest(command, everything)
-                if progress is not None and start - shown > 0.1:
-                    shown = start
-                    progress(
-                        data.time / self.end,
-                        f"{data.time:.1f} s, {len(judge.landings)} landings for {len(self.steps)} steps",
-                    )
-            if k % frame_every == 0:
-                if film is not None:
-                    film.add(sensors.readings)
-                else:
-                    skipped["rendered_frames"] += 1
-            drive()
-            if pushes:
-                self.pusher.apply(world)
-            if moving_ground:
-                world.move_ground()
-            step_physics()
-            if judge_step():
-                check_stable(warnings)
-            if is_tick:  # what MuJoCo computed in this step belongs to the instant of the tick
-                self._judge_tick(reading, command)
-                if log is not None:
-                    log.tick(reading, command, controller.plan.view, joints, judge.truth(), judge.loads)
-                    if self.zmps is not None:
-                        log.zmps(reading.time, *self.zmps.latest)
-                else:
-                    skipped["recorded_ticks"] += 1
-            k += 1
-        if judge.fall is not None and log is not None:
-            log.say(data.time, judge.fall[2], "error")
-        if sensors.proximity:
-            skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())
-        overrun = (float(data.time), longest * world.period / _LONGEST) if k >= longest else None
-        return Result(ticks, clock.perf_counter() - began, skipped, overrun)
+    def after_tick(self) -> None:
+        """Judge and record a tick: what MuJoCo computed in the step after it belongs to its instant."""
+        reading, command, joints = self._tick
+        self._judge_tick(reading, command)
+        if self._log is None:
+            self.skipped["recorded_ticks"] += 1
+            return
+        judge = self.judge
+        self._log.tick(reading, command, self.controller.plan.view, joints, judge.truth(), judge.loads)
+        if self.zmps is not None:
+            self._log.zmps(reading.time, *self.zmps.latest)
 
     def _judge_tick(self, reading: Sensors, command: Command) -> None:
         """Hand what the controller estimated and asked for at a tick to all judges, after its physics step."""

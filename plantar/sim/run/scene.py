@@ -36,7 +36,6 @@ __all__ = [
     "override",
     "scene_file",
     "scene_of",
-    "setting_name",
 ]
 
 _FOLDER = Path(__file__).parent.parent / "scenes"
@@ -167,6 +166,34 @@ class Scene:
         """Distance in m that the soles see."""
         return self.sensing.proximity_range
 
+    def setting_name(self, key: str) -> str:
+        """Full name of a setting's key.
+
+        Args:
+            key: Any name that the setting is given by.
+
+        Returns:
+            "section.key", or "robot".
+
+        Raises:
+            SceneError: If the scene has no such key.
+
+        Example:
+            >>> load_scene("flat").setting_name("t_ss")
+            'walk.single_support'
+        """
+        full = _ALIASES.get(key.strip(), key.strip())
+        if full == "robot":
+            return full
+        section, _, name = full.rpartition(".")
+        for owner in (section,) if section else SECTIONS:
+            if owner in SECTIONS and name in getattr(self, owner).names():
+                return f"{owner}.{name}"
+        owners = [s for s in CONTROLLER_TABLES if name in controller_keys(s) and section in ("", s)]
+        if len(owners) == 1:
+            return f"{owners[0]}.{name}"
+        raise SceneError(f"scene '{self.name}' has no setting '{key}'")
+
     def for_body(self, body: BodyScale) -> Scene:
         """The scene for a robot: shares of a body in numbers of this one.
 
@@ -246,36 +273,6 @@ def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
     if not isinstance(kind, str) or kind not in terrain_kinds():
         raise SceneError(f"terrain.kind is {kind!r}; allowed: {', '.join(terrain_kinds())}")
     return {"terrain": terrain_kinds()[kind]}
-
-
-def setting_name(scene: Scene, key: str) -> str:
-    """Full name of a setting's key.
-
-    Args:
-        scene: A scene that has the setting; its kind of terrain decides which keys there are.
-        key: Any name that the setting is given by.
-
-    Returns:
-        "section.key", or "robot".
-
-    Raises:
-        SceneError: If the scene has no such key.
-
-    Example:
-        >>> setting_name(load_scene("flat"), "t_ss")
-        'walk.single_support'
-    """
-    full = _ALIASES.get(key.strip(), key.strip())
-    if full == "robot":
-        return full
-    section, _, name = full.rpartition(".")
-    for owner in (section,) if section else SECTIONS:
-        if owner in SECTIONS and name in getattr(scene, owner).names():
-            return f"{owner}.{name}"
-    owners = [s for s in CONTROLLER_TABLES if name in controller_keys(s) and section in ("", s)]
-    if len(owners) == 1:
-        return f"{owners[0]}.{name}"
-    raise SceneError(f"scene '{scene.name}' has no setting '{key}'")
 
 
 def scene_file(name: str | os.PathLike[str]) -> Path:

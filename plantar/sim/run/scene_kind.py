@@ -12,18 +12,17 @@ from typing import TYPE_CHECKING, Any
 
 from plantar.errors import SceneError
 from plantar.files.structured_text import read_toml
-from plantar.sim.run.scene import Scene, scene_file, scene_of, setting_name
+from plantar.sim.run.scene import Scene, scene_file, scene_of
 
 if TYPE_CHECKING:
     from plantar.sim.companion.scene import CompanionScene
+    from plantar.sim.loop import Run
 
 __all__ = [
-    "full_setting_name",
     "open_scene",
     "robot_file_of",
     "run",
-    "run_opened",
-    "summary_text",
+    "simulation_of",
 ]
 
 
@@ -56,26 +55,6 @@ def open_scene(
     return scene_of(source, path, settings, robot)
 
 
-def full_setting_name(scene: Scene | CompanionScene, key: str) -> str:
-    """Full name of a setting's key in a scene.
-
-    Args:
-        scene: The scene.
-        key: Any name that the setting is given by.
-
-    Returns:
-        "table.name", or "robot".
-
-    Raises:
-        SceneError: If the scene has no such key.
-    """
-    if isinstance(scene, Scene):
-        return setting_name(scene, key)
-    from plantar.sim.companion.scene import companion_setting_name
-
-    return companion_setting_name(scene, key)
-
-
 def robot_file_of(scene: Scene | CompanionScene) -> Path:
     """The TOML of a scene's robot or machine.
 
@@ -91,23 +70,27 @@ def robot_file_of(scene: Scene | CompanionScene) -> Path:
     return load_machine(scene.robot).path
 
 
-def run_opened(scene: Scene | CompanionScene, seed: int) -> dict[str, Any]:
-    """Run a scene of either kind.
+def simulation_of(scene: Scene | CompanionScene, seed: int) -> Run:
+    """Build a scene of either kind.
 
     Args:
         scene: The scene.
         seed: Seed of what is left to chance.
 
     Returns:
-        The summary.
+        The run, which has not begun.
+
+    Raises:
+        SceneError: If the scene cannot be simulated.
+        RobotError: If the robot is unknown or not valid.
     """
     if isinstance(scene, Scene):
-        from plantar.sim.run.runner import run_scene
+        from plantar.sim.run.runner import Simulation
 
-        return run_scene(scene, seed)
-    from plantar.sim.companion.runner import run_companion
+        return Simulation(scene, seed)
+    from plantar.sim.companion.runner import Companion
 
-    return run_companion(scene, seed)
+    return Companion(scene, seed)
 
 
 def run(
@@ -135,7 +118,7 @@ def run(
 
     Raises:
         SceneError: If the scene cannot be run.
-        InputError: If a file or folder cannot be written, or the scene cannot be recorded.
+        InputError: If a file or folder cannot be written.
 
     Example:
         >>> run("flat", 0)["completed"]  # doctest: +SKIP
@@ -143,21 +126,4 @@ def run(
     """
     if isinstance(scene, str | os.PathLike):
         scene = open_scene(scene)
-    if isinstance(scene, Scene):
-        from plantar.sim.run.run_files import run_to_files
-
-        return run_to_files(scene, seed, record=record, video=video, plot=plot, progress=progress)
-    from plantar.sim.companion.runner import run_companion_to_files
-
-    return run_companion_to_files(scene, seed, record=record, video=video, plot=plot, progress=progress)
-
-
-def summary_text(summary: dict[str, Any]) -> str:
-    """A run's summary for people."""
-    if "steps_planned" in summary:
-        from plantar.sim.run.run_text import run_text
-
-        return run_text(summary)
-    from plantar.sim.companion.companion_text import companion_text
-
-    return companion_text(summary)
+    return simulation_of(scene, seed).run_to_files(record, video, plot, progress)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from plantar.errors import InputError, SceneError
 from plantar.sim.run.scene import Scene
-from plantar.sim.run.scene_kind import full_setting_name, open_scene, robot_file_of
+from plantar.sim.run.scene_kind import open_scene, robot_file_of
 from plantar.sim.sweep.grid import canonical, is_word, split_values
 from plantar.sim.sweep.intervals import wilson_interval
 from plantar.sim.sweep.runs import Rows, Run, key_of, settings_of
@@ -221,7 +221,7 @@ class Sweep:
         scene = self.opened(self.points()[0])
         settings = {}
         for key, _, value in (s.partition("=") for s in self.settings):
-            name = full_setting_name(scene, key)
+            name = scene.setting_name(key)
             settings[name] = canonical(value, word=is_word(name))
         return {
             "scene": Path(self.scene).name,
@@ -237,11 +237,11 @@ class Sweep:
         seen: dict[str, str] = {}
         for point in self.points():
             scene = self.opened(point)
-            origin = dict.fromkeys((full_setting_name(scene, key) for key in given), "--set")
+            origin = dict.fromkeys((scene.setting_name(key) for key in given), "--set")
             if self.robot is not None:
                 origin["robot"] = "--robot"
             for name, _ in self.grid:
-                full = full_setting_name(scene, name)
+                full = scene.setting_name(name)
                 if full in origin:
                     raise InputError(f"grid '{name}' gives what {origin[full]} gives already: {full}; give it once")
                 origin[full] = f"grid '{name}'"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from plantar.errors import DependencyError, InputError, PlantarError
 from plantar.sim.run.scene import Scene
-from plantar.sim.run.scene_kind import open_scene, run_opened
+from plantar.sim.run.scene_kind import open_scene, simulation_of
 from plantar.sim.sweep.inputs import changes, inputs_of
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -
     """
     try:
         loaded = open_scene(scene, settings, robot)
-        summary = run_opened(loaded, seed)
+        summary = simulation_of(loaded, seed).run()
     except DependencyError:  # no run will be possible here
         raise
     except PlantarError as error:

@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 
-from plantar.errors import InputError, SceneError
+from plantar.errors import SceneError
+from plantar.recordings.recording import read_mcap
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion import experiment as experiments
 from plantar.sim.companion.experiment import Experiment, Verdict, failed
-from plantar.sim.companion.runner import Companion, run_companion, run_companion_to_files
-from plantar.sim.companion.scene import companion_scene, companion_setting_name
+from plantar.sim.companion.runner import Companion
+from plantar.sim.companion.scene import companion_scene
+from plantar.sim.run.run_text import run_text
 from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.posture import Posture
 
@@ -59,14 +61,14 @@ def scene(monkeypatch, tmp_path):
 
 @pytest.mark.parametrize("servo", ["torque", "velocity", "position"])
 def test_posture_is_held_with_every_kind_of_drive(scene, servo):
-    summary = run_companion(scene(f"servo={servo}"), 3)
+    summary = Companion(scene(f"servo={servo}"), 3).run()
     assert summary["completed"], summary["reasons"]
     assert summary["error"] < 0.01
     assert summary["sim_time_s"] == pytest.approx(0.2)
 
 
 def test_one_seed_is_one_run(scene):
-    first, again, other = (run_companion(scene(), seed)["error"] for seed in (1, 1, 2))
+    first, again, other = (Companion(scene(), seed).run()["error"] for seed in (1, 1, 2))
     assert first == again != other
 
 
@@ -80,8 +82,8 @@ def test_controller_gets_noise_and_the_judge_does_not(scene):
 def test_settings_reach_every_table(scene):
     made = scene("control.period=0.004", "stiffness=2e7", "machine=planar-arm")
     assert (made.control.period, made.skin.stiffness, made.robot) == (0.004, 2e7, "planar-arm")
-    assert companion_setting_name(made, "stiffness") == "skin.stiffness"
-    assert companion_setting_name(made, "machine") == "robot"
+    assert made.setting_name("stiffness") == "skin.stiffness"
+    assert made.setting_name("machine") == "robot"
 
 
 @pytest.mark.parametrize(
@@ -106,6 +108,13 @@ def test_unknown_experiment_is_told_with_those_that_there_are():
         experiments.experiment_class("no-such")
 
 
-def test_recording_is_refused_in_a_line(scene, tmp_path):
-    with pytest.raises(InputError, match="no soles to record"):
-        run_companion_to_files(scene(), 0, record=tmp_path / "a.mcap")
+def test_a_run_leaves_its_recording_and_prints_as_walks_do(scene, tmp_path):
+    companion = Companion(scene(), 0)
+    summary = companion.run_to_files(tmp_path / "a.mcap", None, tmp_path / "plots", None)
+    run = read_mcap(tmp_path / "a.mcap")
+    assert run.topics["/body_skin"].fields["force"].shape == (100, len(companion.skin.skin))
+    assert np.ptp(run.topics["/joints"].fields["position"], axis=0).max() < 0.02
+    first, *lines = run_text(summary).splitlines()
+    assert first == "stand with mobile-arm, seed 0: completed, 0.2 s"
+    assert lines[0] == f"  error: {summary['error']:g}"
+    assert "x real time; control tick" in lines[1]

@@ -10,7 +10,7 @@ import pytest
 from plantar.errors import InputError, SceneError
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.plant.settings import RANDOM, Plant
-from plantar.sim.run.scene import load_scene, setting_name
+from plantar.sim.run.scene import load_scene
 
 SMALL = BodyScale(mass=3.0, leg=0.2, sole=0.1, sole_width=0.05)
 
@@ -44,7 +44,7 @@ def test_a_scene_file_says_it_as_a_word_or_as_a_table(tmp_path: Path) -> None:
     table.write_text('[walk]\nsteps = 2\n[plant]\ndraw = "random"\nmass_ratio = 1.1\n')
     assert load_scene(word).plant == Plant(draw=RANDOM)
     assert load_scene(word, ["mass_ratio=1.1"]).plant == load_scene(table).plant
-    assert setting_name(load_scene(word), "plant") == "plant.draw"
+    assert load_scene(word).setting_name("plant") == "plant.draw"
 
 
 def test_a_list_is_in_metres_or_in_shares_of_the_body() -> None:

@@ -5,7 +5,7 @@ import pytest
 from plantar.errors import SceneError
 from plantar.gait.propose.velocity_command import Velocity
 from plantar.settings.body_scale import BodyScale
-from plantar.sim.run.scene import builtin_scenes, load_scene, setting_name
+from plantar.sim.run.scene import builtin_scenes, load_scene
 from plantar.sim.run.scene_kind import open_scene
 from plantar.sim.run.shares import shares_told
 from plantar.sim.terrain import Beam
@@ -83,10 +83,10 @@ def test_a_kind_of_ground_that_is_no_text_is_refused(tmp_path: Path) -> None:
 def test_a_setting_has_one_full_name() -> None:
     scene = load_scene("beam")
     names = {"t_ss": "walk.single_support", "kind": "terrain.kind", "width": "terrain.width", "robot": "robot"}
-    assert {key: setting_name(scene, key) for key in names} == names
-    assert setting_name(scene, "push.impulse") == setting_name(scene, "impulse") == "push.impulse"
+    assert {key: scene.setting_name(key) for key in names} == names
+    assert scene.setting_name("push.impulse") == scene.setting_name("impulse") == "push.impulse"
     with pytest.raises(SceneError, match="no setting"):
-        setting_name(load_scene("flat"), "width")
+        load_scene("flat").setting_name("width")
 
 
 @pytest.mark.parametrize("text", ["", "# nothing\n", 'robot = "h1"\n', 'name = "mine"\n[push]\nimpulse = 20.0\n'])

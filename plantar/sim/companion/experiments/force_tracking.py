@@ -172,10 +172,8 @@ class ForceTracking(Experiment):
         return found
 
     def add_to(self, spec: Any) -> None:
-        spec.worldbody.add_light(pos=[0.0, 0.0, 4.0])
         floor = spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5.0, 5.0, 0.1])
-        floor.contype = floor.conaffinity = 0
-        floor.rgba = [0.75, 0.77, 0.8, 1.0]
+        floor.contype, floor.conaffinity, floor.material = 0, 0, "ground"
         board = spec.worldbody.add_body(name="object", pos=[2.0, 0.0, 1.0], mocap=True)
         shape = board.add_geom(name="object", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_HALF_THICK, 0.75, 0.85])
         shape.group, shape.rgba = OBSTACLE_GROUP, [0.6, 0.75, 0.65, 0.6]

@@ -102,6 +102,8 @@ class Lean(StandingExperiment):
             seen = spec.worldbody.add_geom(name=f"{side}_seen", type=box, size=[*half, 0.01], group=OBSTACLE_GROUP)
             seen.pos, seen.rgba = [*middle, -0.01 - _SEEN_LOWER], [0.72, 0.74, 0.72, 0.0]
             seen.contype = seen.conaffinity = 0
+        floor = spec.worldbody.add_geom(name="below", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5.0, 5.0, 0.1])
+        floor.pos, floor.material, floor.contype, floor.conaffinity = [0.0, 0.0, -0.1], "ground", 0, 0  # for pictures
         middle = self.stance.places["left_foot"][0]
         table = spec.worldbody.add_geom(name="table", type=box, size=[0.3, 0.3, 0.02], group=OBSTACLE_GROUP)
         table.pos, table.rgba = [middle + self.edge + 0.3, -0.42, self.height - 0.02], [0.66, 0.5, 0.36, 1.0]

@@ -24,7 +24,7 @@ SOLE_SITE = "{side}_sole"
 def add_floor(spec: Any) -> None:
     """Add a level ground z = 0, which carries soles; skin does not feel it."""
     plane = mujoco.mjtGeom.mjGEOM_PLANE
-    floor = spec.worldbody.add_geom(name="floor", type=plane, size=[5.0, 5.0, 0.1], rgba=[0.75, 0.77, 0.75, 1.0])
+    floor = spec.worldbody.add_geom(name="floor", type=plane, size=[5.0, 5.0, 0.1], material="ground")
     floor.contype, floor.conaffinity = 2, 1
     floor.friction = [0.8, 0.005, 0.0001]
 

@@ -20,6 +20,7 @@ from plantar.sim.companion.standing.controller import StandingControl
 from plantar.sim.companion.standing.joint_range import JointRange
 from plantar.sim.companion.standing.pad import Pad
 from plantar.sim.companion.standing.stance import Stance, add_floor
+from plantar.sim.figures.render import View
 from plantar.sim.model.contact_truth import foot_contacts
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from plantar.wholebody.tasks.center_of_mass import CenterOfMass
@@ -46,6 +47,7 @@ class StandingExperiment(Experiment):
     """
 
     control_type: ClassVar = StandingControl
+    view: ClassVar = ("", View(2.7, 145.0, -10.0, 0.08))
     sides: ClassVar[tuple[str, ...]] = ("left", "right")
     """Feet that it stands on."""
     com_height: ClassVar[float | None] = None

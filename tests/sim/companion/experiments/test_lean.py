@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from plantar.sim.companion.runner import Companion, run_companion
+from plantar.sim.companion.runner import Companion
 from plantar.sim.companion.standing.lean_controller import _foremost
 from plantar.sim.run.scene_kind import open_scene
 
@@ -42,9 +42,9 @@ def test_the_load_of_the_ground_is_the_robot_s_weight():
 @pytest.mark.long
 @pytest.mark.parametrize("seed", [0, 1, 5])
 def test_the_forearm_carries_what_the_feet_cannot(seed):
-    summary = run_companion(open_scene("lean"), seed)
+    summary = Companion(open_scene("lean"), seed).run()
     assert summary["completed"], summary["reasons"]
     assert summary["beyond_mm"] > 10.0
     assert min(summary["forearm_N"]) > 50.0
-    blind = run_companion(open_scene("lean", ["skin=false"]), seed)
+    blind = Companion(open_scene("lean", ["skin=false"]), seed).run()
     assert blind["fell"]

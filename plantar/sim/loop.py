@@ -1,0 +1,227 @@
+"""The loop of every run, a walk or an experiment on a machine with skin: sensors, control and physics in turn."""
+
+from __future__ import annotations
+
+import math
+import os
+import time as clock
+from abc import ABC, abstractmethod
+from collections import Counter
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from plantar.atomic import output_folder, parent_folder
+from plantar.sim.figures.render import FRAME_RATE
+
+__all__ = ["Progress", "Result", "Run"]
+
+Progress = Callable[[float, str], None]
+"""Takes the fraction done and a text, about ten times a second."""
+
+_LONGEST = 5  # times its first duration, after which a run whose end is put off again and again is cut off
+
+
+@dataclass(frozen=True)
+class Result:
+    """What the loop of a run leaves behind.
+
+    Attributes:
+        ticks_us: Wall time of each control tick in us.
+        wall_time: Wall time of the run in s.
+        overrun: Time in s at which the run was cut off, and its end in s as planned at first; None for no cut.
+    """
+
+    ticks_us: list[float]
+    wall_time: float
+    overrun: tuple[float, float] | None
+
+
+class Run(ABC):
+    """A scene that is built and ready to run.
+
+    Attributes:
+        seed: Seed of sensor noise and of what the scene leaves to chance.
+        periods: Physics step and control period in s.
+        skipped: How often what was not computed.
+    """
+
+    seed: int
+    periods: tuple[float, float]
+    skipped: Counter[str]
+
+    @property
+    @abstractmethod
+    def end(self) -> float:
+        """Simulated time in s at which the run is over, as planned now."""
+
+    @property
+    @abstractmethod
+    def ended(self) -> bool:
+        """Whether it is over before, for example by a fall."""
+
+    @abstractmethod
+    def sense(self, k: int) -> None:
+        """Read what is measured at physics step k."""
+
+    @abstractmethod
+    def control(self) -> float:
+        """One control tick.
+
+        Returns:
+            Wall time in us that the controller took.
+        """
+
+    @abstractmethod
+    def advance(self) -> None:
+        """One physics step with what drives and disturbs the robot, and the judge's look at it."""
+
+    def after_tick(self) -> None:  # noqa: B027
+        """What follows the physics step that began with a control tick."""
+
+    @abstractmethod
+    def state_text(self) -> str:
+        """How far the run is, for the progress bar."""
+
+    @abstractmethod
+    def open_log(self, path: Path, files: ExitStack) -> None:
+        """Begin the recording, and close it with `files`."""
+
+    @abstractmethod
+    def open_film(self, path: Path, files: ExitStack) -> Callable[[], None]:
+        """Begin a video.
+
+        Returns:
+            A function that adds a frame.
+        """
+
+    @abstractmethod
+    def summary(self, result: Result) -> dict[str, Any]:
+        """The run's summary, as `plantar sim --json` prints it."""
+
+    @abstractmethod
+    def plot(self, folder: Path, recording: Path) -> Sequence[Path]:
+        """Draw the figures of a run that has ended.
+
+        Returns:
+            Their files.
+        """
+
+    def run(
+        self,
+        *,
+        record: str | os.PathLike[str] | None = None,
+        video: str | os.PathLike[str] | None = None,
+        progress: Progress | None = None,
+    ) -> dict[str, Any]:
+        """Run to the end or to the fall.
+
+        Args:
+            record: MCAP file to write; a run that is killed leaves what it had flushed.
+            video: MP4 file to write, in real time.
+            progress: Called about ten times a second with the fraction done and a text.
+
+        Returns:
+            The summary.
+
+        Raises:
+            SceneError: If the simulated physics becomes unstable.
+        """
+        with ExitStack() as files:
+            if record is not None:
+                self.open_log(Path(record), files)
+            return self.summary(self._loop(None if video is None else self.open_film(Path(video), files), progress))
+
+    def run_to_files(
+        self, record: Path | None, video: Path | None, plot: Path | None, progress: Progress | None
+    ) -> dict[str, Any]:
+        """Run, record, film and draw; all files appear whole, or none does.
+
+        Args:
+            record: File of the recording, .mcap; None leaves none behind.
+            video: File of the video, .mp4; None makes none.
+            plot: Folder of the figures; None draws none.
+            progress: Called with the fraction done and a text.
+
+        Returns:
+            The summary, with the paths of the figures under "figures" where they were drawn.
+
+        Raises:
+            SceneError: If the scene cannot be run.
+            InputError: If a file or folder cannot be written.
+        """
+        with ExitStack() as files:
+            folder = None if plot is None else files.enter_context(output_folder(plot))
+            for file in (record, video):
+                if file is not None:
+                    files.enter_context(parent_folder(file))
+            # Figures are drawn from a recording, whether or not it is kept.
+            kept = folder / "run.mcap" if record is None and folder is not None else record
+            summary = self.run(record=kept, video=video, progress=progress)
+            if plot is not None and folder is not None and kept is not None:
+                summary["figures"] = [str(plot / file.name) for file in self.plot(folder, kept)]
+                if record is None:
+                    kept.unlink()
+        return summary
+
+    def _loop(self, add_frame: Callable[[], None] | None, progress: Progress | None) -> Result:
+        step, tick = self.periods
+        tick_every, frame_every = max(1, round(tick / step)), max(1, round(1.0 / (FRAME_RATE * step)))
+        ticks: list[float] = []
+        began = shown = clock.perf_counter()
+        k, last = 0, math.ceil(self.end / step)
+        longest = _LONGEST * last
+        while k < last and k < longest and not self.ended:
+            self.sense(k)
+            is_tick = k % tick_every == 0
+            if is_tick:
+                ticks.append(self.control())
+                last = math.ceil(self.end / step)  # a change of the plan may make it later
+                if progress is not None and (now := clock.perf_counter()) - shown > 0.1:
+                    shown = now
+                    progress(k * step / self.end, self.state_text())
+            if k % frame_every == 0:
+                if add_frame is None:
+                    self.skipped["rendered_frames"] += 1
+                else:
+                    add_frame()
+            self.advance()
+            if is_tick:
+                self.after_tick()
+            k += 1
+        overrun = (k * step, longest * step / _LONGEST) if k >= longest else None
+        return Result(ticks, clock.perf_counter() - began, overrun)
+
+    def common(
+        self, result: Result, names: tuple[str, str], reasons: list[dict[str, Any]], fell: bool, time: float
+    ) -> dict[str, Any]:
+        """The part of a summary that all kinds of runs share.
+
+        Args:
+            result: What the loop left behind.
+            names: Names of scene and robot.
+            reasons: Every criterion that failed.
+            fell: Whether the robot fell.
+            time: Simulated time in s.
+
+        Returns:
+            The values by name.
+        """
+        ticks = np.array(result.ticks_us or [0.0])
+        return {
+            "scene": names[0],
+            "robot": names[1],
+            "seed": self.seed,
+            "completed": not reasons and not fell,
+            "reasons": reasons,
+            "fell": fell,
+            "sim_time_s": round(time, 4),
+            "wall_time_s": round(result.wall_time, 4),
+            "real_time_factor": round(time / max(result.wall_time, 1e-9), 2),
+            "control_us": {f"p{share}": round(float(np.percentile(ticks, share)), 1) for share in (50, 99)},
+            "skipped": dict(self.skipped),
+        }
