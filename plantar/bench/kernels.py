@@ -1,4 +1,4 @@
-"""Run time against error of the perception's kernels, beside other libraries and routes."""
+"""Run time against error of the perception's kernels, next to other libraries and routes."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.bench import references as exact
 from plantar.bench import rivals
 from plantar.bench.comparison import Reference, Result, Route, compare
-from plantar.bench.random_cells import random_outline
-from plantar.bench.soles import Contact, contacts
+from plantar.bench.soles import Contact, contacts, random_outline
 from plantar.geometry import enclosing, inscribed, polygon
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.percepts.percept import Percept
@@ -21,6 +21,7 @@ from plantar.sensing.reading import Reading
 __all__ = ["OFFSET", "RANDOM", "compare_random_cells", "compare_shapes"]
 
 Array = NDArray[np.float64]
+Compared = tuple[list[Route], Reference]
 
 OFFSET = 0.01
 """Distance in m of the inner offset that is measured."""
@@ -42,7 +43,7 @@ def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Resul
     found = contacts(size)
     few = found[:4] if size == "dense" else found[:6]
     hulls = [polygon.convex_hull(c.points) for c in few]
-    measures: tuple[tuple[str, Callable[[], tuple[list[Route], Reference]]], ...] = (
+    measures: tuple[tuple[str, Callable[[], Compared]], ...] = (
         ("hull + area", lambda: _hull(found if size != "dense" else few)),
         ("concave outline", lambda: _outline(few)),
         ("closest point", lambda: _closest(hulls)),
@@ -89,16 +90,15 @@ def _size(ring: Array) -> float:
     return abs(polygon.area(ring))
 
 
-def _hull(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
-    kernel = found[0].layout.kernel
+def _hull(found: Sequence[Contact]) -> Compared:
+    layout, corners = found[0].layout, rivals.Corners(found[0].layout)
     masks = [c.active for c in found]
     points = [c.points for c in found]
-    corners = rivals.Corners(found[0].layout)
     routes = [
-        Route("plantar, from active taxels", kernel.hull, masks, lambda r: r[1], ours=True),
+        Route("plantar, from active taxels", layout.kernel.hull, masks, lambda r: r[1], ours=True),
         Route(
             "plantar, through a Percept",
-            lambda f: Percept(found[0].layout, Reading(0.0, f)).support_area,
+            lambda f: Percept(layout, Reading(0.0, f)).support_area,
             [c.force for c in found],
             ours=True,
         ),
@@ -108,133 +108,121 @@ def _hull(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
         Route("shapely convex_hull, from active taxels", lambda m: rivals.hull_shapely(corners.of(m)), masks),
         Route("shapely convex_hull, points ready", rivals.hull_shapely, points),
         Route("cv2 convexHull (float32)", rivals.hull_cv2, [p.astype(np.float32) for p in points]),
-        Route("plain Python loops", rivals.hull_in_loops, [[tuple(q) for q in p.tolist()] for p in points]),
     ]
     return routes, Reference([exact.hull_area_exact(p) for p in points])
 
 
-def _outline(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
-    import shapely
-
+def _outline(found: Sequence[Contact]) -> Compared:
     layout = found[0].layout
     cells = [c.cells for c in found]
     points = [c.points for c in found]
     radius = 1.1 * float(np.sqrt(layout.cell_area * 2.0 / (3.0 * np.sqrt(3.0))))
     routes = [
+        Route("plantar", lambda mask: concave_outline(layout, mask).area, [c.active for c in found], ours=True),
+        Route("shapely coverage_union_all", lambda c: shapely.coverage_union_all(shapely.polygons(c)).area, cells),
+        Route("shapely union_all", lambda c: shapely.union_all(shapely.polygons(c)).area, cells),
         Route(
-            "plantar",
-            lambda mask: concave_outline(layout, mask).area,
-            [c.active for c in found],
-            ours=True,
+            "shapely concave_hull",
+            lambda p: shapely.concave_hull(shapely.multipoints(p), ratio=0.3).area,
+            points,
+            approximate=True,
         ),
-        Route("shapely coverage_union_all", rivals.outline_coverage, cells),
-        Route(
-            "shapely coverage_union_all, polygons ready", rivals.coverage_ready, [shapely.polygons(c) for c in cells]
-        ),
-        Route("shapely union_all", rivals.outline_union, cells),
-        Route("shapely concave_hull", rivals.concave_hull_area, points, approximate=True),
         Route("alpha shape (scipy Delaunay)", lambda p: rivals.alpha_shape_area(p, radius), points, approximate=True),
     ]
     return routes, Reference([exact.area_exact(c) for c in cells])
 
 
-def _closest(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
-    import shapely
-
+def _closest(hulls: Sequence[Array]) -> Compared:
     rng = np.random.default_rng(1)
     cases = [(h, h.mean(axis=0) + rng.uniform(-0.15, 0.15, 2)) for h in hulls for _ in range(3)]
-    prepared = [(shapely.Polygon(h), p) for h, p in cases]
-    lists = [([tuple(v) for v in h.tolist()], tuple(p.tolist())) for h, p in cases]
     routes = [
         Route("plantar", lambda case: polygon.closest_point(*case), cases, ours=True),
         Route("shapely nearest_points, with construction", rivals.closest_shapely, cases),
-        Route("shapely nearest_points, polygon ready", rivals.closest_shapely_ready, prepared),
-        Route("numpy, all edges", rivals.closest_numpy, cases),
-        Route("plain Python loops", rivals.closest_in_loops, lists),
     ]
-    values = [exact.closest_point_exact(h, p) for h, p in cases]
-    return routes, Reference(values, [float(np.ptp(h)) for h, _ in cases])
+    return routes, Reference([exact.closest_point_exact(*case) for case in cases], [float(np.ptp(h)) for h, _ in cases])
 
 
-def _offset(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+def _offset(hulls: Sequence[Array]) -> Compared:
     routes = [
         Route("plantar", lambda h: polygon.inner_offset(h, OFFSET), hulls, _size, ours=True),
-        Route("shapely buffer, mitred", lambda h: rivals.offset_shapely(h, OFFSET, "mitre"), hulls),
-        Route("shapely buffer, round", lambda h: rivals.offset_shapely(h, OFFSET, "round"), hulls),
+        Route(
+            "shapely buffer, mitred",
+            lambda h: shapely.buffer(shapely.Polygon(h), -OFFSET, join_style="mitre").area,
+            hulls,
+        ),
     ]
     return routes, Reference([exact.inner_offset_area(h, OFFSET) for h in hulls])
 
 
-def _triangle(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+def _triangle(hulls: Sequence[Array]) -> Compared:
     routes = [
         Route("plantar", inscribed.inscribed_triangle, hulls, _size, ours=True),
-        Route("numpy, all triples", rivals.triangle_numpy, hulls),
+        Route("numpy, all triples", rivals.triangle, hulls),
     ]
     return routes, Reference([exact.triangle_area_exact(h) for h in hulls])
 
 
-def _parallelogram(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+def _parallelogram(hulls: Sequence[Array]) -> Compared:
+    coarse = partial(exact.parallelogram_area, samples=48, finest=1.0)
     routes = [
         Route("plantar", inscribed.inscribed_parallelogram, hulls, _size, ours=True),
-        Route(
-            "numpy, 48 directions", partial(exact.parallelogram_area, samples=48, finest=1.0), hulls, approximate=True
-        ),
+        Route("numpy, 48 directions", coarse, hulls, approximate=True),
         Route("numpy, nested search", exact.parallelogram_area, hulls),
     ]
     return routes, Reference([exact.parallelogram_area(h) for h in hulls])
 
 
-def _circle(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
-    def radius(circle: inscribed.Circle) -> float:
-        return circle.radius
-
+def _circle(hulls: Sequence[Array]) -> Compared:
+    geos = "shapely maximum_inscribed_circle, default tolerance"
     routes = [
-        Route("plantar", inscribed.inscribed_circle, hulls, radius, ours=True),
-        Route("shapely maximum_inscribed_circle, default tolerance", rivals.circle_shapely, hulls, approximate=True),
-        Route(
-            "shapely maximum_inscribed_circle, to 1e-6",
-            partial(rivals.circle_shapely, tolerance=1e-6),
-            hulls,
-            approximate=True,
-        ),
+        Route("plantar", inscribed.inscribed_circle, hulls, lambda circle: circle.radius, ours=True),
+        Route(geos, lambda h: shapely.maximum_inscribed_circle(shapely.Polygon(h)).length, hulls, approximate=True),
     ]
     return routes, Reference([exact.circle_radius(h) for h in hulls])
 
 
-def _rectangle(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+def _rectangle(hulls: Sequence[Array]) -> Compared:
     routes = [
         Route("plantar", inscribed.inscribed_rectangle, hulls, _size, ours=True),
-        Route("scipy SLSQP", rivals.rectangle_slsqp, hulls),
-        Route("scipy SLSQP, exact gradients", lambda h: rivals.rectangle_slsqp(h, True), hulls),
+        Route("scipy SLSQP, exact gradients", rivals.rectangle_slsqp, hulls),
     ]
     return routes, Reference([exact.rectangle_area(h) for h in hulls])
 
 
-def _any_rectangle(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+def _any_rectangle(hulls: Sequence[Array]) -> Compared:
     routes = [
         Route("plantar", inscribed.inscribed_rectangle_any_angle, hulls, _size, ours=True),
-        Route("scipy SLSQP at 32 angles", rivals.rectangle_slsqp_any_angle, hulls, approximate=True),
+        Route(
+            "scipy SLSQP at 32 angles",
+            lambda h: max(map(rivals.rectangle_slsqp, rivals.turned(h, 32))),
+            hulls,
+            approximate=True,
+        ),
     ]
     return routes, Reference([exact.rectangle_area_any_angle(h) for h in hulls])
 
 
-def _outline_rectangle(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
+def _outline_rectangle(found: Sequence[Contact]) -> Compared:
     outlines = [concave_outline(c.layout, c.active) for c in found]
     rings = [list(o.rings) for o in outlines]
     routes = [
         Route("plantar", inscribed.rectangle_in_outline, outlines, _size, ours=True),
         Route("largestinteriorrectangle's method, 1 mm", rivals.interior_rectangle, rings, approximate=True),
-        Route("histogram stack, 1 mm", rivals.histogram_rectangle, rings, approximate=True),
     ]
     return routes, Reference([_best_known(o, 0.0) for o in outlines])
 
 
-def _outline_any_rectangle(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
+def _outline_any_rectangle(found: Sequence[Contact]) -> Compared:
     outlines = [concave_outline(c.layout, c.active) for c in found]
     rings = [list(o.rings) for o in outlines]
+
+    def rasters(rings: list[Array]) -> float:
+        turned = zip(*(rivals.turned(ring, 16) for ring in rings), strict=True)
+        return max(rivals.interior_rectangle(some) for some in turned)
+
     routes = [
         Route("plantar", inscribed.rectangle_in_outline_any_angle, outlines, lambda r: _size(r.corners), ours=True),
-        Route("histogram stack, 1 mm, 16 angles", rivals.histogram_any_angle, rings, approximate=True),
+        Route("largestinteriorrectangle's method, 1 mm, 16 angles", rasters, rings, approximate=True),
     ]
     return routes, Reference([_best_known_at_any_angle(o) for o in outlines])
 
@@ -264,25 +252,22 @@ def _best_known_at_any_angle(outline: Outline) -> float:
 
 def _area_inside(outline: Outline, corners: Array) -> float:
     """Area in m^2 of a rectangle that shapely finds inside an outline, else 0."""
-    import shapely
-
     parts = [shapely.Polygon(i[0], i[1:]) for i in outline.islands]
     outside = shapely.area(shapely.difference(shapely.Polygon(corners), shapely.union_all(parts)))
     return _size(corners) if outside < 1e-9 * _size(corners) else 0.0
 
 
-def _around(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+def _around(hulls: Sequence[Array]) -> Compared:
     routes = [
         Route("plantar", enclosing.enclosing_parallelogram, hulls, _size, ours=True),
-        Route("numpy, all pairs of edges", rivals.parallelogram_around_numpy, hulls),
+        Route("numpy, all pairs of edges", rivals.parallelogram_around, hulls),
     ]
     return routes, Reference([exact.least_parallelogram_area(h) for h in hulls])
 
 
-def _box(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+def _box(hulls: Sequence[Array]) -> Compared:
     routes = [
         Route("plantar", enclosing.oriented_box, hulls, _size, ours=True),
-        Route("shapely oriented_envelope", rivals.box_shapely, hulls),
-        Route("cv2 minAreaRect (float32)", rivals.box_cv2, [h.astype(np.float32) for h in hulls]),
+        Route("shapely oriented_envelope", lambda h: shapely.oriented_envelope(shapely.Polygon(h)).area, hulls),
     ]
     return routes, Reference([exact.least_box_area(h) for h in hulls])

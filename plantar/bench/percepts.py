@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar import batch
@@ -67,20 +68,14 @@ def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
             ours=True,
         ),
         Route("shapely + numpy", lambda p: [t.tick(f) for t, f in zip(tools, p, strict=True)], pairs, _flat),
-        Route(
-            "scipy + shapely + numpy", lambda p: [t.tick(f, True) for t, f in zip(tools, p, strict=True)], pairs, _flat
-        ),
     ]
     yield "walking tick", compare("walking tick", "both feet, 20 active", ticks, _ticks_exact(feet, pairs), rounds)
     forces = [np.concatenate(p) for p in pairs]
     columns = [_columns(s) for s in feet]
-    places = [s.positions for s in feet]
     maps = [s.wrench_map for s in feet]
     wrenches = [
         Route("plantar", lambda f: _wrenches(feet, f), forces, ours=True),
         Route("numpy, M @ f", lambda f: [maps[0] @ f[:51], maps[1] @ f[51:]], forces),
-        Route("numpy, sums of z forces", lambda f: [_sums(places[0], f[:51]), _sums(places[1], f[51:])], forces),
-        Route("numpy, np.cross", lambda f: [_cross(places[0], f[:51]), _cross(places[1], f[51:])], forces),
     ]
     truth = [
         np.array([exact.wrench_exact(c, f) for c, f in zip(columns, (g[:51], g[51:]), strict=True)]) for g in forces
@@ -89,7 +84,6 @@ def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
     members = [
         Route("plantar, every member", partial(_read_all, feet, poses), full, ours=True),
         Route("plantar, members not read", partial(_read_none, feet), full, ours=True),
-        Route("plantar, readings alone", _readings_alone, full, ours=True),
     ]
     yield "percept", compare("percept", "both feet, 20 active", members, None, rounds)
 
@@ -116,7 +110,7 @@ def _tick_of_percept(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
 
 
 class _Assembled:
-    """The same of one foot from shapely, scipy and numpy; what does not change is prepared."""
+    """The same of one foot from shapely and numpy; what does not change is prepared."""
 
     def __init__(self, layout: SoleLayout) -> None:
         self.threshold = layout.force_threshold
@@ -124,19 +118,12 @@ class _Assembled:
         self.positions = layout.positions[:, :2]
         self.corners = Corners(layout)
 
-    def tick(self, force: Array, qhull: bool = False) -> tuple[Any, ...]:
-        """What a tick needs, the hull from scipy's Qhull or from shapely's GEOS."""
-        import shapely
-
+    def tick(self, force: Array) -> tuple[Any, ...]:
+        """What a tick needs."""
         active = force > self.threshold
         kept = np.where(active, force, 0.0)
         points = self.corners.of(active)
-        if qhull:
-            from scipy.spatial import ConvexHull
-
-            hull = shapely.Polygon(points[ConvexHull(points).vertices])
-        else:
-            hull = shapely.convex_hull(shapely.multipoints(points))
+        hull = shapely.convex_hull(shapely.multipoints(points))
         middle = shapely.centroid(hull)
         safe = shapely.buffer(hull, -OFFSET, join_style="mitre")
         clamped = shapely.get_coordinates(shapely.shortest_line(safe, shapely.Point(_AIM)))[0]
@@ -207,16 +194,6 @@ def _wrenches(feet: tuple[SoleLayout, ...], force: Array) -> list[Array]:
 _EVERY = np.ones(51, dtype=bool)
 
 
-def _sums(positions: Array, force: Array) -> Array:
-    return np.array([0.0, 0.0, force.sum(), positions[:, 1] @ force, -(positions[:, 0] @ force), 0.0])
-
-
-def _cross(positions: Array, force: Array) -> Array:
-    pushes = np.zeros((len(force), 3))
-    pushes[:, 2] = force
-    return np.concatenate([pushes.sum(axis=0), np.cross(positions, pushes).sum(axis=0)])
-
-
 def _read_all(feet: tuple[SoleLayout, ...], poses: list[SolePose], readings: list[Reading]) -> None:
     percepts = [Percept(layout, r) for layout, r in zip(feet, readings, strict=True)]
     for percept in percepts:
@@ -234,11 +211,6 @@ _MEMBERS_OF_FEET = tuple(n for n in dir(FeetPercept) if not n.startswith("_"))
 def _read_none(feet: tuple[SoleLayout, ...], readings: list[Reading]) -> None:
     for layout, r in zip(feet, readings, strict=True):
         Percept(layout, Reading(r.time, r.force, r.proximity, r.temperature, r.acceleration))
-
-
-def _readings_alone(readings: list[Reading]) -> None:
-    for r in readings:
-        Reading(r.time, r.force, r.proximity, r.temperature, r.acceleration)
 
 
 def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
@@ -271,13 +243,12 @@ def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[
     part = force[: min(frames, 2000)] * (rng.random((min(frames, 2000), 1)) < 0.9)
     masks = part > level
     corners = Corners(layout)
-    points = [corners.of(m) for m in masks]
+    points = [corners.of(m) for m in masks[::10]]
     hulls = [
         Route("plantar", lambda f: batch.support_polygons(layout, f).area, [part], lambda a: a[::10], ours=True),
         Route("shapely, a loop", lambda f: [_area(corners.of(row > level)) for row in f], [part], lambda a: a[::10]),
-        Route("shapely, a loop, points ready", lambda ps: [_area(p) for p in ps], [points], lambda a: a[::10]),
     ]
-    areas = np.array([exact.hull_area_exact(p) if len(p) else 0.0 for p in points[::10]])
+    areas = np.array([exact.hull_area_exact(p) if len(p) else 0.0 for p in points])
     yield (
         "hull + area of a recording",
         compare("hull + area of a recording", f"{len(part)} x {TAXELS}", hulls, Reference([areas]), rounds, most=2.0),

@@ -1,17 +1,20 @@
-"""The soles and contacts that are measured: 51 cells of 691 mm^2 with 5, 20 or all active, and 1,000 small cells."""
+"""The soles and contacts that are measured: 51 cells of 691 mm^2 with 5, 20 or all active, and 1,000 small cells,
+and outlines of cells at random."""
 
 from __future__ import annotations
 
-from functools import cached_property
+import math
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.geometry.outline import Outline, concave_outline
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.layouts.tiling import hex_layout
 
-__all__ = ["SIZES", "Contact", "contacts", "foot_outline", "sole_of"]
+__all__ = ["SIZES", "Contact", "contacts", "foot_outline", "random_outline", "sole_of"]
 
 SIZES: dict[str, tuple[int, int]] = {"5": (51, 5), "20": (51, 20), "51": (51, 51), "dense": (1000, 850)}
 """Of each size that is measured: taxels on the sole, and how many of them about are active."""
@@ -112,3 +115,33 @@ def _contact(layout: SoleLayout, count: int, rng: np.random.Generator, scattered
     else:
         active = np.isin(np.arange(n), np.argsort(distance, kind="stable")[:count])
     return Contact(layout, active, np.where(active, rng.uniform(3.0, 60.0, n), 0.0))
+
+
+_CELL = 1e-5  # m^2: area of a cell at random
+
+
+@lru_cache(maxsize=4)
+def _lattice(cells: int) -> SoleLayout:
+    """A lattice of about so many hexagons, twice as long as wide."""
+    half = 0.5 * math.sqrt(0.5 * cells * _CELL)
+    return hex_layout([[-2 * half, -half], [2 * half, -half], [2 * half, half], [-2 * half, half]], cell_area=_CELL)
+
+
+def random_outline(active: int, share: float, seed: int) -> Outline:
+    """Outline of about so many active cells at random.
+
+    Args:
+        active: How many.
+        share: Share of the lattice's cells that are active.
+        seed: Of what is left to chance.
+
+    Returns:
+        The outline.
+
+    Example:
+        >>> outline = random_outline(50, 0.6, 0)
+        >>> 3e-4 < outline.area < 7e-4
+        True
+    """
+    layout = _lattice(round(active / share))
+    return concave_outline(layout, np.random.default_rng(seed).random(len(layout)) < share)

@@ -103,8 +103,7 @@ _TAKEN_BY: Mapping[str, tuple[str, ...]] = {
 def _scenes(output: Path, options: BenchOptions, tell: Progress) -> Told:
     """Walks over the settings that trade run time against error."""
     need_libraries("sim", *LIBRARIES)
-    from plantar.sim.bench.scenes.measure_scenes import measure_scenes
-    from plantar.sim.bench.scenes.scenes_page import scenes_text
+    from plantar.sim.bench.scenes.scenes_report import measure_scenes, scenes_text
 
     result = measure_scenes(output, tell, options.scene, options.robot, options.quick)
     return Told(result, scenes_text(result) + file_lines(str(output / name) for name in result["files"]))
@@ -127,8 +126,7 @@ _TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Told]] = {"scenes
 def _kernels(folder: Path, options: BenchOptions, tell: Progress) -> Told:
     """Kernels beside libraries."""
     need_libraries("sim", "scipy", "cv2")
-    from plantar.bench.kernel_text import kernel_text
-    from plantar.bench.report import measure_kernels
+    from plantar.bench.report import kernel_text, measure_kernels
 
     result = measure_kernels(folder, tell, rounds=3 if options.quick else 9)
     return Told(result, kernel_text(result))
@@ -137,8 +135,7 @@ def _kernels(folder: Path, options: BenchOptions, tell: Progress) -> Told:
 def _contact(folder: Path, options: BenchOptions, tell: Progress) -> Told:
     """Contact models beside MuJoCo's exact wrench."""
     need_libraries("sim", *LIBRARIES)
-    from plantar.sim.contact_models import measure_contact
-    from plantar.sim.contact_models.contact_text import contact_text
+    from plantar.sim.contact_models.report import contact_text, measure_contact
 
     result = measure_contact(folder, options.layout, tell)
     failed = () if result["holds"] else ("the chosen contact model is not as right as it must be",)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from plantar.sim.bench.markdown_table import markdown_table
+from plantar.bench.tables import markdown_table
 from plantar.sim.bench.room_times import ROOMS
 from plantar.sim.bench.skip_row import SkipRow
 

@@ -23,7 +23,7 @@ from plantar.sim.contact_models.candidate import CANDIDATES, Candidate, Contact
 from plantar.sim.contact_models.sole import Sole, build_sole
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
 
-__all__ = ["ContactRow", "Rig", "compare_contact_models", "full_stance", "on_beams", "run_times", "tip_over"]
+__all__ = ["ContactRow", "Rig", "compare_contact_models", "full_stance", "tip_over"]
 
 MASS = 43.0
 PLANE = '<geom name="ground" type="plane" size="2 2 0.1" {contact}/>'
@@ -161,7 +161,7 @@ def compare_contact_models(
     rows = []
     candidates = tuple(candidates)
     soles = [build_sole(candidate, layout, PLANE, mass=MASS, contact=contact) for candidate in candidates]
-    times = run_times(soles, layout)
+    times = _run_times(soles, layout)
     for i, (candidate, sole) in enumerate(zip(candidates, soles, strict=True)):
         if progress is not None:
             progress(i / len(candidates), candidate.name)
@@ -170,7 +170,7 @@ def compare_contact_models(
                 name=candidate.name,
                 **full_stance(sole, layout, seeds),
                 **tip_over(sole, layout),
-                **on_beams(candidate, layout, contact),
+                **_on_beams(candidate, layout, contact),
                 **times[i],
             )
         )
@@ -276,17 +276,8 @@ def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tup
     return (pivot - half) * 1e3 if rig.tilt() >= _TIPPED else math.inf, (shown - half) * 1e3
 
 
-def on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) -> dict[str, Any]:
-    """What touches on beams of 12 and 6 cm across the sole, at several offsets, loaded over the beam's middle.
-
-    Args:
-        candidate: Contact model of the sole.
-        layout: The sole.
-        contact: Contact parameters.
-
-    Returns:
-        The fields of `ContactRow` that it measures.
-    """
+def _on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) -> dict[str, Any]:
+    """What touches on beams of 12 and 6 cm across the sole, at several offsets, loaded over the beam's middle."""
     import shapely
 
     middle, half = _rectangle(layout)
@@ -321,18 +312,8 @@ def on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) 
     }
 
 
-def run_times(soles: Sequence[Sole], layout: SoleLayout, count: int = 300) -> list[dict[str, Any]]:
-    """Median times in us of a physics step and of a taxel reading in full-sole stance, taken in turns.
-
-    Args:
-        soles: The soles on flat ground; each takes a step before any takes the next, so that what else the machine
-            does meets all of them alike.
-        layout: Their layout.
-        count: Steps that each takes.
-
-    Returns:
-        The fields of `ContactRow` that it measures, for each sole.
-    """
+def _run_times(soles: Sequence[Sole], layout: SoleLayout, count: int = 300) -> list[dict[str, Any]]:
+    """Median times in us of a physics step and of a taxel reading in full-sole stance, taken in turns."""
     middle, half = _rectangle(layout)
     rigs = [Rig(sole, layout) for sole in soles]
     for rig in rigs:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -62,10 +62,6 @@ class ParameterRow:
     rebounds: int
     ripple_N: float
     step_us: float
-
-    def as_dict(self) -> dict[str, Any]:
-        """The row as plain numbers and text."""
-        return asdict(self)
 
 
 def study_contact_parameters(

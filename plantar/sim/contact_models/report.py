@@ -1,28 +1,38 @@
-"""The comparison as files: tables, a figure of error against run time, and one page with the choice."""
+"""The comparison of contact models: what is required, and its text, page, tables and figure."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from plantar.atomic import write_text
-from plantar.csv_table import csv_text, mapping_rows
+from plantar.bench.tables import Mark, draw_errors, made_on, markdown_table, write_rows
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.tiling import hex_layout
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.sim.contact_models.comparison import ContactRow, compare_contact_models
-from plantar.sim.contact_models.page import COP_LIMIT_MM, EDGE_LIMIT_MM, contact_page, holds
+from plantar.sim.contact_models.candidate import CANDIDATES, Contact
+from plantar.sim.contact_models.comparison import INNER, MASS, ContactRow, compare_contact_models
 from plantar.sim.contact_models.parameters import ParameterRow, study_contact_parameters
 
-__all__ = ["measure_contact", "write_contact_report"]
+__all__ = ["contact_text", "holds", "measure_contact", "write_contact_report"]
+
+COP_LIMIT_MM, EDGE_LIMIT_MM = 2.0, 1.0
+"""What is required of the chosen model: largest error of the centre of pressure in full-sole stance, and largest
+distance of the tip-over edge from the sole's edge."""
 
 _SOLE = ((-0.125, -0.0775), (0.125, -0.0775), (0.125, 0.0775), (-0.125, 0.0775))
 """The sole that is measured where none is given: 250 x 155 mm, in m."""
 
 _LEAST, _MOST = 1e-2, 150.0
 """Errors in mm that are drawn: smaller and larger ones are drawn there."""
+
+
+def holds(row: ContactRow) -> bool:
+    """Whether a contact model keeps what is required of the simulator's own."""
+    return row.cop_max_mm < COP_LIMIT_MM and max(abs(row.edge_x_mm), abs(row.edge_y_mm)) < EDGE_LIMIT_MM
 
 
 def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float, str], None]) -> dict[str, Any]:
@@ -46,9 +56,28 @@ def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float
         "chosen": rows[0].name,
         "holds": holds(rows[0]),
         "models": [r.as_dict() for r in rows],
-        "parameters": [p.as_dict() for p in parameters],
+        "parameters": [asdict(p) for p in parameters],
         "files": write_contact_report(folder, sole, rows, parameters),
     }
+
+
+def contact_text(result: Mapping[str, Any]) -> str:
+    """The comparison's main figures for people.
+
+    Args:
+        result: What `measure_contact` gave.
+
+    Returns:
+        Lines.
+    """
+    lines = [f"{'contact model':24}{'CoP max mm':>12}{'edge mm':>10}{'step us':>10}{'read us':>10}"]
+    for row in result["models"]:
+        x, y = row["edge_x_mm"], row["edge_y_mm"]
+        edge = "-" if None in (x, y) else f"{round(x if abs(x) >= abs(y) else y, 2) + 0.0:.2f}"
+        cop = "-" if row["cop_max_mm"] is None else f"{row['cop_max_mm']:.2f}"
+        lines.append(f"{row['name']:24}{cop:>12}{edge:>10}{row['step_us']:>10.1f}{row['read_us']:>10.1f}")
+    lines.append(f"chosen: {result['chosen']}, {'holds' if result['holds'] else 'DOES NOT HOLD'} what is required")
+    return "\n".join(lines)
 
 
 def write_contact_report(
@@ -65,17 +94,114 @@ def write_contact_report(
     Returns:
         Names of the files.
     """
-    write_text(folder / "contact.csv", _csv([r.as_dict() for r in rows]))
-    write_text(folder / "contact_parameters.csv", _csv([r.as_dict() for r in parameters]))
-    write_text(folder / "contact_models.md", contact_page(layout, rows, parameters))
+    write_rows(folder / "contact.csv", [r.as_dict() for r in rows])
+    write_rows(folder / "contact_parameters.csv", [asdict(r) for r in parameters])
+    write_text(folder / "contact_models.md", _page(layout, rows, parameters))
     _draw(folder / "contact_models.png", rows)
     return ["contact.csv", "contact_parameters.csv", "contact_models.md", "contact_models.png"]
 
 
-def _csv(rows: Sequence[dict[str, Any]]) -> str:
-    names = list(rows[0]) if rows else []
-    cells = ({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
-    return csv_text(names, mapping_rows(names, cells))
+_HEAD = """# Contact models of a sole
+
+![Error against run time](contact_models.png)
+
+`plantar bench contact -o DIR` writes this page ({made}). A free body of {mass:g} kg on one sole of {length:.0f} x
+{width:.0f} mm with {taxels} taxels is pushed with known wrenches; the truth is MuJoCo's own contact wrench of the
+same step. Chosen: **{chosen}**, which {holds}: largest error of the centre of pressure under {cop:g} mm, tip-over
+edge within {edge:g} mm of the true one.
+
+{models}
+
+## Standing on the whole sole
+
+The center of pressure is moved over the inner {inner:.0f} % of the sole with 200 to 844 N, tangential loads up to 0.3
+of that and a twist up to 5 N m. The last column is a physics step and a quarter of a reading against the chosen
+model.
+
+{stance}
+
+Springs under the corners of a box answer an eccentric load with a third of the tilt of a foundation under the whole
+face, so a tactile sensor that is scaled to fz alone shows a third of the way. Spheres and prisms are off by the
+distance from a support point to the middle of its taxel.
+
+## Tip-over edge and beams
+
+Edge: true center of pressure at which the sole tips, less the true edge; negative tips early. Seen: what the taxels
+report then, which ends at the middle of the outermost taxels. Beams of 12 and 6 cm at five offsets: areas over the true
+contact area, active cells that do not touch, and silent cells with a quarter of their area on the beam.
+
+{edges}
+
+## Contact parameters of the box
+
+One change at a time. Depth under 844 N; slip under half the friction limit; twist under 5 N m at 422 N; landing: 3 kg
+of foot under 40 kg on a servo of 2e5 N/m at 0.15 m/s, and how often it leaves the ground again within 0.3 s.
+
+{parameters}
+
+Recommended for a sole on stiff position servos at 1 ms: `{best}`, cone {cone}, impratio {ratio:g}. `gap` makes MuJoCo
+list corners that hover by micrometres, so that the contact patch stays whole.
+"""
+
+_STANCE = {
+    "cop_median_mm": "CoP median [mm]",
+    "cop_max_mm": "CoP max [mm]",
+    "force_max_N": "fz max [N]",
+    "moment_max_Nm": "tx, ty max [N m]",
+    "step_us": "step [us]",
+    "read_us": "reading [us]",
+}
+_EDGES = {
+    "edge_x_mm": "edge x [mm]",
+    "edge_y_mm": "edge y [mm]",
+    "seen_x_mm": "seen x [mm]",
+    "seen_y_mm": "seen y [mm]",
+    "beam_contact_ratio": "contact area",
+    "beam_taxel_ratio": "cells' area",
+    "beam_wrong_cells": "wrong cells",
+    "beam_silent_cells": "silent cells",
+}
+_PARAMETERS = {
+    "penetration_mm": "depth [mm]",
+    "slip_mm_s": "slip [mm/s]",
+    "twist_deg_s": "twist [deg/s]",
+    "landing_N": "landing [N]",
+    "rebounds": "rebounds",
+    "ripple_N": "ripple [N]",
+    "step_us": "step [us]",
+}
+
+
+def _page(layout: SoleLayout, rows: Sequence[ContactRow], parameters: Sequence[ParameterRow]) -> str:
+    length, width = 1e3 * (layout.outline.max(axis=0) - layout.outline.min(axis=0))
+    texts, best = {c.name: c.text for c in CANDIDATES}, Contact()
+    ratios = [r.millisecond_us / rows[0].millisecond_us for r in rows]
+    stance = [[*cells, ratio] for cells, ratio in zip(_cells(rows, _STANCE), ratios, strict=True)]
+    return _HEAD.format(
+        made=made_on(),
+        mass=MASS,
+        length=length,
+        width=width,
+        taxels=len(layout),
+        chosen=rows[0].name,
+        holds="holds what is required" if holds(rows[0]) else "DOES NOT HOLD",
+        cop=COP_LIMIT_MM,
+        edge=EDGE_LIMIT_MM,
+        inner=100 * INNER,
+        models=markdown_table(
+            ("model", "what it is", "contacts"), [(r.name, texts.get(r.name, ""), r.contacts) for r in rows]
+        ),
+        stance=markdown_table(("model", *_STANCE.values(), "a ms, ratio"), stance),
+        edges=markdown_table(("model", *_EDGES.values()), _cells(rows, _EDGES)),
+        parameters=markdown_table(("parameters", *_PARAMETERS.values()), _cells(parameters, _PARAMETERS)),
+        best=best.geom_attributes(),
+        cone=best.cone,
+        ratio=best.friction_ratio,
+    )
+
+
+def _cells(rows: Sequence[Any], names: Mapping[str, str]) -> list[list[Any]]:
+    return [[row.name, *(getattr(row, name) for name in names)] for row in rows]
 
 
 def _draw(path: Path, rows: Sequence[ContactRow]) -> None:
@@ -83,28 +209,20 @@ def _draw(path: Path, rows: Sequence[ContactRow]) -> None:
     figure, axes = new_figure(11.0, 4.6, 1, 2)
     cop = [r.cop_max_mm for r in rows]
     edge = [max(abs(r.edge_x_mm), abs(r.edge_y_mm)) for r in rows]
-    _draw_errors(axes[0], rows, cop, COP_LIMIT_MM, "largest CoP error in full-sole stance, mm")
-    _draw_errors(axes[1], rows, edge, EDGE_LIMIT_MM, "tip-over edge off the true edge, mm")
-    lines = [f"{i + 1}  {r.name}" for i, r in enumerate(rows)]
-    legend = "\n".join(lines) + f"\n\nless than {_LEAST:g} mm: drawn there"
-    axes[1].text(1.03, 0.98, legend, transform=axes[1].transAxes, va="top", fontsize=8.5)
+    for axis, errors, limit, title in (
+        (axes[0], cop, COP_LIMIT_MM, "largest CoP error in full-sole stance"),
+        (axes[1], edge, EDGE_LIMIT_MM, "tip-over edge off the true edge"),
+    ):
+        marks = [
+            Mark(row.millisecond_us, min(error, _MOST), f"{i}  {row.name}", i == 1, text=str(i))
+            for i, (row, error) in enumerate(zip(rows, errors, strict=True), 1)
+        ]
+        draw_errors(axis, marks, (title, "time of a simulated ms: step + 1/4 reading [us]", "error [mm]"), _LEAST)
+        axis.axhline(limit, ls="--", color=COLOURS["reference"], lw=1)
+        axis.set(ylim=(0.6 * _LEAST, 200.0))
+        axis.yaxis.set_major_formatter("{x:g}")
+        axis.xaxis.set_major_formatter("{x:g}")
+    axes[1].legend(
+        loc="upper left", bbox_to_anchor=(1.02, 1.0), fontsize=8.5, title=f"under {_LEAST:g} mm: drawn there"
+    )
     save_figure(figure, path)
-
-
-def _draw_errors(ax: Any, rows: Sequence[ContactRow], errors: Sequence[float], limit: float, title: str) -> None:
-    """One kind of error in mm of each model against the time that a simulated ms takes with it."""
-    for i, (row, error) in enumerate(zip(rows, errors, strict=True)):
-        shown = min(max(error, _LEAST), _MOST)
-        colour = COLOURS["polygon"] if i == 0 else COLOURS["left"]
-        ax.plot(row.millisecond_us, shown, "o", ms=9 if i == 0 else 6, color=colour, zorder=3)
-        offset, side = ((-6, 5), "right") if i % 2 else ((6, 3), "left")
-        at = (row.millisecond_us, shown)
-        ax.annotate(str(i + 1), at, fontsize=9, xytext=offset, ha=side, textcoords="offset points")
-    ax.axhline(limit, ls="--", color=COLOURS["reference"], lw=1)
-    ax.set(xscale="log", yscale="log", ylim=(0.6 * _LEAST, 200.0), title=title)
-    ticks = [t for t in (5, 10, 20, 50, 100, 200, 500, 1000) if ax.get_xlim()[0] <= t <= ax.get_xlim()[1]]
-    ax.set_xticks(ticks, [str(t) for t in ticks])
-    ax.set_xticks([], minor=True)
-    ax.set_yticks([0.01, 0.1, 1, 10, 100], ["0.01", "0.1", "1", "10", "100"])
-    ax.set_xlabel("us a simulated ms: step + 1/4 reading")
-    ax.grid(alpha=0.3, which="major")

@@ -119,7 +119,7 @@ class Camera:
         Args:
             data: The simulation's state.
             lines: Lines to draw into it.
-            dots: Small cubes to draw into it: places (n, 3) in m, red, green and blue (n, 3) of 0..1, and half a side in m.
+            dots: Cubes to draw into it: places (n, 3) in m, red, green and blue (n, 3) of 0..1, and half a side in m.
 
         Returns:
             RGB picture (height, width, 3).

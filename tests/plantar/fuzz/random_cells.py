@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 
-from plantar.bench.random_cells import random_outline
+from plantar.bench.soles import random_outline
 from plantar.geometry.inscribed import rectangle_in_outline, rectangle_in_outline_any_angle
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import area

@@ -13,8 +13,8 @@ from typing import Any
 from plantar.atomic import write_text
 from plantar.sim.bench.page.bench_page import bench_page
 from plantar.sim.bench.page.paper_figures import measure_papers
-from plantar.sim.bench.scenes.measure_scenes import measure_scenes
 from plantar.sim.bench.scenes.scene_runs import TABLE
+from plantar.sim.bench.scenes.scenes_report import measure_scenes
 
 __all__ = ["measure_page"]
 

@@ -8,8 +8,8 @@ from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple
 
+from plantar.bench.tables import GrowingTable
 from plantar.errors import PlantarError
-from plantar.sim.bench.growing_table import GrowingTable
 from plantar.sim.bench.scenes.changed_run import ChangedRun, Trace, TracedRun
 from plantar.sim.bench.scenes.scene_setting import OWN, SceneSetting, setting_named
 from plantar.sim.bench.scenes.trace_error import trace_error

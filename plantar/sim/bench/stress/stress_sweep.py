@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from plantar.bench.tables import GrowingTable
 from plantar.errors import InputError
-from plantar.sim.bench.growing_table import GrowingTable
 from plantar.sim.bench.stress.scenario import draw_scenario
 from plantar.sim.bench.stress.stress_run import FAILURES, run_scenario
 

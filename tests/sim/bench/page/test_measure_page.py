@@ -12,7 +12,7 @@ import pytest
 import plantar.bench.report
 import plantar.sim.bench.page.measure_page
 import plantar.sim.bench.skipping
-import plantar.sim.contact_models
+import plantar.sim.contact_models.report
 from plantar import cli
 from plantar.sim.bench.scenes.scene_runs import COLUMNS, TABLE
 
@@ -37,11 +37,11 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         monkeypatch.setattr(module, function, measure)
 
     part(plantar.bench.report, "measure_kernels", "kernels")
-    part(plantar.sim.contact_models, "measure_contact", "contact")
+    part(plantar.sim.contact_models.report, "measure_contact", "contact")
     part(plantar.sim.bench.skipping, "measure_skipping", "skip")
     part(plantar.sim.bench.page.measure_page, "measure_scenes", "scenes")
     part(plantar.sim.bench.page.measure_page, "measure_papers", "papers")
-    monkeypatch.setattr("plantar.sim.contact_models.contact_text.contact_text", lambda _: "contact")
+    monkeypatch.setattr("plantar.sim.contact_models.report.contact_text", lambda _: "contact")
     return seen
 
 

@@ -9,11 +9,9 @@ from typing import Any
 import pytest
 
 from plantar.errors import InputError
-from plantar.sim.bench.scenes.measure_scenes import measure_scenes, write_scenes
-from plantar.sim.bench.scenes.scene_row import NOISE, scene_rows
+from plantar.sim.bench.scenes.scene_row import NOISE, knob_verdicts, scene_rows
 from plantar.sim.bench.scenes.scene_runs import COLUMNS, SceneRuns
-from plantar.sim.bench.scenes.scenes_page import scenes_text
-from plantar.sim.bench.scenes.verdict import knob_verdicts
+from plantar.sim.bench.scenes.scenes_report import measure_scenes, scenes_text, write_scenes
 
 OWN, FINE, COARSE = "scene's own", "reference", "physics step: 1.67 ms"
 
@@ -91,7 +89,7 @@ def test_files_tell_what_was_run(tmp_path: Path) -> None:
     assert "nan" not in page
     with (tmp_path / "scenes.csv").open() as table:
         assert [r["setting"] for r in csv.DictReader(table)] == [OWN, FINE, COARSE, NOISE]
-    assert "BETTER THERE IS" in scenes_text(told)
+    assert "A BETTER VALUE EXISTS" in scenes_text(told)
 
 
 def test_a_stopped_table_goes_on_and_a_foreign_one_is_refused(tmp_path: Path) -> None:

@@ -1,0 +1,168 @@
+"""What the tables and figures of every benchmark are written by."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import platform
+import time
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from plantar.atomic import write_text
+from plantar.csv_table import csv_text, mapping_rows, original_cell, write_csv_rows
+from plantar.errors import InputError
+from plantar.plotting import COLOURS
+
+__all__ = ["GrowingTable", "Mark", "cell", "draw_errors", "made_on", "markdown_table", "write_rows"]
+
+_PAINT = ("#4c78a8", "#f2a541", "#59a14f", "#b279a2", "#9d755d", "#2f4b7c", "#76b7b2", "#e377c2", "#8c8c8c")
+
+
+def cell(value: Any) -> str:
+    """A value as a cell of a table: three digits, a dash for what was not measured.
+
+    Example:
+        >>> cell(12.345), cell(1234.5), cell(None), cell(float("inf")), cell(-0.0001), cell("a"), cell(3)
+        ('12.3', '1234', '-', '-', '-0.0001', 'a', '3')
+    """
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        return "-"
+    if isinstance(value, float):
+        return f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}"
+    return str(value)
+
+
+def markdown_table(head: Sequence[str], lines: Iterable[Sequence[Any]]) -> str:
+    """A table in Markdown, without a line break at its end.
+
+    Args:
+        head: Names of the columns.
+        lines: Values of each line.
+
+    Returns:
+        The table.
+
+    Example:
+        >>> print(markdown_table(("a", "b"), [("1", 2.0)]))
+        | a | b |
+        | --- | --- |
+        | 1 | 2 |
+    """
+    rows = [head, ["---"] * len(head), *lines]
+    return "\n".join("| " + " | ".join(map(cell, cells)) + " |" for cells in rows)
+
+
+def made_on() -> str:
+    """When and on what a table is made, for its page."""
+    return f"{time.strftime('%Y-%m-%d')}, {platform.machine()}, Python {platform.python_version()}"
+
+
+def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Write rows of figures as a CSV file, with six digits.
+
+    Args:
+        path: The file.
+        rows: Values by column, the same columns in all of them.
+    """
+    names = list(rows[0]) if rows else []
+    cells = ({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
+    write_text(path, csv_text(names, mapping_rows(names, cells)))
+
+
+class GrowingTable:
+    """A CSV file whose rows are appended, each as its run ends, so that a benchmark that was stopped goes on.
+
+    What a run that was killed left of a row is cut off. The file is made by the first row.
+
+    Args:
+        path: The file; its folder exists when the first row is added.
+        columns: Its columns.
+        what: What it is a table of, for the message that refuses another one.
+
+    Attributes:
+        rows: Its rows, as text by column.
+
+    Raises:
+        InputError: If the file has other columns.
+
+    Example:
+        >>> from tempfile import TemporaryDirectory
+        >>> with TemporaryDirectory() as folder:
+        ...     GrowingTable(Path(folder, "runs.csv"), ("seed", "time"), "runs").add({"seed": 3, "time": 0.5})
+        ...     GrowingTable(Path(folder, "runs.csv"), ("seed", "time"), "runs").rows
+        [{'seed': '3', 'time': '0.5'}]
+    """
+
+    def __init__(self, path: Path, columns: Sequence[str], what: str) -> None:
+        self._path, self._columns = path, tuple(columns)
+        self.rows: list[dict[str, str]] = []
+        if not path.exists():
+            return
+        text = path.read_text(encoding="utf-8")
+        whole = text[: text.rfind("\n") + 1]
+        reader = csv.DictReader(io.StringIO(whole))
+        if tuple(reader.fieldnames or ()) != self._columns:
+            raise InputError(f"{path} is no table of {what}: its first line has to be {','.join(self._columns)}")
+        self.rows = [{name: original_cell(text or "") for name, text in row.items()} for row in reader]
+        if whole != text:
+            path.write_text(whole, encoding="utf-8")
+
+    def add(self, row: Mapping[str, Any]) -> None:
+        """Append a row; columns that it lacks stay empty."""
+        whole = {name: str(row.get(name, "")) for name in self._columns}
+        new = not self._path.exists()
+        with self._path.open("a", newline="", encoding="utf-8") as file:
+            write_csv_rows(file, [*([self._columns] if new else []), list(whole.values())])
+        self.rows.append(whole)
+
+
+class Mark(NamedTuple):
+    """A point of a figure of run time against error.
+
+    Attributes:
+        cost: Run time.
+        error: Error; 0 is drawn at the figure's least.
+        group: What it belongs to, by which it is coloured and listed in the legend.
+        ours: Whether it is of this project.
+        hollow: Whether it is drawn hollow, as approximations are.
+        marker: Matplotlib's marker.
+        text: What is written next to it.
+    """
+
+    cost: float
+    error: float
+    group: str
+    ours: bool = False
+    hollow: bool = False
+    marker: str = "o"
+    text: str = ""
+
+
+def draw_errors(axis: Any, marks: Sequence[Mark], labels: tuple[str, str, str], least: float) -> None:
+    """Draw run time against error on logarithmic axes.
+
+    Args:
+        axis: Matplotlib's axes.
+        marks: The points.
+        labels: Title, name of the run time and name of the error.
+        least: Error at which a smaller one is drawn.
+    """
+    others = list(dict.fromkeys(m.group for m in marks if not m.ours))
+    for group in dict.fromkeys(m.group for m in marks):
+        axis.plot([], [], "o", color=_colour(group, others), label=group)
+    for m in marks:
+        colour = _colour(m.group, others)
+        face, at = "none" if m.hollow else colour, (m.cost, max(m.error, least))
+        axis.plot(*at, marker=m.marker, color=colour, markerfacecolor=face, linestyle="none", markersize=7)
+        if m.text:
+            axis.annotate(m.text, at, xytext=(4, 3), textcoords="offset points", fontsize=6.5)
+    axis.set(xscale="log", yscale="log", title=labels[0], xlabel=labels[1], ylabel=labels[2])
+    axis.xaxis.set_minor_formatter("")
+    axis.grid(True, which="major", color="#e5e5e5", linewidth=0.6)
+
+
+def _colour(group: str, others: Sequence[str]) -> str:
+    return _PAINT[others.index(group) % len(_PAINT)] if group in others else COLOURS["cop"]
