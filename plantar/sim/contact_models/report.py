@@ -221,7 +221,7 @@ def _draw(path: Path, rows: Sequence[ContactRow]) -> None:
         axis.axhline(limit, ls="--", color=COLOURS["reference"], lw=1)
         axis.set(ylim=(0.6 * _LEAST, 200.0))
         axis.yaxis.set_major_formatter("{x:g}")
-        axis.xaxis.set_major_formatter("{x:g}")
+        axis.set_xticks([20, 50, 100, 200], ["20", "50", "100", "200"])
     axes[1].legend(
         loc="upper left", bbox_to_anchor=(1.02, 1.0), fontsize=8.5, title=f"under {_LEAST:g} mm: drawn there"
     )

@@ -167,8 +167,13 @@ def _draw(path: Path, rows: Sequence[SceneRow]) -> None:
             kept = [r for r in mine if r.setting not in (NOISE, r.against) and math.isfinite(errors[id(r)] * r.ratio)]
             marks = [
                 Mark(
-                    *(r.ratio, errors[id(r)], "scene as it is" if r.setting == OWN.name else r.knob),
-                    *(r.setting == OWN.name, r.machine, "o" if r.walked else "x", r.value),
+                    r.ratio,
+                    errors[id(r)],
+                    "scene as it is" if r.setting == OWN.name else r.knob,
+                    r.setting == OWN.name,
+                    r.machine,
+                    "o" if r.walked else "x",
+                    r.value,
                 )
                 for r in kept
                 if r.setting != OWN.name or r.against == "reference"
