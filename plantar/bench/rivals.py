@@ -69,7 +69,15 @@ def hull_cv2(points: NDArray[np.float32]) -> float:
 
 
 def alpha_shape_area(points: Array, radius: float) -> float:
-    """Area in m^2 of the Delaunay triangles of points (n, 2) with a circumradius in m below one."""
+    """Area of the alpha shape of points: their Delaunay triangles with a circumradius below one.
+
+    Args:
+        points: Points (n, 2) in m.
+        radius: Circumradius in m.
+
+    Returns:
+        Area in m^2.
+    """
     from scipy.spatial import Delaunay
 
     a, b, c = (points[Delaunay(points).simplices[:, k]] for k in range(3))
@@ -179,6 +187,14 @@ def parallelogram_around(polygon: Array) -> float:
 
 
 def turned(points: Any, angles: int) -> list[Any]:
-    """Points (n, 2) turned by so many angles of a quarter turn, one array an angle."""
+    """Turn points by evenly spaced angles of a quarter turn.
+
+    Args:
+        points: Points (n, 2).
+        angles: How many.
+
+    Returns:
+        The turned points of each angle.
+    """
     c, s = np.cos(a := 0.5 * math.pi * np.arange(angles) / angles), np.sin(a)
     return [points @ np.array([[x, -y], [y, x]]) for x, y in zip(c, s, strict=True)]

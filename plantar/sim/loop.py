@@ -66,15 +66,11 @@ class Run(ABC):
 
     @abstractmethod
     def sense(self, k: int) -> None:
-        """Read what is measured at physics step k."""
+        """Read what is measured at physics step `k`."""
 
     @abstractmethod
     def control(self) -> float:
-        """One control tick.
-
-        Returns:
-            Wall time in us that the controller took.
-        """
+        """One control tick; returns the wall time in us that the controller took."""
 
     @abstractmethod
     def advance(self) -> None:
@@ -89,27 +85,19 @@ class Run(ABC):
 
     @abstractmethod
     def open_log(self, path: Path, files: ExitStack) -> None:
-        """Begin the recording, and close it with `files`."""
+        """Begin the recording at `path`, closed with `files`."""
 
     @abstractmethod
     def open_film(self, path: Path, files: ExitStack) -> Callable[[], None]:
-        """Begin a video.
-
-        Returns:
-            A function that adds a frame.
-        """
+        """Begin a video at `path`, closed with `files`; returns a function that adds a frame."""
 
     @abstractmethod
     def summary(self, result: Result) -> dict[str, Any]:
-        """The run's summary, as `plantar sim --json` prints it."""
+        """The run's summary after the loop has left its `result`, as `plantar sim --json` prints it."""
 
     @abstractmethod
     def plot(self, folder: Path, recording: Path) -> Sequence[Path]:
-        """Draw the figures of a run that has ended.
-
-        Returns:
-            Their files.
-        """
+        """Draw the figures of a run that has ended into `folder`, from its `recording`; returns their files."""
 
     def run(
         self,

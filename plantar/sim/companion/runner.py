@@ -76,20 +76,16 @@ class Companion(Run):
 
     @property
     def end(self) -> float:
-        """Duration of the experiment in s."""
         return self.experiment.duration
 
     @property
     def ended(self) -> bool:
-        """Whether the machine fell, or all has been seen."""
         return self.experiment.fell or self.experiment.done
 
     def state_text(self) -> str:
-        """Time of the experiment's duration."""
         return f"{self.world.data.time:.1f} of {self.experiment.duration:.1f} s"
 
     def open_log(self, path: Path, files: ExitStack) -> None:
-        """Begin the recording: taxels, joints, and the true force on each link with skin."""
         world, skin = self.world, self.skin.skin
         metadata = {"scene": self.scene.name, "robot": world.machine.name, "seed": self.seed}
         recorder = files.enter_context(Recorder(path, metadata))
@@ -102,14 +98,12 @@ class Companion(Run):
         )
 
     def open_film(self, path: Path, files: ExitStack) -> Callable[[], None]:
-        """Begin a video of the machine and its taxels."""
         body, view = self.experiment.view
         world = self.world
         film = BodyFilm(path, world.model, world.data, self.skin, body or world.machine.base.link, view)
         return files.enter_context(film).add
 
     def summary(self, result: Result) -> dict[str, Any]:
-        """The summary, after the loop has ended."""
         reasons, figures = self.experiment.verdict()
         self.skipped.update(taxel_rays=self.skin.skipped, taxel_rays_cast=self.skin.cast)
         names = self.scene.name, self.world.machine.name
@@ -117,11 +111,9 @@ class Companion(Run):
         return {**common, **figures}
 
     def plot(self, folder: Path, recording: Path) -> Sequence[Path]:
-        """Draw the experiment's figures."""
         return self.experiment.plot(folder)
 
     def sense(self, k: int) -> None:
-        """Move the actors, press them on the skin, and scan around the base."""
         data = self.world.data
         self.experiment.act(self.world, float(data.time))
         mujoco.mj_step1(self.world.model, data)
@@ -130,7 +122,6 @@ class Companion(Run):
             self.controller.scan(self.lidar.scan(data))
 
     def control(self) -> float:
-        """One tick of the controller, whose wall time in us it returns."""
         data = self.world.data
         if not (np.isfinite(data.qpos).all() and np.abs(data.qvel).max(initial=0.0) < 1e3):
             raise SceneError(f"the simulation of scene '{self.scene.name}' became unstable at {data.time:.3f} s")
@@ -148,7 +139,6 @@ class Companion(Run):
         return used
 
     def advance(self) -> None:
-        """The judge's look, then drives and physics unless that was the end."""
         data = self.world.data
         self.experiment.judge(self.world, self.skin, float(data.time))
         if not self.ended:

@@ -61,7 +61,9 @@ class FinishedRun(Protocol):
 
     def common(
         self, result: Result, names: tuple[str, str], reasons: list[dict[str, Any]], fell: bool, time: float
-    ) -> dict[str, Any]: ...
+    ) -> dict[str, Any]:
+        """See `plantar.sim.loop.Run.common`: it returns what `result`, `names`, `reasons`, `fell`, `time` give."""
+        ...
 
 
 def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:

@@ -178,32 +178,26 @@ class Simulation(Run):
 
     @property
     def end(self) -> float:
-        """Time in s at which the run is over: the walk has ended, and all commands are over."""
         if self.velocities is None:
             return self.controller.end
         return max(self.controller.end, self.velocities.times[-1] + self.settings.timing.settle)
 
     @property
     def ended(self) -> bool:
-        """Whether the robot fell."""
         return self.judge.fall is not None
 
     def state_text(self) -> str:
-        """Time, and landings so far."""
         return f"{self.world.data.time:.1f} s, {len(self.judge.landings)} landings for {len(self.steps)} steps"
 
     def open_log(self, path: Path, files: ExitStack) -> None:
-        """Begin the recording."""
         log = RunLog(path, self.world, self._identity(), zmps=bool(self.zmps), touch=self.touch, arm=self.arm)
         self._log = files.enter_context(log)
 
     def open_film(self, path: Path, files: ExitStack) -> Callable[[], None]:
-        """Begin a video of the robot and the taxels of its soles."""
         film = files.enter_context(Film(path, self.world))
         return lambda: film.add(self.sensors.readings)
 
     def summary(self, result: Result) -> dict[str, Any]:
-        """The summary, after the loop has ended."""
         if self.judge.fall is not None and self._log is not None:
             self._log.say(self.world.data.time, self.judge.fall[2], "error")
         if self.sensors.proximity:
@@ -211,18 +205,15 @@ class Simulation(Run):
         return summary_of(self, result)
 
     def plot(self, folder: Path, recording: Path) -> list[Path]:
-        """Draw balance, plane, feet and what else the scene has."""
         return plot_run(recording, folder)
 
     def sense(self, k: int) -> None:
-        """Read the soles where their rate has it."""
         if k % self.sensors.skin_every == 0:
             self.sensors.read_skins(self.controller.proximity_sides, self._everything)
             if self._log is not None:
                 self._log.skin(self.sensors.readings)
 
     def control(self) -> float:
-        """One tick of the controller and the inverse kinematics, whose wall time in us it returns."""
         reading = self.sensors.read_body()
         if self.arm is not None:
             self.arm.step(reading.skin)
@@ -236,7 +227,6 @@ class Simulation(Run):
         return used
 
     def advance(self) -> None:
-        """Servos, pushes and moving ground, one step of the physics, and the judge's look at it."""
         self.servos.drive()
         if self.pusher.shoves:
             self.pusher.apply(self.world)
@@ -254,7 +244,6 @@ class Simulation(Run):
             self.touch.step()
 
     def after_tick(self) -> None:
-        """Judge and record a tick: what MuJoCo computed in the step after it belongs to its instant."""
         reading, command, joints = self._tick
         self._judge_tick(reading, command)
         if self._log is None:

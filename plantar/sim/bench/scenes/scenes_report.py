@@ -62,7 +62,7 @@ def measure_scenes(
 
 
 def write_scenes(folder: Path, runs: Sequence[dict[str, str]]) -> dict[str, Any]:
-    """Write what runs (rows of `SceneRuns`, one at least) come to; see `measure_scenes`."""
+    """Write into `folder` what `runs` (rows of `SceneRuns`, one at least) give; returns as `measure_scenes`."""
     rows = scene_rows(runs)
     verdicts = knob_verdicts(rows)
     write_rows(folder / "scenes.csv", [row.as_dict() for row in rows])
