@@ -1,9 +1,8 @@
 """Simulated skin on any link: what obstacles press on each taxel, and how the skin presses back.
 
-Skin is an elastic foundation. A ray a taxel, from inside the body outwards along its normal, shows how deep an obstacle
-has sunk in; the pressure follows from depth and rate, friction from the sliding velocity, and both act on the robot's
-link and, reversed, on the obstacle. Rays are cast for those patches alone that an obstacle is near to. Between skinned
-links and obstacles MuJoCo's own contacts are off, so that nothing but the skin carries.
+Skin is an elastic foundation. A ray of each taxel, outwards along its normal, measures how deep an obstacle has sunk in;
+pressure follows from depth and rate, friction from the sliding velocity, and both act on link and obstacle. MuJoCo's own
+contacts between them are off.
 """
 
 from __future__ import annotations

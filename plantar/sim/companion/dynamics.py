@@ -19,9 +19,8 @@ _NAMED = 5  # links in an error where none has a similar name
 class MujocoDynamics:
     """`plantar.wholebody.dynamics.RobotDynamics` from a MuJoCo model of the robot alone, without what is around it.
 
-    It has its own data, knows positions and velocities only from `update`, and runs a stage of MuJoCo's forward
-    dynamics only where somebody asks for what comes out of it. The angular velocity of a free base counts in the base's
-    frame, as MuJoCo has it; all Jacobians fit to that.
+    A stage of MuJoCo's forward dynamics runs when its result is read. The angular velocity of a free base is in the
+    base's frame, as MuJoCo has it, and so are all Jacobians.
 
     Args:
         model: The MjModel of the robot.

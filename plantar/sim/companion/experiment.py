@@ -1,7 +1,6 @@
 """What an experiment of the companion is: what surrounds a machine, who acts on it, and what counts as done.
 
-An experiment is one file in `sim/companion/experiments` with one class. Its controller gets what the machine's sensors
-state; what it is judged by is the true state, which the controller never sees.
+An experiment is one file in `sim/companion/experiments` with one class.
 """
 
 from __future__ import annotations

@@ -39,10 +39,8 @@ class TraceError(NamedTuple):
 def trace_error(trace: Trace, reference: Trace) -> TraceError:
     """Compare a run with its reference.
 
-    Walking with feedback, contact events and a plan that is made again does not converge point by point for ever: two
-    runs that differ in the last digit may decide about one footstep otherwise. So differences count up to the time at
-    which the centres of mass are `PARTED` of the leg apart. That time is part of the result; what comes after is for
-    statistics over seeds.
+    Two runs that differ in the last digit may decide differently about a footstep, so differences count until the
+    centers of mass are `PARTED` of the leg apart.
 
     Args:
         trace: The run.
