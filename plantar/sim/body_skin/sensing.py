@@ -1,8 +1,8 @@
 """Simulated skin on any link: what obstacles press on each taxel, and how the skin presses back.
 
-Skin is an elastic foundation. A ray of each taxel, outwards along its normal, measures how deep an obstacle has sunk in;
-pressure follows from depth and rate, friction from the sliding velocity, and both act on link and obstacle. MuJoCo's own
-contacts between them are off.
+Skin is an elastic foundation. A ray of each taxel, outwards along its normal, measures how deep an obstacle has sunk
+in; pressure follows from depth and rate, friction from the sliding velocity, and both act on link and obstacle.
+MuJoCo's own contacts between them are off.
 """
 
 from __future__ import annotations
