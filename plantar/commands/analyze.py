@@ -23,7 +23,7 @@ def _option(default: Any, text: str, *names: str, metavar: str | None = None) ->
 
 @dataclass(frozen=True)
 class FileOrder:
-    """What is known of a file next to what it holds.
+    """What the user knows of a file that it does not contain.
 
     Example:
         >>> FileOrder(side="left").unit is None
@@ -48,17 +48,8 @@ class FileOrder:
     mm_per_pixel: float | None = _option(None, "Footprint images: size of a pixel in mm.")
 
     def options(self, mass: float | None) -> Any:
-        """The same for the reader of files.
-
-        Args:
-            mass: Mass of the body in kg.
-
-        Returns:
-            `plantar.formats.ReadOptions`.
-
-        Raises:
-            InputError: If a value is not allowed.
-        """
+        """The `plantar.formats.ReadOptions` of this order for a body of `mass` in kg; an InputError if a value is not
+        allowed."""
         from plantar.formats import ReadOptions
         from plantar.formats.side import sides_of_plates
 
@@ -76,7 +67,7 @@ class FileOrder:
 
 @dataclass(frozen=True)
 class AnalysisOrder:
-    """Which steps are measured, and what is known of the person.
+    """Which steps are measured, and facts about the person.
 
     Example:
         >>> AnalysisOrder(steps="steady").mass is None

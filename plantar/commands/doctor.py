@@ -1,4 +1,4 @@
-"""`plantar doctor`: say what is installed of what Plantar can use, what is missing or broken, and how to get it."""
+"""`plantar doctor`: list what is installed, missing or broken of what Plantar can use, and how to get it."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ __all__ = ["COMMAND", "doctor"]
 
 
 def doctor(as_json: Json = False) -> None:
-    """State what is installed of what Plantar can use, what is missing or broken, and how to get it.
+    """List what is installed of what Plantar can use, what is missing or broken, and how to get it.
 
-    Exit code 1 if something that is always needed is missing, or something that is installed cannot be loaded.
+    Exit code 1 if a required library is missing, or an installed one cannot be loaded.
 
     Example: plantar doctor
     """

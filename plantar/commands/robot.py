@@ -1,4 +1,4 @@
-"""`plantar robot`: make a robot that walks of its model, or check one."""
+"""`plantar robot`: make a walking robot from its model, or check one."""
 
 from __future__ import annotations
 

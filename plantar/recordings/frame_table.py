@@ -15,14 +15,10 @@ MOST_VALUES = 400_000_000
 
 
 class FrameTable:
-    """A table of numbers that grows by blocks of rows.
+    """A table of numbers that grows by blocks of rows of `width` numbers.
 
-    It is made for as many rows as are expected, and what is not written takes no memory; where there are more, it grows
-    by a quarter. What `rows` gave before must not be used any more once it has grown.
-
-    Args:
-        width: Numbers a row.
-        expected: Rows that are expected; may be wrong.
+    It has room for the `expected` rows (unwritten room takes no memory) and grows by a quarter beyond; views that
+    `rows` gave before are invalid then.
 
     Example:
         >>> table = FrameTable(2, expected=3)
@@ -40,14 +36,7 @@ class FrameTable:
         return self._filled
 
     def add(self, block: NDArray[np.float64]) -> None:
-        """Add rows.
-
-        Args:
-            block: The rows (m, width).
-
-        Raises:
-            FormatError: If the table becomes larger than MOST_VALUES.
-        """
+        """Add rows `block` (m, width); a FormatError if the table becomes larger than MOST_VALUES."""
         end = self._filled + len(block)
         if end * self._values.shape[1] > MOST_VALUES:
             raise FormatError(
@@ -74,7 +63,7 @@ class FrameTable:
             let_go(self._values)
 
     def drop_last(self) -> None:
-        """Take the last row out again."""
+        """Remove the last row."""
         self._filled -= 1
 
     @property
@@ -83,14 +72,7 @@ class FrameTable:
         return self._values[: self._filled]
 
     def columns(self, kept: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """Some columns, moved together in place; the table is used up.
-
-        Args:
-            kept: Which columns (width,) are kept.
-
-        Returns:
-            The rows (n, k), contiguous, in the table's own memory.
-        """
+        """The rows (n, k) of the columns in the mask `kept` (width,), compacted in place; the table is used up."""
         count = int(kept.sum())
         flat = self._values.reshape(-1)
         for rows in blocks_of_frames(self.rows):  # a row never lands behind where it is read from

@@ -1,4 +1,4 @@
-"""Large tables of frames: kept in a file without a name, whose pages are let go once they were read."""
+"""Large tables of frames, kept in an unnamed file whose pages are released once they were read."""
 
 from __future__ import annotations
 
@@ -21,15 +21,8 @@ _BLOCK = 250_000
 
 
 def room(rows: int, width: int) -> NDArray[np.float64]:
-    """Room for a table: in memory, or where it is large in a file that vanishes with it.
-
-    Args:
-        rows: Rows.
-        width: Numbers a row.
-
-    Returns:
-        A table (rows, width), whose numbers mean nothing yet.
-    """
+    """Returns an uninitialised table (`rows`, `width`): in memory, or where it is large in a file that vanishes with
+    it."""
     size = rows * width * 8
     if size > LARGE:
         try:
@@ -43,14 +36,7 @@ def room(rows: int, width: int) -> NDArray[np.float64]:
 
 
 def blocks_of_frames(values: NDArray[Any]) -> Iterator[slice]:
-    """Rows of a table in blocks of 2 MB or less; the pages of each are let go after it.
-
-    Args:
-        values: The table (n, k).
-
-    Yields:
-        The rows of one block.
-    """
+    """Row slices of a table `values` (n, k) in blocks of 2 MB; the pages of each are released after it."""
     rows = max(1, _BLOCK // max(1, values[:1].size))
     for start in range(0, len(values), rows):
         yield slice(start, min(start + rows, len(values)))
@@ -58,12 +44,7 @@ def blocks_of_frames(values: NDArray[Any]) -> Iterator[slice]:
 
 
 def scale_frames(values: NDArray[np.float64], factor: float | NDArray[np.float64]) -> None:
-    """Multiply a table in place.
-
-    Args:
-        values: The table (n, k).
-        factor: A number, or one (k,) for each column.
-    """
+    """Multiply a table `values` (n, k) in place by a `factor`: a number, or one (k,) for each column."""
     for rows in blocks_of_frames(values):
         values[rows] *= factor
 
@@ -77,11 +58,8 @@ def column_maxima(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def let_go(array: NDArray[Any]) -> None:
-    """Show the system that an array's pages are not needed for now: they are read again from its file where they are.
-
-    Args:
-        array: The array; nothing happens where it is not a part of a mapped table.
-    """
+    """Release the pages of `array` where it is part of a mapped table: they are read again from its file when
+    needed."""
     base: Any = array
     while base is not None and not isinstance(base, mmap.mmap):
         base = base.obj if isinstance(base, memoryview) else getattr(base, "base", None)

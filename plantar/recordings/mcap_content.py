@@ -42,12 +42,7 @@ _LARGEST = {0x05: _LARGEST_CHUNK, 0x06: _LARGEST_CHUNK}
 
 
 class _Topic:
-    """The messages of one topic whose fields are float64.
-
-    Args:
-        name: Its name.
-        fields: Names and widths of its fields.
-    """
+    """The messages of one topic whose fields, names and widths, are float64."""
 
     def __init__(self, name: str, fields: list[tuple[str, int]]) -> None:
         self.name = name
@@ -92,14 +87,14 @@ class McapContent:
     """What an MCAP file holds.
 
     Attributes:
-        metadata: What was stored next to the data.
+        metadata: What was stored with the data.
         layouts: Sole layout of each side that has one.
-        topics: The topics whose messages are made of float64 fields, by the number of their channel.
+        topics: The topics of float64 fields, by their channel's number.
         warnings: What was missing, damaged or skipped, one line each.
 
     Args:
-        sinks: For a recording that is read by pieces: what receives each message of a topic; other topics are skipped,
-            and `topics` stays empty. None gathers all topics.
+        sinks: To read piece by piece: the receiver of each message of a topic. Other topics are skipped and `topics`
+            stays empty. None gathers all topics.
     """
 
     def __init__(self, sinks: Mapping[str, Sink] | None = None) -> None:
@@ -114,14 +109,7 @@ class McapContent:
         self._damaged = self._undescribed = self._unpacked = self._size = 0
 
     def take_file(self, stream: BinaryIO) -> None:
-        """Take all records of a file.
-
-        Args:
-            stream: The file, at its first record.
-
-        Raises:
-            FormatError: If it unpacks to more than it can mean, or holds more than can be held.
-        """
+        """Take all records of a file `stream`, open at its first record; a FormatError if it unpacks to too much."""
         self._size = os.fstat(stream.fileno()).st_size
         closed = False
         for opcode, body in self._records(stream):
@@ -252,18 +240,8 @@ class McapContent:
 
 
 def message_values(payload: bytes, fields: list[tuple[str, int]]) -> NDArray[np.float64]:
-    """The numbers of a message.
-
-    Args:
-        payload: Its encoding (CDR).
-        fields: Names and widths of its fields.
-
-    Returns:
-        The values (k,), one field after the other.
-
-    Raises:
-        ValueError: If it is of another size.
-    """
+    """Returns the numbers (k,) of a message's CDR `payload` by its `fields`, names and widths; a ValueError for another
+    size."""
     if len(payload) != 4 + 8 * sum(width for _, width in fields) or payload[0] or payload[1] not in (0, 1):
         raise ValueError("a message is of another size than its fields")
     return np.frombuffer(payload, "<f8" if payload[1] else ">f8", offset=4).astype(float)

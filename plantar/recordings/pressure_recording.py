@@ -52,14 +52,12 @@ class FootRecording:
 
     Attributes:
         side: "left" or "right".
-        force: Normal force (n, k) of each cell in N; NaN where a cell or a frame was not measured. Counts where the
-            recording is raw.
-        layout: Where the cells are, in the order of the columns of `force`; None where it is not stated.
-        total: Vertical force (n,) in N that the device itself states, where its cells do not cover the foot; NaN where
-            not measured. None where the cells' sum is all there is.
-        cop: Centre of pressure (n, 2) in m that the device itself states, NaN without load; None as above.
-        wrench: Wrench (n, 6) on the foot in N and N m about the frame's origin, where the device measures one.
-        placement: Where the sole frame is on the ground (n, 3): x and y in m and the turn about z in rad, where known.
+        force: Normal force (n, k) of each cell in N, NaN where not measured; counts where the recording is raw.
+        layout: Where the cells are, in the order of `force`'s columns; None where unknown.
+        total: Vertical force (n,) in N that the device reports itself, NaN where not measured; None to sum the cells.
+        cop: Centre of pressure (n, 2) in m that the device reports, NaN without load; None to compute it.
+        wrench: Wrench (n, 6) on the foot in N and N m about the frame's origin, where measured.
+        placement: Pose (n, 3) of the sole frame on the ground, x and y in m and the turn about z in rad, where known.
 
     Raises:
         FormatError: If the layout has another number of cells.
@@ -93,7 +91,7 @@ class FootRecording:
 
     @cached_property
     def measured(self) -> NDArray[np.float64]:
-        """Forces (n, k) with 0 in place of NaN: the forces themselves where nothing is missing."""
+        """Forces (n, k) with 0 in place of NaN."""
         if self.missing is None:
             return self.force
         out = room(*self.force.shape)
@@ -104,10 +102,9 @@ class FootRecording:
 
     @cached_property
     def vertical_force(self) -> NDArray[np.float64]:
-        """Vertical force (n,) in N; NaN where it was not measured.
+        """Vertical force (n,) in N, the device's total or the sum over the measured cells; NaN where not measured.
 
-        The device's own total where it states one, else the sum over the cells that were measured. Cells that never
-        measure do not count; a frame that lacks more than a tenth of the others was not measured.
+        Cells that never measure do not count; a frame that lacks more than a tenth of the others was not measured.
         """
         if self.total is not None:
             return self.total
@@ -122,18 +119,12 @@ class FootRecording:
         return total
 
     def pressure(self, frames: slice = slice(None)) -> NDArray[np.float64] | None:
-        """Pressure (m, k) in Pa of some frames, NaN where not measured; None where the cell areas are not known."""
+        """Pressure (m, k) in Pa of some frames, NaN where not measured; None without cell areas."""
         return None if self.layout is None else np.asarray(self.force[frames] / self.layout.areas)
 
     def center_of_pressure(self, minimum_force: float) -> NDArray[np.float64] | None:
-        """Centre of pressure of each frame (T 4.21).
-
-        Args:
-            minimum_force: Vertical force in N below which a frame has none.
-
-        Returns:
-            Positions (n, 2) in the sole frame in m, NaN in frames without one; None where the geometry is not known.
-        """
+        """Centre of pressure (n, 2) in the sole frame in m (T 4.21); NaN below `minimum_force` in N, None without a
+        layout."""
         with np.errstate(invalid="ignore"):
             loaded = self.vertical_force >= max(minimum_force, 1e-9)
         if self.cop is not None:
@@ -152,12 +143,7 @@ class FootRecording:
 
 @dataclass(frozen=True, eq=False)
 class StatedEvents:
-    """Events of one foot that a file states.
-
-    Attributes:
-        heel_strikes: Times (m,) in s, in order.
-        toe_offs: Times (k,) in s, in order.
-    """
+    """Heel strikes (m,) and toe offs (k,) of one foot in s, in order, as a file lists them."""
 
     heel_strikes: NDArray[np.float64]
     toe_offs: NDArray[np.float64]
@@ -172,14 +158,14 @@ class PressureRecording:
         format: Name of its format.
         rate_hz: Frames a second.
         time: Times (n,) in s.
-        feet: The feet that were measured, by side. A platform is one entry as a whole until
-            `plantar.gait.analysis.prints.platform` has separated its footprints.
-        metadata: What the file states besides the data.
+        feet: The measured feet by side. A platform is one entry until `plantar.gait.analysis.prints.platform` has
+            separated its footprints.
+        metadata: The file's other entries.
         warnings: What was assumed, repaired or left out, one line each.
-        kind: What measured.
-        raw: Whether the values are counts that nobody calibrated: no force or pressure follows from them.
+        kind: The device.
+        raw: Whether the values are uncalibrated counts, which give no force or pressure.
         grid: Rows and columns of the sensor's matrix, where it is one.
-        events: Heel strikes and toe offs of each foot that the file itself states.
+        events: Heel strikes and toe offs of each foot that the file lists.
     """
 
     path: Path
@@ -202,33 +188,14 @@ def _product(values: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArra
 
 
 def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
-    """The layout of one side, out of a given one.
-
-    Args:
-        side: The foot.
-        given: A layout of either side, or None.
-
-    Returns:
-        The given layout, or its mirror image for the other foot; None for None.
-    """
+    """Returns the layout of a `side`: the `given` one of either side, mirrored for the other foot; None for None."""
     if given is None or given.side == side:
         return given
     return mirrored(given)
 
 
 def possible_rate(rate: float, what: str) -> float:
-    """A rate, refused where no device has it.
-
-    Args:
-        rate: Frames a second.
-        what: What states it, for the message, for example "the header states".
-
-    Returns:
-        The rate.
-
-    Raises:
-        FormatError: If it is not within RATES.
-    """
+    """Returns the `rate` in Hz; a FormatError outside RATES, whose message begins with `what` gives it."""
     if not RATES[0] <= rate <= RATES[1]:
         raise FormatError(
             f"{what} {rate:.4g} frames a second, which is not possible; allowed: {RATES[0]:g} to {RATES[1]:g} "
@@ -243,15 +210,15 @@ def sampling(
     """Check the times of frames, and repair single damaged ones.
 
     Args:
-        time: Times (n,) in s as the file gives them, 1 or more; NaN where a time could not be read.
-        stated_hz: Rate that the file states, if any.
-        given_hz: Rate that the user gives, if any; it is used instead of the file's word and times.
+        time: Times (n,) in s from the file, 1 or more; NaN where unreadable.
+        stated_hz: Rate in the file, if any.
+        given_hz: Rate from the user, which replaces the file's rate and times.
 
     Returns:
-        Times (n,) in s that increase, the rate in Hz, and warnings.
+        Increasing times (n,) in s, the rate in Hz, and warnings.
 
     Raises:
-        FormatError: If neither the times nor the file give a rate, or one that is not within RATES.
+        FormatError: If there is no rate, or one outside RATES.
     """
     if given_hz is not None:
         return np.arange(len(time)) / given_hz, given_hz, ()
@@ -313,7 +280,7 @@ def _checked_times(
 
 
 def _begun_again(time: NDArray[np.float64], rate: float) -> str:
-    """What to say where times (n,) go back by a second or more and on from there."""
+    """A note where times (n,) go back by a second or more and on from there."""
     known = np.flatnonzero(np.isfinite(time))
     steps = np.diff(time[known])
     back = np.flatnonzero(steps < -max(1.0, _BEGUN / rate))
@@ -330,10 +297,8 @@ def _counts(time: NDArray[np.float64]) -> bool:
 
 
 def _apart(time: NDArray[np.float64], usual: float) -> NDArray[np.float64]:
-    """Times (n,) of which none is that of the frame before: frames that share one are put evenly up to the next.
-
-    They take no more than the usual step in s each, as what follows may be a gap.
-    """
+    """Times (n,) with frames that share one spread evenly up to the next, at most the usual step in s each: a gap may
+    follow."""
     first = np.flatnonzero(np.diff(time, prepend=-np.inf) > 0.0)
     count = np.diff(np.append(first, len(time)))
     step = np.minimum(np.append(np.diff(time[first]), np.inf) / count, usual)

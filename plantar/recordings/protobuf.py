@@ -1,10 +1,9 @@
-"""Protocol buffer messages, as far as recordings need them: written from a template, and read field by field.
+"""Protocol buffer messages for recordings: written from a template, and read field by field.
 
-What a recording draws again and again are messages of one length whose numbers alone change. They are encoded once,
-with places for the numbers and the time, which are then filled in.
-
-The encoding is that of https://protobuf.dev/programming-guides/encoding/. A time's two integers are written with all
-the bytes that they may take, leading zeros included, which every decoder reads: so a message keeps its length.
+A recording draws messages of one length again and again. They are encoded once, with places for numbers and time that
+are filled later. The encoding is that of https://protobuf.dev/programming-guides/encoding/; the two integers of a time
+are written with all possible bytes, leading zeros included, which every decoder reads, so a message keeps its length.
+`field` is always the field's number.
 """
 
 from __future__ import annotations
@@ -41,13 +40,8 @@ _SHIFTS = 7 * np.arange(_LONG, dtype=np.uint64)
 
 
 class Part(NamedTuple):
-    """Encoded fields, with the places that are filled later.
-
-    Attributes:
-        data: The bytes; zeros at the places.
-        slots: Offset of each double that is filled, and the index of its value.
-        times: Offset of the seconds of each time that is filled.
-    """
+    """Encoded fields `data` with places to fill, zero until then: offset and value index of each double (`slots`), and
+    the offset of the seconds of each time (`times`)."""
 
     data: bytes
     slots: tuple[tuple[int, Slot], ...] = ()
@@ -68,14 +62,7 @@ def _head(field: int, kind: int) -> bytes:
 
 
 def joined(*parts: Part) -> Part:
-    """Fields one after the other.
-
-    Args:
-        parts: The fields.
-
-    Returns:
-        All of them.
-    """
+    """Fields one after the other."""
     data, slots, times = bytearray(), [], []
     for part in parts:
         start = len(data)
@@ -86,29 +73,13 @@ def joined(*parts: Part) -> Part:
 
 
 def nested(field: int, *parts: Part) -> Part:
-    """A message as a field of another one.
-
-    Args:
-        field: Number of the field.
-        parts: The message's own fields.
-
-    Returns:
-        The field.
-    """
+    """Returns a message, its fields `parts`, as a `field` of another one."""
     inner = joined(*parts)
     return joined(Part(_head(field, _BYTES) + _varint(len(inner.data))), inner)
 
 
 def double(field: int, value: float | Slot) -> Part:
-    """A number of type double.
-
-    Args:
-        field: Number of the field.
-        value: The number, or the slot from which it is filled: an `int` is always a slot.
-
-    Returns:
-        The field.
-    """
+    """Returns a double `field`: its `value`, or the slot that fills it (an `int` is always a slot)."""
     head = _head(field, _EIGHT_BYTES)
     if isinstance(value, int):
         return Part(head + bytes(8), ((len(head), value),))
@@ -116,88 +87,38 @@ def double(field: int, value: float | Slot) -> Part:
 
 
 def numbers(field: int, values: Sequence[float | Slot]) -> Part:
-    """A message of doubles whose fields are numbered from 1, such as a vector or a colour.
-
-    Args:
-        field: Number of the field.
-        values: The doubles, or slots.
-
-    Returns:
-        The field.
-    """
+    """Returns a message `field` of doubles or slots `values` numbered from 1, such as a vector or a colour."""
     return nested(field, *(double(i, value) for i, value in enumerate(values, 1)))
 
 
 def integer(field: int, value: int) -> Part:
-    """A whole number, a truth value or a member of an enumeration.
-
-    Args:
-        field: Number of the field.
-        value: The number, 0 or more.
-
-    Returns:
-        The field.
-    """
+    """Returns a `field` of a whole number, truth value or enumeration member `value`, 0 or more."""
     return Part(_head(field, _VARINT) + _varint(int(value)))
 
 
 def fixed32s(field: int, values: ArrayLike) -> Part:
-    """Whole numbers of four bytes each, packed into one field.
-
-    Args:
-        field: Number of the field.
-        values: The numbers, 0 to 2^32 - 1.
-
-    Returns:
-        The field.
-    """
+    """Returns whole numbers `values`, 0 to 2^32 - 1, packed into one `field` of four bytes each."""
     return raw(field, np.asarray(values, dtype="<u4").tobytes())
 
 
 def raw(field: int, data: bytes) -> Part:
-    """Bytes as they are.
-
-    Args:
-        field: Number of the field.
-        data: The bytes.
-
-    Returns:
-        The field.
-    """
+    """Returns a `field` of bytes `data`."""
     return Part(_head(field, _BYTES) + _varint(len(data)) + data)
 
 
 def text(field: int, value: str) -> Part:
-    """A text.
-
-    Args:
-        field: Number of the field.
-        value: The text.
-
-    Returns:
-        The field.
-    """
+    """Returns a `field` of the text `value`."""
     return raw(field, value.encode())
 
 
 def timestamp(field: int) -> Part:
-    """A time (google.protobuf.Timestamp), filled when the message is written.
-
-    Args:
-        field: Number of the field.
-
-    Returns:
-        The field.
-    """
+    """A time (google.protobuf.Timestamp), filled when the message is written."""
     inside = _head(1, _VARINT) + bytes(_LONG) + _head(2, _VARINT) + bytes(_LONG)
     return joined(Part(_head(field, _BYTES) + _varint(len(inside))), Part(inside, (), (1,)))
 
 
 class Template:
-    """A message whose numbers and times are filled in.
-
-    Args:
-        parts: Its fields.
+    """A message, its fields `parts`, whose numbers and times are filled in.
 
     Example:
         >>> vector = Template(double(1, Slot(0)), double(2, Slot(1)), double(3, 0.5))
@@ -219,27 +140,12 @@ class Template:
             self._filled_in[at] = True
 
     def filled(self, time_s: float, values: ArrayLike = ()) -> bytes:
-        """The message at a time.
-
-        Args:
-            time_s: Time in s, 0 or more.
-            values: The values that its slots name.
-
-        Returns:
-            Its encoding.
-        """
+        """Returns the encoded message at `time_s` in s, 0 or more, with the `values` of its slots."""
         return self.filled_all([round(time_s * 1e9)], np.asarray(values, dtype=float).reshape(1, -1)).tobytes()
 
     def filled_all(self, times: ArrayLike, values: NDArray[np.float64]) -> NDArray[np.uint8]:
-        """The messages at several times, which costs little more than one.
-
-        Args:
-            times: Times (m,) in ns, 0 or more.
-            values: The values (m, k) that its slots name.
-
-        Returns:
-            Their encodings (m, l), all of the same length.
-        """
+        """Returns the encodings (m, l) of messages at `times` (m,) in ns, with the slots' `values` (m, k),
+        vectorised."""
         seconds, nanoseconds = np.divmod(np.asarray(times, dtype=np.uint64), np.uint64(10**9))
         out = np.tile(self._data, (len(seconds), 1))
         if len(self._slots):
@@ -250,31 +156,15 @@ class Template:
         return out
 
     def matches(self, message: bytes) -> bool:
-        """Whether a message differs from this template only in the values and times that are filled in.
-
-        Args:
-            message: The message.
-
-        Returns:
-            Whether it does.
-        """
+        """Whether a message differs from this template only in what is filled in."""
         if len(message) != len(self._data):
             return False
         same = np.frombuffer(message, dtype=np.uint8) == self._data
         return bool((same | self._filled_in).all())
 
     def values_of(self, messages: Sequence[bytes]) -> NDArray[np.float64]:
-        """The values with which messages were filled.
-
-        Args:
-            messages: n messages that `filled` made.
-
-        Returns:
-            The values (n, k) of the slots 0 to k - 1.
-
-        Raises:
-            ValueError: If a message is not of this template.
-        """
+        """The values (n, k) of the slots of `messages` that `filled` made; a ValueError if one is of another
+        template."""
         if not all(map(self.matches, messages)):
             raise ValueError("a message is of another template")
         data = np.frombuffer(b"".join(messages), dtype=np.uint8).reshape(len(messages), -1)
@@ -291,17 +181,10 @@ def _long_varints(values: NDArray[np.uint64]) -> NDArray[np.uint8]:
 
 
 def read_fields(message: bytes) -> Iterator[tuple[int, int | float | bytes]]:
-    """The fields of a message in their order.
-
-    Args:
-        message: Its encoding.
-
-    Yields:
-        Number and value of each field: an `int` of a varint or four bytes, a `float` of eight, `bytes` of a text,
-        of packed numbers or of a message.
+    """Yields number and value of each field: `int` of a varint or four bytes, `float` of eight, `bytes` of the rest.
 
     Raises:
-        ValueError: If it is cut short or of no known wire type.
+        ValueError: If the message is cut short or of an unknown wire type.
     """
     position = 0
     while position < len(message):
@@ -326,7 +209,6 @@ def read_fields(message: bytes) -> Iterator[tuple[int, int | float | bytes]]:
 
 
 def _read_varint(message: bytes, position: int) -> tuple[int, int]:
-    """A varint, and where it ends."""
     value = 0
     for shift in range(0, 70, 7):
         if position >= len(message):

@@ -1,9 +1,8 @@
-"""Writing a recording: append-only, crash-safe MCAP that Foxglove and `read_mcap` open.
+"""Write a recording: append-only, crash-safe MCAP that Foxglove and `read_mcap` open.
 
-The container is MCAP with the profile "ros2": each topic of numbers has one message type of float64 fields, encoded as
-CDR (a 4-byte header, then the little-endian values). Rows are gathered in one array a topic and become messages in one
-vectorised step a chunk, which is compressed: under 3 us a message with everything, where building them one by one takes
-4 and more. Topics for viewers carry messages of Foxglove's schemas (`plantar.recordings.foxglove`), already encoded.
+The profile is "ros2": each topic of numbers has one message type of float64 fields, encoded as CDR (a 4-byte header,
+then little-endian values). Rows are gathered in one array a topic and become messages in one vectorised step a chunk,
+which is compressed: under 3 us a message. Topics for viewers carry encoded messages of Foxglove's schemas.
 """
 
 from __future__ import annotations
@@ -51,11 +50,11 @@ class _Gathered(NamedTuple):
 
 
 class RecordChannel:
-    """One topic of a recording. Made by `Recorder.channel`.
+    """One topic of float64 fields, made by `Recorder.channel`.
 
     Attributes:
-        topic: Name of the topic, for example "/skin/left".
-        fields: Names and widths of its fields, in the order in which their values are written.
+        topic: Its name, for example "/skin/left".
+        fields: Names and widths of its fields in the order of their values.
     """
 
     def __init__(self, recorder: Recorder, number: int, topic: str, fields: Sequence[tuple[str, int]]) -> None:
@@ -82,14 +81,10 @@ class RecordChannel:
         )
 
     def write(self, time_s: float, values: NDArray[np.float64]) -> None:
-        """Append one message; it is on disk after the recorder's next flush.
-
-        Args:
-            time_s: Time in s, 0 or more.
-            values: Values of all fields, one after the other, flat.
+        """Append one message at `time_s`, 0 to 1e9 s, with all fields' `values`, flat; on disk after the next flush.
 
         Raises:
-            RecordingError: If the number of values is not the topic's, or the time is negative or not finite.
+            RecordingError: If the number of values or the time is wrong.
         """
         if len(values) != self._width:
             raise RecordingError(f"topic {self.topic} takes {self._width} values a message; got {len(values)}")
@@ -104,7 +99,7 @@ class RecordChannel:
         self._filled += 1
 
     def _take_messages(self) -> _Gathered:
-        """The gathered rows as MCAP message records; the channel is empty afterwards."""
+        """The gathered rows as MCAP message records, then emptied."""
         rows = self._rows[: self._filled]
         out = np.empty(len(rows), dtype=self._message)
         nanoseconds = np.rint(self._times[: self._filled] * 1e9).astype(np.uint64)
@@ -122,12 +117,7 @@ class RecordChannel:
 
 
 class MessageChannel:
-    """One topic of a recording whose messages come encoded. Made by `Recorder.message_channel`.
-
-    Attributes:
-        topic: Name of the topic, for example "/tf".
-        schema: Name of the schema of its messages.
-    """
+    """One `topic` of encoded messages of a `schema`, made by `Recorder.message_channel`."""
 
     def __init__(self, recorder: Recorder, number: int, topic: str, schema: str) -> None:
         self.topic = topic
@@ -143,21 +133,13 @@ class MessageChannel:
         return len(self._messages)
 
     def write(self, time_s: float, message: bytes) -> None:
-        """Append one message; it is on disk after the recorder's next flush.
-
-        Args:
-            time_s: Time in s, 0 or more.
-            message: Its encoding.
-
-        Raises:
-            RecordingError: If the time is negative or not finite.
-        """
+        """Append an encoded `message` at `time_s`, 0 to 1e9 s, else a RecordingError; on disk after the next flush."""
         time = self._recorder._due(self.topic, time_s)  # which may take what has been gathered
         self._times.append(time)
         self._messages.append(message)
 
     def _take_messages(self) -> _Gathered:
-        """The gathered messages as MCAP message records; the channel is empty afterwards."""
+        """The gathered messages as MCAP message records, then emptied."""
         messages, times = self._messages, self._times
         self._messages, self._times = [], []
         parts: list[bytes] = []
@@ -173,11 +155,7 @@ class MessageChannel:
 
 
 class TemplateChannel:
-    """One topic of a recording whose messages are filled in from rows of numbers. Made by `Recorder.template_channel`.
-
-    Attributes:
-        topic: Name of the topic, for example "/tf".
-    """
+    """One `topic` whose messages are filled in from rows of numbers, made by `Recorder.template_channel`."""
 
     def __init__(
         self,
@@ -201,21 +179,14 @@ class TemplateChannel:
         return len(self._rows)
 
     def write(self, time_s: float, row: NDArray[np.float64]) -> None:
-        """Append one message; it is on disk after the recorder's next flush.
-
-        Args:
-            time_s: Time in s, 0 or more.
-            row: Its numbers, which the caller leaves alone from now on.
-
-        Raises:
-            RecordingError: If the time is negative or not finite.
-        """
+        """Append a message of the numbers `row`, which the caller must not change, at `time_s`, 0 to 1e9 s, else a
+        RecordingError."""
         time = self._recorder._due(self.topic, time_s)  # which may take what has been gathered
         self._times.append(time)
         self._rows.append(row)
 
     def _take_messages(self) -> _Gathered:
-        """The gathered rows as MCAP message records; the channel is empty afterwards."""
+        """The gathered rows as MCAP message records, then emptied."""
         times, rows = np.array(self._times, dtype=np.uint64), np.array(self._rows)
         self._times, self._rows = [], []
         messages = self._template.filled_all(times, rows if self._values is None else self._values(rows))
@@ -235,13 +206,13 @@ _Channel = RecordChannel | MessageChannel | TemplateChannel
 class Recorder:
     """Writes one recording; a context manager.
 
-    Messages reach the operating system in chunks of about `chunk_duration`: a process that is killed loses at most
-    that much, and the file reads up to its last whole chunk. (A power cut can lose what the system had not yet
-    written out.) On a clean exit the index that viewers use to seek is appended.
+    Messages reach the operating system in chunks: a killed process loses at most one, and the file reads up to its last
+    whole chunk. (A power cut can lose what the system has not yet written.) On a clean exit the index that viewers seek
+    by is appended.
 
     Args:
         path: File to write, replaced if it exists.
-        metadata: What to keep next to the data; each value is stored as JSON.
+        metadata: JSON values to store with the data.
         layouts: Sole layout of each side, stored as layout files.
         chunk_duration: Recorded time a chunk in s, above 0.
 
@@ -309,17 +280,17 @@ class Recorder:
         self._flush_at = 0.0
 
     def channel(self, topic: str, fields: Sequence[tuple[str, int]]) -> RecordChannel:
-        """Declare a topic.
+        """Declare a topic of numbers.
 
         Args:
-            topic: Name that starts with "/", new in this recording.
+            topic: New name that starts with "/".
             fields: Names (lower case, as ROS 2 allows) and numbers of values, 1 or more each.
 
         Returns:
             The channel to write to.
 
         Raises:
-            RecordingError: If the topic exists, or a field's name or width is not valid.
+            RecordingError: If the topic exists, or a field's name or width is invalid.
         """
         self._check_new(topic)
         names = [name for name, _ in fields]
@@ -338,18 +309,8 @@ class Recorder:
         return channel
 
     def message_channel(self, topic: str, schema: str) -> MessageChannel:
-        """Declare a topic of messages that viewers draw.
-
-        Args:
-            topic: Name that starts with "/", new in this recording.
-            schema: Name of their schema, one of `plantar.recordings.foxglove.SCHEMAS`.
-
-        Returns:
-            The channel to write to.
-
-        Raises:
-            RecordingError: If the topic exists or the schema is not known.
-        """
+        """Declare a new `topic` of encoded messages of a `schema` of `foxglove.SCHEMAS`, else a RecordingError. Returns
+        its channel."""
         self._check_new(topic, schema)
         channel = MessageChannel(self, len(self._channels) + 1, topic, schema)
         self._declare(channel, schema, "protobuf", descriptor(schema), "protobuf")
@@ -362,20 +323,19 @@ class Recorder:
         template: Template,
         values: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = None,
     ) -> TemplateChannel:
-        """Declare a topic of messages for viewers that differ in their numbers alone: they are encoded a chunk at once.
+        """Declare a new `topic` of messages that differ in their numbers alone, encoded a chunk at once.
 
         Args:
-            topic: Name that starts with "/", new in this recording.
-            schema: Name of their schema, one of `plantar.recordings.foxglove.SCHEMAS`.
+            topic: New name that starts with "/".
+            schema: Name of their schema in `foxglove.SCHEMAS`.
             template: The message.
-            values: Makes the values (m, k) that the template's slots name of the rows (m, j) that were written; None
-                where they are the same.
+            values: Maps the written rows (m, j) to the template's slot values (m, k); None where they are the same.
 
         Returns:
             The channel to write to.
 
         Raises:
-            RecordingError: If the topic exists or the schema is not known.
+            RecordingError: If the topic exists or the schema is unknown.
         """
         self._check_new(topic, schema)
         channel = TemplateChannel(self, len(self._channels) + 1, topic, template, values)
@@ -398,7 +358,6 @@ class Recorder:
             raise RecordingError(f"schema {schema!r} of topic {topic} is unknown; allowed: {', '.join(SCHEMAS)}")
 
     def _declare(self, channel: _Channel, schema: str, language: str, text: bytes, encoding: str) -> None:
-        """Keep a topic's schema and channel records for the next chunk and the summary."""
         number = channel._number
         described = self._records.Schema(id=number, name=schema, encoding=language, data=text)
         entry = self._records.Channel(
@@ -409,11 +368,7 @@ class Recorder:
         self._channels.append(channel)
 
     def flush(self) -> None:
-        """Write what was gathered as one chunk and hand it to the operating system.
-
-        Raises:
-            RecordingError: If the disk is full or the file cannot be written.
-        """
+        """Write what was gathered as one chunk; a RecordingError if the disk is full or the file cannot be written."""
         full = [channel for channel in self._channels if channel._filled]
         if not full:
             return
@@ -473,11 +428,7 @@ class Recorder:
             self._temporary = None
 
     def close(self) -> None:
-        """Write the last chunk and the index, and close the file; a second call does nothing.
-
-        Raises:
-            RecordingError: If the disk is full or the file cannot be written.
-        """
+        """Write the last chunk and the index, and close the file, once; errors as in `flush`."""
         if self._file.closed:
             return
         try:
@@ -556,7 +507,7 @@ class Recorder:
         return bytes(builder.end())
 
     def _put(self, data: bytes | memoryview) -> int:
-        """Append bytes to the file; gives the offset at which they start."""
+        """Append bytes to the file and return their offset."""
         try:
             offset = self._file.tell()
             self._file.write(data)

@@ -24,12 +24,8 @@ __all__ = ["Recording", "Table", "read_mcap", "take_mcap"]
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """The messages of one topic.
-
-    Attributes:
-        time: Times (n,) in s.
-        fields: Values (n, k) of each field, in the order of the message type.
-    """
+    """The messages of one topic: `time` (n,) in s, and the values (n, k) of each of its `fields`, in the message type's
+    order."""
 
     time: NDArray[np.float64]
     fields: Mapping[str, NDArray[np.float64]]
@@ -43,8 +39,8 @@ class Recording:
     """What a recording file holds.
 
     Attributes:
-        path: The file it was read from.
-        metadata: What was stored next to the data.
+        path: The file.
+        metadata: What was stored with the data.
         layouts: Sole layout of each side that has one.
         topics: Table of each topic.
         warnings: What was missing, damaged or skipped, one line each.
@@ -57,16 +53,11 @@ class Recording:
     warnings: tuple[str, ...] = ()
 
     def to_npz(self, path: str | os.PathLike[str]) -> Path:
-        """Write all tables to one compressed NPZ; it appears whole or not at all.
+        """Write all tables to one compressed NPZ at `path` (".npz" is added where it has no suffix), and return its
+        path.
 
         Keys are "<topic>/time" and "<topic>/<field>" without the leading slash; "metadata" and "layout_<side>" hold
-        JSON text.
-
-        Args:
-            path: File to write; ".npz" is added where it has no suffix.
-
-        Returns:
-            The path written.
+        JSON.
         """
         final = Path(path)
         final = final if final.suffix else final.with_suffix(".npz")
@@ -82,15 +73,9 @@ class Recording:
         return final
 
     def to_csv(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write one CSV a topic, with metadata.json and the layout files next to them.
+        """Write one CSV a topic to `folder`, with metadata.json and the layout files, and return the paths.
 
         Columns are "time_s", then "<field>" or "<field>_<index>"; values keep all their digits.
-
-        Args:
-            folder: Output folder, made if needed.
-
-        Returns:
-            The paths written.
         """
         texts = {"metadata.json": json.dumps(dict(self.metadata), indent=1) + "\n"}
         for side, layout in self.layouts.items():
@@ -112,17 +97,11 @@ class Recording:
 def read_mcap(path: str | os.PathLike[str]) -> Recording:
     """Read an MCAP recording whose topics are made of float64 fields.
 
-    A file that was cut short, by a killed run or a full disk, is read up to its last whole chunk; a damaged chunk is
-    left out. Both stand in `warnings`, as do topics of other message types, which are skipped.
-
-    Args:
-        path: The file.
-
-    Returns:
-        The recording.
+    A file that was cut short is read up to its last whole chunk and a damaged chunk is left out, as are topics of other
+    message types; `warnings` lists both.
 
     Raises:
-        FormatError: If the file cannot be read, is not MCAP, or holds nothing that can be read.
+        FormatError: If the file cannot be read, is not MCAP, or holds no readable part.
 
     Example:
         >>> read_mcap("none.mcap")
@@ -145,15 +124,7 @@ def read_mcap(path: str | os.PathLike[str]) -> Recording:
 
 
 def take_mcap(path: str | os.PathLike[str], content: McapContent) -> None:
-    """Pass the records of an MCAP file to what takes them.
-
-    Args:
-        path: The file.
-        content: What takes them.
-
-    Raises:
-        FormatError: If the file cannot be read or is not MCAP.
-    """
+    """Pass the records of an MCAP file `path` to `content`; a FormatError if it cannot be read or is not MCAP."""
     with open_input(path, FormatError) as stream:
         head = stream.read(len(MCAP_MAGIC))
         if not head:

@@ -8,16 +8,16 @@ __all__ = ["EstimateError"]
 
 
 class EstimateError:
-    """Follows the estimates of CoM and ZMP, control tick by control tick.
+    """Follows the errors of a controller's estimates of CoM and ZMP, tick by tick.
 
     Args:
-        center: True CoM (3,) in m, where the simulator writes it.
+        center: True CoM (3,) in m, updated by the simulator.
         reaction: `GroundReaction` of both feet, with the true ZMP.
 
     Attributes:
-        com: Largest error (3,) in m of the CoM; not a number where an estimate was none.
+        com: Largest error (3,) in m of the CoM; NaN where an estimate was NaN.
         squares: Sum of the squared errors in m^2 of the ZMP.
-        compared: Number of ticks in which there were both a true ZMP and an estimate.
+        compared: Number of ticks with both a true and an estimated ZMP.
     """
 
     def __init__(self, center, reaction):
@@ -28,12 +28,7 @@ class EstimateError:
         self.compared = 0
 
     def update(self, com, zmp):
-        """Compare the estimates with the truth as it is now.
-
-        Args:
-            com: Estimated CoM (3,) in m, a list.
-            zmp: Estimated ZMP (2,) in m, a list, or None.
-        """
+        """Compare the estimated CoM `com` (3,) and `zmp` (2,) in m, lists or None, with the truth now."""
         for axis in range(3):
             estimated = com[axis]
             off = abs(estimated - self.center[axis])

@@ -1,4 +1,4 @@
-"""Kernel of what joints did at most: their speeds both ways, and for how long they were at a limit."""
+"""Kernel of joint speeds both ways, and how long joints were at a limit."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ __all__ = ["JointExtremes"]
 
 
 class JointExtremes:
-    """Follows k joints of a simulation, physics step by physics step.
+    """Follows k joints, physics step by physics step.
 
     Args:
-        speeds: Speeds (n,) of all joints in rad/s, where the simulator writes them.
+        speeds: Speeds (n,) of all joints in rad/s, updated by the simulator.
         places: Index of each joint's speed there (k,).
-        per_speed: One over each joint's speed limit (k,) in s/rad; 0 where there is none.
-        torques: Torques (m,) of all servos in N m, where the simulator writes them.
+        per_speed: One over each joint's speed limit (k,) in s/rad; 0 for none.
+        torques: Torques (m,) of all servos in N m, updated by the simulator.
         servos: Index of each joint's torque there (k,).
-        per_torque: One over each joint's torque limit (k,) in 1/(N m); 0 where there is none.
+        per_torque: One over each joint's torque limit (k,) in 1/(N m); 0 for none.
 
     Attributes:
         steps: Number of steps so far.
-        high: Largest speed (k,) in rad/s so far; 0 where none was above 0.
-        low: Least speed (k,) likewise.
+        high: Largest speed (k,) in rad/s so far, 0 at least.
+        low: Least speed (k,) so far, 0 at most.
         longest: Most steps in a row (k,) in which a joint was faster than its limit.
         held: Number of steps (k,) in which a joint's torque was at its limit.
-        any_held: Number of steps in which the torque of any joint was.
-        stays: Each stay of a joint at its torque limit: joint, first step and last step; the first step is 1.
+        any_held: Number of steps in which any was.
+        stays: Each past stay at the torque limit: joint, first and last step, counted from 1.
     """
 
     def __init__(self, speeds, places, per_speed, torques, servos, per_torque):
@@ -47,7 +47,7 @@ class JointExtremes:
         self.stays = []
 
     def step(self):
-        """Take in speeds and torques as they are now. A speed or torque that is no number is beyond its limit."""
+        """Take in the present speeds and torques; NaN counts as beyond a limit."""
         self.steps += 1
         any_held = False
         for i in range(self.places.shape[0]):
@@ -76,7 +76,7 @@ class JointExtremes:
             self.any_held += 1
 
     def all_stays(self):
-        """`stays`, and with them those that still last."""
+        """`stays` with those that still last."""
         lasting = []
         for i in range(self.places.shape[0]):
             if self.since[i] > 0:

@@ -10,24 +10,25 @@ __all__ = ["StanceForce"]
 
 
 class StanceForce:
-    """Compares the ground's vertical force with the acceleration of the CoM, and its ZMP with the edge of the support.
+    """Compares the ground's vertical force with the CoM's acceleration, and the ZMP with the edge of the support.
 
-    By Newton's law both are equal at each instant, so the acceleration is taken over a time: the second difference of
-    the CoM's height over `span` steps each way. What is left of the force is faster than that: a contact that flickers.
+    By Newton's law force and acceleration agree at each instant, so the acceleration is taken over a time: the second
+    difference of the CoM's height over `span` steps each way. The remaining force is faster than that: a contact that
+    flickers.
 
     Args:
         reaction: `GroundReaction` of both feet.
-        center: CoM (3,) in m, where the simulator writes it.
+        center: CoM (3,) in m, updated by the simulator.
         mass: The robot's mass in kg.
         gravity: Acceleration of gravity in m/s^2.
         period: Physics step in s.
         steps: Numbers of steps: `span`, and after a landing that are left out.
-        least: Vertical force in N from which on a foot touches the ground.
-        edge: Distance in m from the edge of the support below which a ZMP is at the edge.
+        least: Vertical force in N from which a foot touches the ground.
+        edge: Distance in m below which a ZMP is at the edge of the support.
 
     Attributes:
         compared: Steps in which force and acceleration were compared.
-        squares: Sum of the squares of their difference in N^2.
+        squares: Sum of their squared differences in N^2.
         single: Steps in single support.
         at_edge: Those with the ZMP at the edge.
     """
@@ -52,11 +53,7 @@ class StanceForce:
         self.at_edge = 0
 
     def step(self, since):
-        """After each physics step.
-
-        Args:
-            since: Number of steps since the last landing.
-        """
+        """Take in a physics step, `since` steps after the last landing."""
         left, right = self.reaction.loads[0], self.reaction.loads[1]
         place = self.now % self.size
         self.heights[place] = self.center[2]
@@ -81,5 +78,5 @@ class StanceForce:
         self.squares += off * off
 
     def rms(self):
-        """Root mean square of the difference in N; NaN where none was compared."""
+        """Root mean square difference in N; NaN without a comparison."""
         return math.sqrt(self.squares / self.compared) if self.compared else math.nan

@@ -22,28 +22,28 @@ _ROUNDING = 1e-9  # of the cosine of a tilt: nearer than this to a fall, the jud
 
 
 class StepWatch:
-    """Follows two feet, the trunk, the legs and the joints.
+    """Follows two feet, the trunk, the legs and the joints, in arrays that the simulator updates.
 
     Args:
         reaction: `GroundReaction` of both feet.
         stands: `StandWatch` of both feet.
         joints: `JointExtremes` of the legs.
         stance: `StanceForce` of both feet.
-        upright: Rotation (9,) of the torso, row by row, where the simulator writes it.
-        center: CoM (3,) in m, likewise.
-        places: Origins of the left and the right sole (3,) each in m, likewise.
-        turns: Rotations of both soles (9,) each, likewise.
-        legs: A number (1,) that is above 0 where the legs touch each other, likewise.
-        warnings: How often the simulator warned of what, likewise.
-        divergence: Which of these warnings report that its state diverged.
-        least: Vertical ground force in N from which on a foot touches the ground.
-        windows: Numbers of steps: without the ground before a touch is a landing; in which its impact is looked for;
-            in which its contact area is.
+        upright: Rotation (9,) of the torso, row by row.
+        center: CoM (3,) in m.
+        places: Origins (3,) of the left and the right sole in m.
+        turns: Rotations (9,) of both soles.
+        legs: A number (1,), above 0 where the legs touch each other.
+        warnings: The simulator's counts of its warnings.
+        divergence: Indices of the warnings that its state diverged.
+        least: Vertical ground force in N from which a foot touches the ground.
+        windows: Numbers of steps: in the air before a touch is a landing, and after it in which its impact and its
+            contact area are measured.
         fallen: Cosine of the torso's tilt, and height in m of the CoM above the lower sole, below which it has fallen.
 
     Attributes:
         up: Least cosine of the torso's tilt so far.
-        margin: Least margin of the ZMP in m so far; inf where there was none.
+        margin: Least margin of the ZMP in m so far; inf without a ZMP.
     """
 
     def __init__(
@@ -90,14 +90,10 @@ class StepWatch:
         self.last = [-1, -1]
 
     def step(self, feet):
-        """After each physics step.
+        """Take in a physics step with the `FootContacts` of both feet.
 
-        Args:
-            feet: `FootContacts` of both feet.
-
-        Returns:
-            What the judge has to look at, 0 for nothing: the sum of 1 for a left foot that lands, 2 for a right one,
-            `LEGS`, `FALLING` and `DIVERGED`.
+        Returns the sum of what the judge has to look at: 1 for a left foot that lands, 2 for a right one, `LEGS`,
+        `FALLING` and `DIVERGED`; 0 for none.
         """
         self.now += 1
         self.reaction.update(feet)
@@ -123,7 +119,7 @@ class StepWatch:
         self.stands.begin(foot, self.now)
 
     def _keep(self):
-        """Write what was found since into the landings' rows."""
+        """Write the latest figures into the landings' rows."""
         for foot in range(2):
             number = self.last[foot]
             if number >= 0:
@@ -134,17 +130,13 @@ class StepWatch:
             row[4] = self.margin_since
 
     def landings(self):
-        """The landings so far.
-
-        Returns:
-            Of each the number of its physics step, the foot, the largest vertical ground force in N in the window after
-            it, the largest contact area in m^2 likewise, and the least margin in m before the next landing.
-        """
+        """The landings so far: physics step, foot, largest vertical ground force in N and contact area in m^2 in their
+        windows, and least margin in m before the next landing."""
         self._keep()
         return [tuple(row) for row in self.rows]
 
     def _follow(self):
-        """Take in margin, impacts, contact areas, stands and tilt of this step."""
+        """Take in margin, impacts, contact areas, stands and tilt."""
         reaction = self.reaction
         if reaction.found:
             self.margin = min(self.margin, reaction.margin)
@@ -161,7 +153,7 @@ class StepWatch:
         self.stance.step(self.now - max(self.landed[0], self.landed[1]))
 
     def _look(self):
-        """What there is to look at but for landings."""
+        """What to look at besides landings."""
         seen = 0
         if self.legs[0] > 0.0:
             seen += 4
@@ -175,7 +167,6 @@ class StepWatch:
         return seen
 
     def _stand(self, foot, place, turn):
-        """Take in where a foot is while it carries."""
         force = self.reaction.loads[foot]
         if force >= self.stands.enough:
             self.stands.carry(foot, force, place[0], place[1], math.atan2(turn[3], turn[0]))

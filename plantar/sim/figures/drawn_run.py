@@ -1,6 +1,6 @@
 """A run as a 3D viewer shows it: topics of Foxglove's schemas in its recording.
 
-They are drawn from what a tick has anyway, so that drawing cannot change the run.
+They are drawn from a tick's existing data, so that drawing cannot change the run.
 """
 
 from __future__ import annotations
@@ -55,28 +55,17 @@ FULL_COLOUR = 0.1
 
 
 def scale_colours(largest: float) -> NDArray[np.float64]:
-    """Colours of taxels: the scale viridis in 64 steps from no force to FULL_COLOUR.
-
-    Args:
-        largest: What stands for a full red, green or blue: 1, or 255 in a picture.
-
-    Returns:
-        Red, green and blue (64, 3) of each step.
-    """
+    """Red, green and blue (64, 3) of viridis from no force to FULL_COLOUR; `largest` is the full value: 1, or 255."""
     shares, steps = np.linspace(0.0, 1.0, 64), np.linspace(0.0, 1.0, len(_VIRIDIS))
     return largest * np.column_stack([np.interp(shares, steps, column) for column in zip(*_VIRIDIS, strict=True)])
 
 
 class DrawnRun:
-    """Writes a run's topics for viewers.
+    """Writes the viewer topics of a run in a `world` to a `recorder`.
 
-    "/tf" has the poses of the bodies, the soles ("sole_left", "sole_right") and the CoM ("center_of_mass"),
-    "/scene/world" their shapes and the ground, "/scene/soles" the forces on each sole, "/scene/balance" CoM, ZMP
-    and support polygon, "/scene/footsteps" the plan, and "/log" why it changed.
-
-    Args:
-        recorder: Where to write to.
-        world: The world.
+    "/tf" has the poses of bodies, soles ("sole_left", "sole_right") and CoM ("center_of_mass"), "/scene/world" their
+    shapes and the ground, "/scene/soles" the forces on each sole, "/scene/balance" CoM, ZMP and support polygon,
+    "/scene/footsteps" the plan, and "/log" why it changed.
     """
 
     def __init__(self, recorder: Recorder, world: World) -> None:
@@ -106,13 +95,13 @@ class DrawnRun:
         self._latest = readings
 
     def tick(self, time: float, command: Command, plan: PlanView, truth: GroundTruth, loads: Sequence[float]) -> None:
-        """Draw one control tick, as far as its time has come.
+        """Draw one control tick, if due.
 
         Args:
             time: Time in s.
-            command: What the controller asked for.
+            command: The controller's command.
             plan: The plan of the walk.
-            truth: What the judge saw.
+            truth: The judge's truth.
             loads: Vertical ground force in N on the left and the right foot.
         """
         if self._next_frame == -math.inf:
@@ -133,13 +122,7 @@ class DrawnRun:
             self._steps.write(time, self._footsteps(plan, self._step).filled(time))
 
     def say(self, time: float, text: str, level: str = "info") -> None:
-        """Put a line into the log.
-
-        Args:
-            time: Time in s.
-            text: What happened.
-            level: "info", "warning" or "error".
-        """
+        """Log a `text` at `time` in s with a `level`: "info", "warning" or "error"."""
         self._log.write(time, log_message(time, text, level))
 
     def _draw_shapes(self, time: float) -> None:
@@ -248,12 +231,8 @@ class DrawnRun:
 
 
 def _taxels(layout: SoleLayout, first: int) -> list[Part]:
-    """A flat cylinder for each taxel, as wide as its cell; a viewer draws many of them at once, unlike polygons.
-
-    Args:
-        layout: The sole.
-        first: Slot of the first taxel's red; three a taxel.
-    """
+    """A flat cylinder for each taxel, as wide as its cell, with slots from `first`, three a taxel; drawn faster than
+    polygons."""
     parts = []
     for i, corners in enumerate(layout.corners):
         cell = layout.vertices[list(corners), :2]
@@ -266,11 +245,7 @@ def _taxels(layout: SoleLayout, first: int) -> list[Part]:
 
 
 def change_text(applied: AppliedChange) -> str:
-    """A change of the plan in a line: which step, why, and what became other than planned.
-
-    Args:
-        applied: The change.
-    """
+    """A change of the plan in a line: which step, why, and what changed."""
     change = applied.change
     parts = [f"step {change.step}: {change.reason}"]
     known = [moved for moved in applied.moved if moved.before is not None]

@@ -22,15 +22,7 @@ _Geom = mujoco.mjtGeom
 
 
 def frame_name(model: Any, body: int) -> str:
-    """Name of a body's frame.
-
-    Args:
-        model: The MuJoCo model.
-        body: Its id.
-
-    Returns:
-        The body's name, or its number where it has none; "world" for the world.
-    """
+    """Returns the name of a `body`, its number where it has none; "world" for the world of a `model`."""
     return str(model.body(body).name) or f"body_{body}"
 
 
@@ -40,15 +32,8 @@ def drawn_bodies(model: Any) -> list[int]:
 
 
 def body_entity(model: Any, body: int) -> Part:
-    """A body's visible geoms as an entity that moves with its frame.
-
-    Args:
-        model: The MuJoCo model.
-        body: Its id.
-
-    Returns:
-        An entity (`plantar.recordings.foxglove.entity`).
-    """
+    """Returns the visible geoms of a `body` of a `model` as an entity (`plantar.recordings.foxglove.entity`) in its
+    frame."""
     name = frame_name(model, body)
     geoms = [i for i in range(model.ngeom) if model.geom_bodyid[i] == body and _is_shown(model, i)]
     return entity(name, name, *(part for i in geoms for part in _primitives(model, i)))
@@ -131,17 +116,10 @@ def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Part:
 def coarse_mesh(
     vertices: NDArray[np.float64], faces: NDArray[np.int64], most: int
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """A mesh of fewer faces: vertices in one cell of a lattice become one, at their mean.
+    """A mesh of at most `most` faces, 4 or more: vertices in one cell of a lattice merge at their mean.
 
-    (Vertex clustering; Rossignac and Borrel, 1993.)
-
-    Args:
-        vertices: Corners (v, 3) in m.
-        faces: Three corners (f, 3) of each triangle.
-        most: Number of faces that it may have, 4 or more.
-
-    Returns:
-        Corners and triangles; those of the mesh itself where it has no more than `most`.
+    (Vertex clustering; Rossignac and Borrel, 1993.) Returns corners and triangles of `vertices` (v, 3) in m and `faces`
+    (f, 3); unchanged where they are few enough.
     """
     size = float(np.ptp(vertices, axis=0).max())
     cells = 128

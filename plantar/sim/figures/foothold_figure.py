@@ -18,13 +18,9 @@ _AXES = ("x forward [m]", "y left [m]")
 
 
 def draw_footholds(run: Recording) -> Any:
-    """Draw what the feet were found to stand on, and the trajectories over it.
+    """Figure of the found supports and the trajectories in the plane, and of the ZMP against footholds over time.
 
-    Args:
-        run: A run's recording with topic "/foothold".
-
-    Returns:
-        The figure: above the plane, below the ZMP against the footholds over time.
+    The `run` is a recording with topic "/foothold".
     """
     view = _View.of(run)
     figure, (plane, time) = new_figure(11.0, 4.2 + view.tall, 2, 1, height_ratios=[view.tall, 3.2])
@@ -38,11 +34,11 @@ def draw_footholds(run: Recording) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class _View:
-    """What the plane shows: the supports, and the part of the ground around them; a walk along y is drawn lying down.
+    """The plane's content: supports and the ground around them; a walk along y is drawn turned.
 
     Attributes:
         last: Index of the last message of each step on "/foothold".
-        rings: Corners (k, 2) in m of the support that each step was found to have.
+        rings: Corners (k, 2) in m of the support found for each step.
         low: Lowest x and y in m.
         high: Highest x and y in m.
     """

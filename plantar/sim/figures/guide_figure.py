@@ -18,13 +18,9 @@ _TURNED = 1.0  # degrees that a joint has to turn by to be named
 
 
 def draw_guide(run: Recording) -> Any:
-    """Hand, arm, CoM and feet along the hand's way; the force between hand and arm; the joints of the arm.
+    """Figure of hand, arm, CoM and feet along the hand's way, the force between hand and arm, and the arm's joints.
 
-    Args:
-        run: A recording with "/guide" and "/arm".
-
-    Returns:
-        The figure.
+    The `run` is a recording with "/guide" and "/arm".
     """
     figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
     guide, body = run.topics["/guide"], run.topics["/truth/body"]

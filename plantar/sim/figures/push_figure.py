@@ -1,4 +1,4 @@
-"""Figures of a run in which somebody touches the robot, in the manner of K's Fig. 7, 8, 10, 13 and 14."""
+"""Figures of a run with touches on the robot, after K's Fig. 7, 8, 10, 13 and 14."""
 
 from __future__ import annotations
 
@@ -22,14 +22,8 @@ _STEPS_A_PANEL = 6
 
 
 def draw_pushes(run: Recording) -> Any:
-    """CoM, DCM, VRP, ZMP and footsteps over time, and the force that the skin measured (K Fig. 7 and 14).
-
-    Args:
-        run: A recording with "/touch".
-
-    Returns:
-        The figure.
-    """
+    """Figure of CoM, DCM, VRP, ZMP and footsteps over time, and the measured skin force (K Fig. 7, 14), from
+    "/touch"."""
     figure, axes = new_figure(11.0, 7.0, 2, 1, sharex=True)
     time = run.topics["/truth/body"].time
     for i, axis in enumerate(axes):
@@ -43,14 +37,7 @@ def draw_pushes(run: Recording) -> Any:
 
 
 def draw_swing(run: Recording) -> Any:
-    """The swing foot's path as it was commanded and as it was, over time (K Fig. 8).
-
-    Args:
-        run: A recording with "/touch".
-
-    Returns:
-        The figure.
-    """
+    """Figure of the swing foot's commanded and true path over time (K Fig. 8), from a recording with "/touch"."""
     figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
     for side in SIDES:
         true = run.topics[f"/truth/{side}"]
@@ -66,14 +53,7 @@ def draw_swing(run: Recording) -> Any:
 
 
 def draw_partner(run: Recording) -> Any:
-    """Robot and partner: their ways, the force between them, and how long supports lasted (K Fig. 10).
-
-    Args:
-        run: A recording with "/partner".
-
-    Returns:
-        The figure.
-    """
+    """Figure of robot and partner: their ways, force, and durations of supports (K Fig. 10), from "/partner"."""
     figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
     _draw_body(axes[0], run, 0)
     partner = run.topics["/partner"]
@@ -92,14 +72,8 @@ def draw_partner(run: Recording) -> Any:
 
 
 def draw_strides(run: Recording) -> Any:
-    """Path of the CoM and footholds from above, six steps a panel, with the forces on the body (K Fig. 13).
-
-    Args:
-        run: A recording with "/touch".
-
-    Returns:
-        The figure.
-    """
+    """Figure of the CoM's path and footholds from above, six steps a panel, with body forces (K Fig. 13), from
+    "/touch"."""
     step = _field(run, "/reference", "step")[:, 0]
     rounds = (int(step.max()) + 1) // _STEPS_A_PANEL
     columns = max(1, min(rounds, 4))
@@ -138,7 +112,7 @@ def _draw_body(axis: Any, run: Recording, i: int) -> None:
 
 
 def _finish(axes: Any, names: Sequence[str]) -> None:
-    """Name the panels of a figure over time; what its first one shows stands above it."""
+    """Label the panels of a figure over time; the legend of the first is above it."""
     for axis, name in zip(axes, names, strict=True):
         axis.set_ylabel(name)
         axis.grid(alpha=0.3)
@@ -161,7 +135,7 @@ def _draw_footholds(axis: Any, run: Recording, side: Any, begin: float, end: flo
 
 
 def _draw_force(axis: Any, run: Recording, i: int) -> None:
-    """The force that the skin measured along an axis, and the true one, on a scale of their own."""
+    """The measured and the true skin force along an axis, on a separate scale."""
     touch = run.topics["/touch"]
     other = axis.twinx()
     other.fill_between(touch.time, touch.fields["felt"][:, i], color=COLOURS["active"], alpha=0.45, lw=0)

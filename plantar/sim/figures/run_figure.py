@@ -24,16 +24,12 @@ _PAD = 0.03  # m: what is shown around the walk
 
 
 def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path]:
-    """Draw a run's figures.
-
-    Args:
-        recording: MCAP file of a run, or what was read from it.
-        folder: Folder to write to; it must exist.
+    """Draw the figures of a `recording`, an MCAP file or its content, into an existing `folder`.
 
     Returns:
-        The files: balance.png, plane.png, feet.png, and footholds.png where footholds were looked at, zmp.png and
-        zmp_plane.png where the robot has force-torque sensors at its ankles, pushes.png, swing.png and strides.png
-        where somebody touched it, partner.png where that was a mobile robot, guide.png where it was a hand that leads.
+        The files: balance.png, plane.png, feet.png; footholds.png with found footholds, zmp.png and zmp_plane.png
+        with ankle sensors, pushes.png, swing.png and strides.png with touches, partner.png with a mobile robot,
+        guide.png with a leading hand.
     """
     run = recording if isinstance(recording, Recording) else read_mcap(recording)
     folder = Path(folder)
@@ -52,17 +48,11 @@ def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path
 
 
 def plot_landing_forces(recordings: Mapping[str, str | Path | Recording], path: str | Path) -> Path:
-    """Draw the ground force on each foot over time, one panel a run, for comparison (T Fig. 51 and 55).
+    """Draw the ground force on each foot over time, a panel a run, into `path` (PNG) (T Fig. 51 and 55). Returns the
+    file.
 
     Args:
-        recordings: Runs by the titles of their panels.
-        path: PNG to write.
-
-    Returns:
-        The file.
-
-    Raises:
-        InputError: If there is no run.
+        recordings: One or more runs by the titles of their panels; none is an InputError.
     """
     if not recordings:
         raise InputError("no runs to compare; name at least one")
@@ -111,7 +101,7 @@ def _balance(run: Recording) -> Any:
 
 
 def _plane(run: Recording) -> Any:
-    """The walk from above, its longer direction to the right: a walk along y is drawn with y to the right, x down."""
+    """The walk from above, its longer direction to the right: along y with y to the right and x down."""
     rings = [(side, ring) for side in SIDES for ring in _footholds(run, side)]
     lines = (
         ("/truth/body", "zmp", "truth", 0.7, "ZMP true"),

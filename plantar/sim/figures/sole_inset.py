@@ -1,4 +1,4 @@
-"""The soles' readings, drawn into the corner of a video: taxels in colours, CoP, and the last seconds of each force."""
+"""The soles' readings in the corner of a video: coloured taxels, CoP, and the last seconds of each force."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class SoleInset:
 
     Args:
         layouts: The soles.
-        weight: Weight in N of who walks; a taxel with a tenth of it has the last colour.
+        weight: The robot's weight in N.
         height: Height of the inset in pixels.
     """
 
@@ -62,13 +62,8 @@ class SoleInset:
         return [self._pixels(side, layout.vertices[list(ring), :2]) for ring in layout.corners]
 
     def draw(self, picture: NDArray[np.uint8], readings: Mapping[Side, Reading], time: float) -> None:
-        """Draw into the upper left corner of a picture.
-
-        Args:
-            picture: RGB picture (height, width, 3), changed in place.
-            readings: Readings of the soles.
-            time: Time in s.
-        """
+        """Draw the soles' `readings` at `time` in s into the upper left corner of an RGB `picture` (height, width, 3),
+        in place."""
         cv2 = self._cv2
         inset = np.full((self._height, self._width, 3), _PAPER, dtype=np.uint8)
         totals = []

@@ -17,14 +17,7 @@ _FROM = 1.0  # s: before, filters and estimator settle
 
 
 def draw_zmps(run: Recording) -> Any:
-    """Both ZMPs and their difference over time, x above y.
-
-    Args:
-        run: Recording with the topic /zmp.
-
-    Returns:
-        The figure.
-    """
+    """Figure of both ZMPs and their difference over time, from a recording with /zmp."""
     topic = run.topics["/zmp"]
     counts = topic.time >= _FROM
     time = topic.time[counts]
@@ -47,14 +40,8 @@ def draw_zmps(run: Recording) -> Any:
 
 
 def draw_zmp_plane(run: Recording) -> Any:
-    """Both ZMPs in the plane, with the soles and their composite support polygon.
-
-    Args:
-        run: Recording with the topic /zmp of a robot that stands.
-
-    Returns:
-        The figure.
-    """
+    """Figure of both ZMPs in the plane with soles and support polygon, from a recording with /zmp of a robot that
+    stands."""
     topic = run.topics["/zmp"]
     counts = topic.time >= _FROM
     figure, axis = new_figure(6.0, 6.0)

@@ -1,21 +1,18 @@
 """The largest push that any footsteps, timing and ZMP within a robot's limits capture, by exhaustive search on the LIP.
 
-A controller that steps under a push is compared with what its limits allow: where the feet may land, how fast they
-swing, how long supports last, where the soles can press. On the pendulum with DCM xi and ZMP p, xi' = w (xi - p), a
-push that begins at time 0 is captured by a sequence of supports if
+The limits are where feet may land, how fast they swing, how long supports last, and where soles can press. On the
+pendulum with DCM xi and ZMP p, xi' = w (xi - p), a push that begins at time 0 is captured by a sequence of supports if
 
     xi_0 + J g = sum_i (e^(-w a_i) - e^(-w b_i)) z_i + e^(-w b) z_end,
 
-z_i the ZMP's mean in the support from a_i to b_i, any point of its polygon, and z_end, where the DCM is at the last
-touchdown, any point of the hull of both feet, over which the robot then stands. For given times the right side is a
-Minkowski sum of the soles, scaled, plus a sum of the steps, so the sum's normals are those of the soles and its support
-function is a sum of theirs: what is left is a linear program in the steps and J, solved exactly. Times are searched
-exhaustively on a grid and refined; so is where between the feet the ZMP is in a double support, the one product of
-unknowns. Nothing that a controller could do within the limits is left out, so the search's only error is that of the
-grid, which makes the limit too small by less than the step of the grid matters.
+where z_i, the ZMP's mean in the support from a_i to b_i, is any point of its polygon, and z_end, the DCM at the last
+touchdown, any point of the hull of both feet. For given times the right side is a Minkowski sum of the scaled soles and
+the steps, whose support function is a sum of theirs: a linear program in the steps and J remains, solved exactly.
+Times, and the ZMP's place between the feet in double support (the one product of unknowns), are searched on a grid and
+refined, so the only error is the grid's, which makes the limit too small.
 
-How far feet swing is bounded by polygons of 16 edges around a circle, at most 2 % too far. Feet take turns, as planned;
-angular momentum is none: hips and arms are not swung.
+Swing distances are bounded by polygons of 16 edges around a circle, at most 2 % too far. Feet take turns, as planned,
+and hips and arms do not swing: no angular momentum.
 """
 
 from __future__ import annotations
@@ -45,13 +42,7 @@ _FLAT = 1e-9  # weight of the steps against that of the push: of all steps that 
 
 
 def mirrored(polygon: ArrayLike) -> NDArray[np.float64]:
-    """A polygon or a point (..., 2) of the left side as that of the right side.
-
-    Args:
-        polygon: Points (..., 2) in m with y to the left.
-
-    Returns:
-        The points (..., 2) with y turned round.
+    """A `polygon` or point (..., 2) in m with y reversed: of the left side as that of the right side.
 
     Example:
         >>> mirrored([0.1, 0.2]).tolist()
@@ -62,26 +53,25 @@ def mirrored(polygon: ArrayLike) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class CaptureLimits:
-    """What a robot can do. Polygons are those of the left foot; the right foot has their mirror images.
+    """What a robot can do. Polygons are the left foot's; the right foot has their mirror images.
 
     Attributes:
         mass: Mass in kg.
         omega: Pendulum frequency in rad/s.
-        sole: Where the ZMP may lie under the left foot alone (k, 2), from the foot's origin, in m.
+        sole: Where the ZMP may be under the left foot alone (k, 2), from the foot's origin, in m.
         region: Where the left foot may land (k, 2), from the right foot's origin, in m.
         shortest: Shortest single support in s.
         longest: Longest one in s.
-        double_support: How long a double support lasts between two steps in s.
+        double_support: Duration of a double support between two steps in s.
         swing_speed: Largest mean speed of the swing foot over the ground in m/s.
-        swing_acceleration: Largest acceleration of the swing foot over the ground in m/s^2, on a minimum-jerk path:
-            from rest it gets a t^2 / 5.77 far.
-        swing_sideways: Share of that acceleration that is left to the side; in between along an ellipse.
-        landing: How long a foot takes at least from the push until it touches down in s.
-        lasts: How long the push lasts in s, at constant force; 0 for one that takes no time.
-        height: How far above the CoM it acts in m.
-        steps: How many steps may be taken.
-        times: How many durations of each single support are tried.
-        shares: How many places between the feet are tried for the ZMP of each double support.
+        swing_acceleration: Its largest acceleration in m/s^2, on a minimum-jerk path: from rest it covers a t^2 / 5.77.
+        swing_sideways: Share of that acceleration to the side; in between along an ellipse.
+        landing: Least time in s from the push to a touchdown.
+        lasts: Duration of the push in s, at constant force; 0 for an impulse.
+        height: Height in m of the push above the CoM.
+        steps: How many steps may be taken, 4 at most.
+        times: Number of durations of each single support that are tried.
+        shares: Number of places between the feet that are tried for the ZMP of each double support.
 
     Raises:
         InputError: If a polygon is not (k, 2) with one vertex at least, or a number is out of its range.
@@ -129,12 +119,12 @@ class CaptureLimits:
 
 
 class Instant(NamedTuple):
-    """A walk at the moment of a push, as seen from its stance foot: x forward, y to the left.
+    """A walk at the moment of a push, relative to its stance foot: x forward, y to the left.
 
     Attributes:
-        side: Which foot stands; in double support the one that is about to stand alone.
-        dcm: DCM (2,) from the stance foot's origin in m.
-        swing: The other foot's origin (2,) from it in m.
+        side: The stance foot; in double support the next one.
+        dcm: DCM (2,) in m.
+        swing: The other foot's origin (2,) in m.
         elapsed: Time since the single support began in s; 0 in double support.
         double_left: Time until it begins in s; 0 in single support.
         velocity: Velocity (2,) of the other foot in m/s.
@@ -152,9 +142,9 @@ class LandedStep(NamedTuple):
     """A step of a sequence that captures a push.
 
     Attributes:
-        time: When the foot touches down, in s from the push.
-        place: Where (2,), from the stance foot at the time of the push, in m.
-        share: How far the ZMP lies in the double support after it: 0 on the other foot, 1 on the one that landed.
+        time: Touchdown in s from the push.
+        place: Foothold (2,) in m from the stance foot at the time of the push.
+        share: Where the ZMP is in the double support after it: 0 at the other foot, 1 at this one.
     """
 
     time: float
@@ -163,11 +153,11 @@ class LandedStep(NamedTuple):
 
 
 class CaptureLimit(NamedTuple):
-    """The largest push that is captured.
+    """The largest captured push.
 
     Attributes:
-        impulse: In N s; 0 where even no push is captured.
-        steps: Steps that capture it, none where the ZMP alone does.
+        impulse: In N s; 0 where no push is captured.
+        steps: Steps that capture it; empty where the ZMP alone does.
     """
 
     impulse: float
@@ -175,12 +165,8 @@ class CaptureLimit(NamedTuple):
 
 
 class _Sequences(NamedTuple):
-    """Sequences of supports, a row each.
-
-    Attributes:
-        times: Duration (b, n) of each single support in s.
-        shares: Where between the feet (b, n) the ZMP is in the double support behind it.
-    """
+    """Sequences of supports, a row each: durations (b, n) of the single supports in s, and ZMP shares (b, n) in
+    between."""
 
     times: NDArray[np.float64]
     shares: NDArray[np.float64]
@@ -196,12 +182,12 @@ class _Found(NamedTuple):
 
 
 def capture_limit(limits: CaptureLimits, instant: Instant, direction: ArrayLike) -> CaptureLimit:
-    """The largest push in a direction that is captured, and all smaller ones with it.
+    """The largest push in a direction that is captured, with all smaller ones.
 
     Args:
-        limits: What the robot can do.
+        limits: The robot's limits.
         instant: The walk at the moment of the push.
-        direction: Where the push goes (2,), x forward, y to the left; of any length.
+        direction: Direction (2,) of the push, x forward, y to the left; of any length.
 
     Returns:
         The push, and steps that capture it.
@@ -242,15 +228,15 @@ def capture_limit(limits: CaptureLimits, instant: Instant, direction: ArrayLike)
 
 
 def _spread(exponent: float) -> float:
-    """What is left of a push that lasts, (1 - e^(-w T)) / (w T)."""
+    """Remaining share of a push of some duration, (1 - e^(-w T)) / (w T)."""
     return 1.0 if exponent < 1e-9 else -math.expm1(-exponent) / exponent
 
 
 def _connected(programs: list[_Program]) -> _Found | None:
-    """The largest push below which every one is captured; None where that is none at all.
+    """The largest push below which all are captured; None where there is none.
 
-    One sequence captures an interval of pushes; the longest ones need not capture no push, as the step that catches a
-    large one is too far for none.
+    One sequence captures an interval of pushes, which for the longest ones need not contain 0: the step that catches a
+    large push is too far for none.
     """
     found = [(f, p) for p in programs for f in p.search()]
     found.sort(key=lambda item: item[0].most, reverse=True)
@@ -272,7 +258,7 @@ class _Program:
     """The linear programs of one push and one number of steps.
 
     Args:
-        limits: What the robot can do.
+        limits: The robot's limits.
         instant: The walk, on its left foot.
         toward: Direction (2,) of the push, of length 1.
         count: Number of steps n.

@@ -1,4 +1,4 @@
-"""How far what the feet were found to stand on is from what was really under them."""
+"""Errors of the footholds that the controller found."""
 
 from __future__ import annotations
 
@@ -20,14 +20,7 @@ _LEVEL = 0.01  # leg: faces within this of the sole are under it
 
 
 class FootholdTruth:
-    """Compares the footholds that the controller found with the ground's geometry.
-
-    Level boxes and the floor count; round ground does not.
-
-    Args:
-        world: The world.
-        ground: Its ground.
-    """
+    """Compares the footholds that the controller found with the level boxes and floor of a `ground` in a `world`."""
 
     def __init__(self, world: World, ground: Ground) -> None:
         import shapely
@@ -44,7 +37,7 @@ class FootholdTruth:
         self._found: dict[int, tuple[float, float, float]] = {}
 
     def update(self, footholds: tuple[FootholdFound, ...]) -> None:
-        """Compare the footholds that were found at this tick; of each step the last one counts."""
+        """Compare the footholds of this tick; the last one of a step counts."""
         for foothold in footholds if self._only_level else ():
             true = self._under(foothold.side)
             if len(true) < 3 or len(foothold.polygon) < 3:
@@ -60,7 +53,7 @@ class FootholdTruth:
             )
 
     def summary(self) -> Mapping[str, Any]:
-        """Errors of the found footholds' centroids in m, and true and found shares of the sole's area, a step each."""
+        """Errors of the centroids in m, and true and found shares of the sole's area, per step."""
         rows = [self._found[k] for k in sorted(self._found)]
         if not rows:
             return {}
@@ -75,7 +68,7 @@ class FootholdTruth:
         }
 
     def _under(self, side: Side) -> NDArray[np.float64]:
-        """True support polygon (k, 2) of a level sole in the world: hull of what of its outline lies over ground."""
+        """True support polygon (k, 2) of a level sole in the world: hull of the part of its outline over ground."""
         import shapely
 
         site = self._world.sole_sites[side]

@@ -1,4 +1,4 @@
-"""What became of a robot that a hand led by its arm: how far the arm gave way, and how far the feet followed."""
+"""How a robot followed a hand that leads it by its arm: how far arm and feet came."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ class GuideTruth:
         link: Link of the arm that is held.
         point: Point (3,) in its frame in m at which it is held.
         joints: Names of the arm's joints.
-        posture: Their angles (k,) in rad while the arm is at rest.
+        posture: Their angles (k,) in rad at rest.
         way: How far the hand goes in m, along the world's x axis: negative backward.
-        starts: Time in s from which it goes.
+        starts: Time in s from which it moves.
     """
 
     def __init__(
@@ -60,11 +60,7 @@ class GuideTruth:
         self.yielded = self.followed = self.astray = self.turned = 0.0
 
     def update(self, time: float) -> None:
-        """Look at arm and feet: at each control tick, after its physics step.
-
-        Args:
-            time: Time of the tick in s.
-        """
+        """Measure arm and feet at the tick at `time` in s, after its physics step."""
         data = self._world.data
         held = data.xpos[self._link] + data.xmat[self._link].reshape(3, 3) @ self._point
         trunk = data.xmat[self._base].reshape(3, 3)
@@ -80,11 +76,7 @@ class GuideTruth:
         self.turned = max(self.turned, float(np.abs(data.qpos[self._places] - self._posture).max()))
 
     def reasons(self) -> list[dict[str, Any]]:
-        """Criteria that failed.
-
-        Returns:
-            As `plantar.sim.judging.verdict.reasons` gives them.
-        """
+        """Criteria that failed, as `plantar.sim.judging.verdict.reasons`."""
         found = []
         for name, what, value, share in (
             ("yielded", "the arm gave way by", self.yielded, YIELDED),
@@ -103,9 +95,8 @@ class GuideTruth:
         return found
 
     def summary(self) -> dict[str, Any]:
-        """How far the arm gave way at most along the way in m, how far the feet had followed along it and gone to a
-        side at the end in m, and the largest turn of a joint of the arm out of its posture in degrees; None each where
-        the run ended before the hand went."""
+        """How far the arm yielded at most along the way and the feet finally followed it and went astray in m, and the
+        largest turn of an arm's joint in degrees; None each where the run ended before the hand moved."""
         if not self._sampled:
             return dict.fromkeys(("arm_yielded_m", "feet_followed_m", "feet_astray_m", "arm_turned_deg"))
         return {

@@ -1,4 +1,4 @@
-"""Do the joints stay within what they can: speeds and torques, by the simulator's state."""
+"""Whether joints stay within their limits of speed and torque, by the simulator's state."""
 
 from __future__ import annotations
 
@@ -17,10 +17,7 @@ _AT_LIMIT = 0.999  # of a torque limit: a servo there asks for more than it gets
 
 
 class JointLimits:
-    """Follows the leg joints' speeds and torques.
-
-    Args:
-        world: The world.
+    """Follows the leg joints' speeds and torques in a `world`.
 
     Attributes:
         names: The joints.
@@ -54,26 +51,19 @@ class JointLimits:
 
     @property
     def longest(self) -> NDArray[np.float64]:
-        """For how long in s without a break each joint (k,) was faster than its limit, at most."""
+        """Longest time in s in a row for which each joint (k,) was faster than its limit."""
         return np.asarray(self.extremes.longest) * self._period
 
     def first_held(self, since: float, lasting: float = 0.015) -> str | None:
-        """The joint that was first at its torque limit for some time.
-
-        Args:
-            since: Time in s from the start from which on it counts.
-            lasting: For how long in s without a break it has to be there.
-
-        Returns:
-            Its name; None where none was.
-        """
+        """Returns the joint that was first at its torque limit for `lasting` s in a row, from `since` s on; None for
+        none."""
         first, steps = 1 + round(since / self._period), round(lasting / self._period)
         stays = [(max(begin, first), end, joint) for joint, begin, end in self.extremes.all_stays()]
         long = [(begin, joint) for begin, end, joint in stays if end - begin + 1 >= steps]
         return self.names[min(long)[1]] if long else None
 
     def summary(self) -> dict[str, Any]:
-        """Fastest joint, and how often joints were at their torque limits, for a run's summary."""
+        """Fastest joint, and how often joints were at their torque limits."""
         fastest = self.fastest
         k = int(fastest.argmax())
         steps = max(1, self.extremes.steps)

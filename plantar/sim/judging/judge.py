@@ -49,9 +49,9 @@ class Landing:
         side: Which foot.
         time: Touchdown in s: the first physics step with ground force after 0.6 beats or more in the air.
         impact: Largest vertical ground force in N within 0.2 beats.
-        area: Largest contact area in m^2 (hull of the contact points) in the 2.4 beats after touchdown.
-        angle: Angle in degrees between the sole and the face that it touched first, at touchdown; None on round ground.
-        margin: Smallest true ZMP margin in m from this landing to the next one; None where there was no ZMP.
+        area: Largest contact area in m^2 (hull of the contact points) within 2.4 beats.
+        angle: Angle in degrees between the sole and the face that it touched first; None on round ground.
+        margin: Smallest true ZMP margin in m until the next landing; None without ZMP.
     """
 
     side: Side
@@ -69,9 +69,9 @@ class Judge:
     Attributes:
         world: The world.
         standing_height: CoM height above the ground at the start in m.
-        goal: Where the feet have to be put down.
+        goal: The footsteps to take.
         ground: Where the ground is plain; None where it is everywhere.
-        fall: What fell how far, as (criterion's value, limit, text); None for no fall.
+        fall: The fall as (criterion's value, limit, text); None for no fall.
     """
 
     world: World
@@ -116,12 +116,12 @@ class Judge:
         )
 
     def _time_of(self, step: int) -> float:
-        """When a physics step began in s, by its number from 1."""
+        """Time in s at which a physics step, counted from 1, began."""
         return self._start + (step - 1) * self.world.period
 
     @property
     def landings(self) -> list[Landing]:
-        """The landings so far, one after the other."""
+        """The landings so far."""
         return [
             Landing(SIDES[foot], self._time_of(step), impact, area, angle, margin if math.isfinite(margin) else None)
             for (step, foot, impact, area, margin), angle in zip(self._watch.landings(), self._angles, strict=True)
@@ -134,7 +134,7 @@ class Judge:
 
     @property
     def margin_min(self) -> float | None:
-        """Smallest true ZMP margin in m; None where there was no ZMP."""
+        """Smallest true ZMP margin in m; None without ZMP."""
         return float(self._watch.margin) if math.isfinite(self._watch.margin) else None
 
     @property
@@ -149,7 +149,7 @@ class Judge:
 
     @property
     def zmp_error(self) -> float | None:
-        """Root mean square error in m of the controller's ZMP; None where it gave none while there was one."""
+        """Root mean square error in m of the controller's ZMP; None without a comparison."""
         compared = self._estimates.compared
         return math.sqrt(self._estimates.squares / compared) if compared else None
 
@@ -159,11 +159,7 @@ class Judge:
         return self.fall is not None
 
     def step(self) -> int:
-        """After each physics step.
-
-        Returns:
-            What `StepWatch.step` reports; 0 where there was nothing to look at.
-        """
+        """Take in a physics step; returns what `StepWatch.step` reports."""
         seen: int = self._watch.step(self._contacts.read())
         if seen:
             if seen & LEGS:
@@ -196,7 +192,7 @@ class Judge:
         moved: Sequence[MovedStep] = (),
         pushed: bool = False,
     ) -> None:
-        """After the physics step that began with a control tick: compare the controller's estimates.
+        """Compare the controller's estimates, after the physics step that began with a control tick.
 
         Args:
             time: Time of the tick in s.
@@ -212,8 +208,8 @@ class Judge:
             self.goal.move(time, moved)
 
     def _justified(self, stand: Stand, way: Way, before: tuple[float, float, float]) -> bool:
-        """Whether a push in the last three steps, or the ground where a step was planned or the one before it stood,
-        justify that it is moved."""
+        """Whether a push in the last three steps, or uneven ground under the step's plan or the foothold before,
+        justify its move."""
         since = stand.touchdown - _PUSH_LASTS * self.world.body.beat
         if any(since <= time <= stand.touchdown for time in self._pushed):
             return True
@@ -244,14 +240,7 @@ class Judge:
 
 
 def is_ground(world: World) -> NDArray[np.bool_]:
-    """Which geoms are ground: those that are fixed in the world, and the pieces of ground that move.
-
-    Args:
-        world: The world.
-
-    Returns:
-        Mask (geoms,).
-    """
+    """Mask (geoms,) of the ground's geoms in a `world`: those fixed in the world, and moving pieces of ground."""
     model = world.model
     moving = [model.body_mocapid.tolist().index(i) for i, _ in world.moving_ground]
     fixed = model.body_weldid == 0

@@ -1,4 +1,4 @@
-"""Does one leg touch the other."""
+"""Whether one leg touches the other."""
 
 from __future__ import annotations
 
@@ -10,11 +10,7 @@ __all__ = ["LegContact", "legs_that_touch"]
 
 
 def legs_that_touch(world: World) -> tuple[str, str] | None:
-    """Names of the left leg's and the right leg's link that touch each other now, of the first such contact.
-
-    Args:
-        world: The world.
-    """
+    """Names of the left and right link of the first contact between the legs in a `world` now; None for none."""
     model = world.model
     for pair in world.data.contact.geom.tolist():
         sides = {int(model.geom_contype[g]): g for g in pair if g >= 0}
@@ -26,14 +22,11 @@ def legs_that_touch(world: World) -> tuple[str, str] | None:
 
 
 class LegContact:
-    """Follows whether a sole or leg touches the other one.
-
-    Args:
-        world: The world.
+    """Follows whether the legs or soles touch each other in a `world`.
 
     Attributes:
         duration: For how long in s they touched, in all.
-        first: When they did first in s, and the names of both links.
+        first: Time in s of the first contact, and the names of both links; None for none.
     """
 
     def __init__(self, world: World) -> None:

@@ -1,4 +1,4 @@
-"""What became of a robot and the partner before it: who moved whom, and how far."""
+"""Whether a robot moved its partner far enough."""
 
 from __future__ import annotations
 
@@ -12,15 +12,12 @@ before they touch and to a partner that swings back towards where it rests."""
 
 
 def partner_reasons(role: str, way: float, moved: float) -> list[dict[str, Any]]:
-    """Criteria that failed of a robot with a partner.
+    """Returns the criteria that failed, as `plantar.sim.judging.verdict.reasons`.
 
     Args:
-        role: What the partner is: of a "leader" only a completed walk is asked.
-        way: How far the robot was to walk towards it in m.
+        role: The partner's role: with a "leader" only a completed walk is asked.
+        way: Planned way of the robot towards it in m.
         moved: How far the partner came towards the robot in m; negative for one that was pushed back.
-
-    Returns:
-        As `plantar.sim.judging.verdict.reasons` gives them.
     """
     needed = LED * way
     if role == "leader" or -moved >= needed:

@@ -1,4 +1,4 @@
-"""A walk that repeats itself, as the pendulum has it: where DCM and feet are when a push comes."""
+"""A periodic walk of the pendulum: DCM and feet at the moment of a push."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class PeriodicWalk:
         length: How far a foot lands ahead of the other one in m; 0 in place.
         width: Distance in m between the feet's lines.
         single: Duration of a single support in s, above 0.
-        double: Duration of a double support in s, 0 or more; the ZMP goes over at one speed.
-        zmp: Where the ZMP lies under the left foot alone (2,) in m; under the right one it is the mirror image.
+        double: Duration of a double support in s, 0 or more; the ZMP moves at constant speed.
+        zmp: ZMP under the left foot alone (2,) in m; mirrored under the right one.
 
     Raises:
         InputError: If a duration or the frequency is out of its range.
@@ -55,8 +55,8 @@ class PeriodicWalk:
         """The walk at a phase of a step.
 
         Args:
-            phase: Share of the step that is over, 0 to 1: first its double support, then its single one.
-            side: Which foot stands in its single support.
+            phase: Share of the step that is over, 0 to 1, from its double support on.
+            side: The foot of its single support.
 
         Returns:
             DCM and feet.
@@ -82,10 +82,7 @@ class PeriodicWalk:
         return Instant(side, dcm * flip, swing * flip, elapsed, left, velocity * flip)
 
     def _begin(self) -> NDArray[np.float64]:
-        """DCM (2,) when the left foot's single support begins, from that foot, that repeats itself a step later.
-
-        A step later it is the same from the right foot, with y turned round.
-        """
+        """DCM (2,) at the begin of the left foot's single support, from that foot; a step later it is mirrored."""
         zmp, step = np.array(self.zmp), np.array((self.length, -self.width))
         last = step + mirrored(self.zmp)
         w = self.omega
@@ -109,14 +106,14 @@ class PeriodicWalk:
 def capture_map(
     limits: CaptureLimits, walk: PeriodicWalk, directions: int = 8, phases: int = 8, side: Side = "left"
 ) -> NDArray[np.float64]:
-    """The largest push that is captured, in all directions and phases of a step.
+    """The largest captured push, in all directions and phases of a step.
 
     Args:
-        limits: What the robot can do.
+        limits: The robot's limits.
         walk: Its walk; of the same frequency.
-        directions: How many directions, from forward to the left and round.
-        phases: How many phases, from the begin of a step's double support on.
-        side: Which foot stands in the step's single support.
+        directions: Number of directions, from forward to the left and round.
+        phases: Number of phases, from the begin of a step's double support on.
+        side: The foot of the step's single support.
 
     Returns:
         Impulses (phases, directions) in N s.

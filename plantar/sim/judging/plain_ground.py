@@ -1,4 +1,4 @@
-"""Where the ground is plain: one level face under a foot and around it, which gives no reason to step elsewhere."""
+"""Where the ground is plain: one level face under and around a foot, which gives no reason to step elsewhere."""
 
 from __future__ import annotations
 
@@ -17,13 +17,7 @@ _LEVEL = 0.9999  # cosine of the tilt up to which a face is level
 
 
 class PlainGround:
-    """Knows the ground's true geometry.
-
-    Args:
-        ground: The ground.
-        outlines: Outline (k, 2) of each sole in its frame in m.
-        around: Distance in m around a sole within which an edge may be why a step is moved.
-    """
+    """The true geometry of a `ground` under soles with `outlines` (k, 2) in m and `around` them, in m."""
 
     def __init__(self, ground: Ground, outlines: Mapping[Side, NDArray[np.float64]], around: float) -> None:
         import shapely
@@ -35,17 +29,8 @@ class PlainGround:
         ]
 
     def under(self, side: Side, x: float, y: float, yaw: float) -> bool:
-        """Whether a sole and what is around it lie on one level face: of one solid, or of the floor.
-
-        Args:
-            side: Which sole.
-            x: Its origin in m; likewise y.
-            y: The same.
-            yaw: Its heading in rad.
-
-        Returns:
-            Whether it does.
-        """
+        """Returns whether the sole of a `side` at `x`, `y` in m and heading `yaw` in rad, and its surroundings, are on
+        one level face."""
         import shapely
 
         c, s = math.cos(yaw), math.sin(yaw)

@@ -1,7 +1,7 @@
-"""What pushes on the upper body truly did: which steps they changed, and how the CoM was accelerated.
+"""True effects of pushes on the upper body: which steps they changed, and how they accelerated the CoM.
 
-A step is compared by the way from the foot that stood to the foot that landed, against that way as planned at the
-start: what dead reckoning or an earlier change moved along with both feet is no change of this step.
+A step is compared by the way from the stance foot to the landed foot, against that way as planned at the start, so that
+what moves both feet, such as dead reckoning, does not count.
 """
 
 from __future__ import annotations
@@ -33,15 +33,8 @@ _LEAST_FORCE = 0.001  # weight: less is no push
 
 
 class Pushed(NamedTuple):
-    """A push for the judge.
-
-    Attributes:
-        step: Step that it fell into.
-        start: When it began in s.
-        end: When it ended in s.
-        impulse: True impulse (2,) in N s.
-        small: Whether the steps are to be kept at it.
-    """
+    """A push for the judge: its `step`, `start` and `end` in s, true `impulse` (2,) in N s, and whether it is `small`
+    enough that steps must stay."""
 
     step: int
     start: float
@@ -51,12 +44,7 @@ class Pushed(NamedTuple):
 
 
 class Stride(NamedTuple):
-    """The way of a foot with one step.
-
-    Attributes:
-        true: From where it stood to where it stood next (x, y) in m.
-        planned: The same as planned at the start.
-    """
+    """The way (x, y) in m from a foot's stand to its next one: the `true` one, and as `planned` at the start."""
 
     true: tuple[float, float]
     planned: tuple[float, float]
@@ -64,7 +52,7 @@ class Stride(NamedTuple):
 
 @dataclass(frozen=True)
 class _Sample:
-    """An instant while somebody pushed."""
+    """An instant of a run with pushes."""
 
     time: float
     com: NDArray[np.float64]
@@ -74,7 +62,7 @@ class _Sample:
 
 
 def step_changes(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: Sequence[Footstep]) -> list[float]:
-    """How far each step came to be from its plan, by the way from foot to foot.
+    """Distances in m of the steps from their plan, by the way from foot to foot, until feet no longer take turns.
 
     Args:
         stands: The stands of the feet in order, sides in turn.
@@ -82,7 +70,7 @@ def step_changes(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: 
         steps: The footsteps as planned at the start.
 
     Returns:
-        Distances in m of the steps that were taken, in order; they end where the feet no longer came in their turn.
+        A distance for each step that was taken.
     """
     found: list[float] = []
     planned: dict[Side, Footstep] = dict(feet)
@@ -99,16 +87,8 @@ def step_changes(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: 
 
 
 def strides(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: Sequence[Footstep]) -> list[Stride]:
-    """The way that each foot went with its step.
-
-    Args:
-        stands: The stands of the feet in order, sides in turn.
-        feet: Where the feet stood at the start.
-        steps: The footsteps as planned at the start.
-
-    Returns:
-        The strides in order; they end where the feet no longer came in their turn.
-    """
+    """The way of each foot with its step, until feet no longer take turns. Returns them in order; arguments as of
+    `step_changes` (`stands`, `feet`, `steps`)."""
     found: list[Stride] = []
     planned: dict[Side, Footstep] = dict(feet)
     true: dict[Side, tuple[float, float]] = {side: (foot.x, foot.y) for side, foot in feet.items()}
@@ -123,12 +103,12 @@ def strides(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: Seque
 
 
 class PushTruth:
-    """Follows a run in which somebody pushes.
+    """Follows a run with pushes.
 
     Args:
         mass: Mass of the robot in kg.
         leg: Length of its legs in m.
-        stride: Time in s from a step to the next one of the same foot; 0 for a robot that stands.
+        stride: Time in s between two steps of a foot; 0 for a robot that stands.
     """
 
     def __init__(self, mass: float, leg: float, stride: float = 0.0) -> None:
@@ -144,7 +124,7 @@ class PushTruth:
             time: Time in s.
             com: True CoM (3,) in m.
             zmp: True ZMP (2,) in m; None without load.
-            wrench: True wrench (6,) of who pushes, about the world's origin, in N and N m.
+            wrench: True wrench (6,) of the pushes about the world's origin in N and N m.
         """
         if zmp is None:
             return
@@ -158,17 +138,14 @@ class PushTruth:
         self._samples.append(_Sample(time, com.copy(), np.array(zmp), np.array([x, y]), above))
 
     def accelerations(self, pushes: Sequence[Pushed]) -> list[dict[str, float]]:
-        """What each push gave the CoM, less what the ground gave it, against the model of K.
+        """What each of the `pushes` gave the CoM, less what the ground gave it, against the model of K.
 
         For a body that is kept upright, m h com'' = m g (com - zmp) + F (h + d) for a horizontal force F that acts d
-        above a CoM at height h (K 9-11, corrected). Integrated over the push, m dv less the ground's share has to be
-        the integral of F (1 + d / h); with the signs as they are printed it would be that of F (1 - d / h).
+        above a CoM at height h (K 9-11, corrected). Integrated over the push, m dv less the ground's share is the
+        integral of F (1 + d / h); with the signs as printed it would be that of F (1 - d / h).
 
-        What legs and trunk swing with has angular momentum that the pendulum does not know: 1.2 N s in 0.24 s of H1's
-        steps in place, to the left or to the right. What it made a stride before, without a push, is subtracted.
-
-        Args:
-            pushes: The pushes.
+        Swinging legs and trunk have angular momentum that the pendulum does not know: 1.2 N s in 0.24 s of H1's steps
+        in place, to the left or right. Its value one stride before, without a push, is subtracted.
 
         Returns:
             For each "measured_Ns", "predicted_Ns", "printed_Ns" along it, "above_com_m", and "ratio" of the first two.
@@ -200,11 +177,11 @@ class PushTruth:
         }
 
     def _around(self, start: float, end: float) -> list[_Sample]:
-        """The samples of some time, and of 20 ms before and after."""
+        """The samples of a time and 20 ms around it."""
         return [s for s in self._samples if start - 0.02 <= s.time <= end + 0.02]
 
     def _unexplained(self, chosen: Sequence[_Sample], way: NDArray[np.float64]) -> float:
-        """What the CoM gained along a way in N s, less what the ground gives a pendulum."""
+        """Momentum in N s that the CoM gained along a way, less what the ground gives a pendulum."""
         times, com = np.array([s.time for s in chosen]), np.array([s.com for s in chosen])
         along, zmp = com[:, :2] @ way, np.array([s.zmp for s in chosen]) @ way
         speed = np.gradient(along, times)
@@ -212,15 +189,8 @@ class PushTruth:
         return float(self._mass * (speed[-2] - speed[1]) - np.trapezoid(ground[1:-1], times[1:-1]))
 
     def steps_reasons(self, pushes: Sequence[Pushed], changes: Sequence[float]) -> list[dict[str, Any]]:
-        """Criteria that failed of a scene in which small pushes leave the steps alone and large ones change one.
-
-        Args:
-            pushes: The pushes in order.
-            changes: How far each step came to be from its plan in m (`step_changes`).
-
-        Returns:
-            As `plantar.sim.judging.verdict.reasons` gives them.
-        """
+        """Criteria that failed where small `pushes` must leave steps alone and large ones change one, from the steps'
+        `changes` in m (`step_changes`). Returns them as `plantar.sim.judging.verdict.reasons`."""
         limit, found = CHANGED * self._leg, []
         for i, push in enumerate(pushes):
             until = pushes[i + 1].step if i + 1 < len(pushes) else push.step + _AFTER + 1
@@ -237,15 +207,8 @@ class PushTruth:
         return found
 
     def stride_reasons(self, pushes: Sequence[Pushed], ways: Sequence[Stride]) -> list[dict[str, Any]]:
-        """Criteria that failed of a scene in which each push makes its step longer.
-
-        Args:
-            pushes: The pushes.
-            ways: The strides (`strides`).
-
-        Returns:
-            As `plantar.sim.judging.verdict.reasons` gives them.
-        """
+        """Criteria that failed where each of the `pushes` must lengthen its step, from the strides `ways`. Returns them
+        as `plantar.sim.judging.verdict.reasons`."""
         limit, reacted = CHANGED * self._leg, 0
         for push in pushes:
             if push.step < len(ways):
@@ -258,14 +221,8 @@ class PushTruth:
         return [{"criterion": "strides", "value": reacted, "limit": len(pushes), "text": text}]
 
     def acceleration_reasons(self, pushes: Sequence[Pushed]) -> list[dict[str, Any]]:
-        """Criteria that failed of a scene in which the model of K has to hold for the CoM's acceleration.
-
-        Args:
-            pushes: The pushes.
-
-        Returns:
-            As `plantar.sim.judging.verdict.reasons` gives them.
-        """
+        """Criteria that failed where the CoM's acceleration under `pushes` must follow the model of K, as
+        `plantar.sim.judging.verdict.reasons`."""
         found = []
         for row in self.accelerations(pushes):
             off = abs(row["ratio"] - 1.0)

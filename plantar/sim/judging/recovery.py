@@ -1,4 +1,4 @@
-"""How a standing robot takes pushes: how far its true ZMP goes, and when it stands still again."""
+"""How a standing robot takes pushes: how far its true ZMP moves, and when it is at rest again."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _CALM = 2.02  # beats for which it has to stay: half a second
 
 
 class Recovery:
-    """Follows ZMP and CoM through pushes, by the simulator's truth.
+    """Follows the true ZMP and CoM through pushes.
 
     Args:
         shoves: The pushes in order.
         end: Time in s at which the run ends.
-        body: How large the robot is.
+        body: The robot's size.
     """
 
     def __init__(self, shoves: Sequence[Shove], end: float, body: BodyScale = REFERENCE_BODY) -> None:
@@ -71,11 +71,11 @@ class Recovery:
         """Figures of all pushes: direction, impulse, largest ZMP deviation, and time from the push's end to rest.
 
         Args:
-            applied: Impulse (3,) in N s that was applied of each push that began.
+            applied: Applied impulse (3,) in N s of each push that began.
 
         Returns:
-            Numbers and lists for the run's summary. None: the impulse of a push that never began, the deviation where
-            there was no ZMP, and the time of a push after which the robot did not come to rest.
+            Entries of the run's summary. None: the impulse of a push that never began, the deviation without a ZMP, and
+            the time of a push after which the robot did not come to rest.
         """
         pushes: list[dict[str, Any]] = []
         for i, shove in enumerate(self.shoves):

@@ -1,5 +1,4 @@
-"""How steady the ground carries: a limit that no contact model may break, since a walk over flickering ground is no
-measure of its controller."""
+"""How steadily the ground carries: a walk over flickering contacts does not measure its controller."""
 
 from __future__ import annotations
 
@@ -30,7 +29,7 @@ class StanceRipple:
     Args:
         world: The world.
         reaction: The ground's reaction on both feet, updated at each physics step.
-        least: Vertical force in N from which on a foot touches the ground.
+        least: Vertical force in N from which a foot touches the ground.
     """
 
     def __init__(self, world: World, reaction: GroundReaction, least: float) -> None:
@@ -42,7 +41,7 @@ class StanceRipple:
 
     @property
     def rms(self) -> float | None:
-        """Root mean square of the force less m (g + z''), over the weight; None where it was never compared."""
+        """Root mean square of the force less m (g + z''), over the weight; None without a comparison."""
         return float(self.watch.rms()) / self._weight if self.watch.compared else None
 
     @property
@@ -59,7 +58,7 @@ class StanceRipple:
         }
 
     def reasons(self) -> list[dict[str, Any]]:
-        """Why a run does not count, as `verdict.reasons`."""
+        """Criteria that failed, as `plantar.sim.judging.verdict.reasons`."""
         value = self.rms
         if value is None or value <= RIPPLE:
             return []

@@ -28,13 +28,8 @@ which turns by 0.007."""
 
 @dataclass(frozen=True)
 class Stand:
-    """One stand of a foot.
-
-    Attributes:
-        side: Which foot.
-        touchdown: When it touched the ground in s.
-        place: Its sole's origin (x, y) in m and heading in rad when it last carried a quarter of the weight.
-    """
+    """A stand of the foot of a `side`, from its `touchdown` in s, at a `place`: its sole's origin (x, y) in m and
+    heading in rad when it last carried a quarter of the weight."""
 
     side: Side
     touchdown: float
@@ -46,10 +41,9 @@ class Count:
     """The steps of a walk that were taken.
 
     Attributes:
-        stands: The stands that were steps, one after the other.
-        missed: What became of the first step that was not taken; empty where all were.
-        drift: How far in m (forward, left, in the plan's frame) the ways from foothold to foothold came to differ from
-            the planned ones, added up.
+        stands: The stands that were steps, in order.
+        missed: Why the first missing step did not count; empty where all did.
+        drift: Sum in m (forward, left, in the plan's frame) of the differences from the planned ways between footholds.
         turned: The same of the heading in rad.
     """
 
@@ -67,20 +61,20 @@ class Count:
 class StepCount:
     """Follows both feet through a walk.
 
-    A step is taken when the foot of its side, after all steps before it, stands at its place: not where it touched
-    first, but where it stood last before the other foot touched down. A foot that taps, probes or is put down again
-    therefore takes one step. Its place is seen from the foothold before it, so that a long walk is not judged by what
-    dead reckoning loses; what adds up of it is limited by the way.
+    A step is taken when the foot of its side, after all steps before it, stands at its place: where it was last before
+    the other foot touched down, so that taps and probes do not count as steps. Its place is relative to the foothold
+    before it, so that a long walk is not judged by the drift of dead reckoning; the sum of the differences is limited
+    by the way.
 
     Args:
         goal: The footsteps.
         weight: Weight of the robot in N.
-        time_of: When a physics step began in s, by its number.
-        justified: Whether ground or a push justify that a step is moved: the stand, the way of the step as planned, and
-            the foothold before as it truly was.
+        time_of: Time in s of a physics step by its number.
+        justified: Whether ground or a push justify that a step is moved, by the stand, the planned way of the step, and
+            the true foothold before.
 
     Attributes:
-        watch: Takes in where the feet are and what they carry after each physics step.
+        watch: Takes in feet and their loads after each physics step.
     """
 
     def __init__(
@@ -101,7 +95,7 @@ class StepCount:
         return float(self.watch.slip)
 
     def last_stands(self) -> list[Stand]:
-        """The stands that could be steps: of each foot the last one before the other foot touches down."""
+        """The stands that can be steps: each foot's last one before the other foot touches down."""
         rows = [list(group)[-1] for _, group in groupby(self.watch.stands(), key=lambda row: row[1])]
         return [Stand(SIDES[foot], self._time_of(step), (x, y, yaw)) for step, foot, x, y, yaw in rows]
 
@@ -143,7 +137,7 @@ class StepCount:
         landed: float,
         so_far: tuple[tuple[float, float], float, float],
     ) -> str | tuple[tuple[float, float], float, Way]:
-        """Drift with a stand that is step k, and the step's way; else what keeps it from being the step."""
+        """Drift with a stand that is step k, and the step's way; else why it is not the step."""
         goal, side, (drift, turned, course) = self.goal, self.goal.steps[k].side, so_far
         if stand.side != side:
             return f"the {stand.side} foot landed in its stead"

@@ -1,4 +1,4 @@
-"""How fast a robot truly walked against its command, and whether it stood still at a stop."""
+"""True speed of a walk against its command, and whether the robot stood still at a stop."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ _ORIGIN = np.zeros(2)
 class VelocityTruth:
     """Follows a walk at commanded velocities.
 
-    The robot's way is taken in the frame of its torso's heading, from the first lift-off of a walk on, and compared
-    with the command that held one step before: a foot in the air goes where it was going to.
+    The robot's way in the frame of its torso's heading, from the first lift-off on, is compared with the command one
+    step before: a foot in the air goes where it was going to.
 
     Args:
         world: The world.
         table: The commands over time.
         timing: Durations of the walk's phases.
-        begin: Where the walk begins: middle of the feet (2,) in m and heading in rad.
+        begin: Start of the walk: middle of the feet (2,) in m and heading in rad.
 
     Attributes:
-        course: Where the commanded course has come to: place (2,) in m, and heading in rad.
+        course: End of the commanded course so far: place (2,) in m, and heading in rad.
     """
 
     def __init__(
@@ -61,11 +61,7 @@ class VelocityTruth:
         self._walks_from = math.inf
 
     def update(self, time: float) -> None:
-        """At each control tick.
-
-        Args:
-            time: Time in s.
-        """
+        """At each control tick, at `time` in s."""
         world, data = self._world, self._world.data
         com = data.subtree_com[world.torso, :2].copy()
         heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
@@ -93,11 +89,7 @@ class VelocityTruth:
             self._turn[1] += abs(command.turn) * period
 
     def summary(self, landings: list[float]) -> dict[str, Any]:
-        """Shares of the commanded speeds, and what followed the last stop.
-
-        Args:
-            landings: Times of touchdown in s.
-        """
+        """Shares of the commanded speeds, and what followed the last stop; `landings` are touchdowns in s."""
         stops = [t for t, c in zip(self._table.times, self._table.commands, strict=True) if c is None]
         return {
             "speed_ratio": round(self._way[0] / self._way[1], 4) if self._way[1] > 0.0 else None,
@@ -109,11 +101,7 @@ class VelocityTruth:
         }
 
     def reasons(self, landings: list[float]) -> list[dict[str, Any]]:
-        """What keeps the walk from being as commanded; empty for a walk as commanded.
-
-        Args:
-            landings: Times of touchdown in s.
-        """
+        """Criteria that failed, as `plantar.sim.judging.verdict.reasons`; `landings` are touchdowns in s."""
         figures, found = self.summary(landings), []
         for name, words in (("speed_ratio", "speed"), ("turn_ratio", "rate of turn")):
             ratio = figures[name]

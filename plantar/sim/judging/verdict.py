@@ -30,17 +30,16 @@ class Ending:
     """How a run ended.
 
     Attributes:
-        fall: What fell how far, as (criterion's value, limit, text); None for no fall.
-        stopped: The safe state in which the controller stays (`WalkingController.safe_state`); None while it walks.
+        fall: The fall as (criterion's value, limit, text); None for no fall.
+        stopped: The controller's final safe state (`WalkingController.safe_state`); None while it walks.
         steps: Steps taken and planned.
-        missed: What became of the first step that was not taken.
-        position: Distance in m of the CoM from the walk's end; None for a walk that has no place to end at.
-        heading: Heading error in degrees; None likewise.
+        missed: Why the first missing step did not count.
+        position: Distance in m of the CoM from the walk's end; None for a walk without a fixed end.
+        heading: Heading error in degrees; None for a walk without a fixed end.
         tilt: Tilt of the torso in degrees.
-        body: How large the robot is.
+        body: The robot's size.
         pushes: Pushes that the robot recovered from, and all of them.
-        overrun: Time in s at which the run was cut off, since the controller still was not at its end, and the end in s
-            as it was planned at first; None otherwise.
+        overrun: Time in s at which a run that did not end was cut off, and its first planned end in s; None otherwise.
     """
 
     fall: tuple[float, float, str] | None
@@ -64,7 +63,7 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
         joints: How fast the joints were.
 
     Returns:
-        For each criterion that failed its name "criterion", "value", "limit" and a "text".
+        For each failed criterion its name "criterion", "value", "limit" and a "text".
     """
     found: list[dict[str, Any]] = []
 

@@ -1,8 +1,7 @@
-"""The goal of a walk: its footsteps as planned at the start, what of them was planned again, and why.
+"""The goal of a walk: its footsteps as planned at the start, which of them were planned again, and why.
 
-The judge keeps the goal itself. A controller cannot make it shorter, and can move a footstep only by a report before
-the foot lands there, with a reason, to a place that a detour explains. Whether the ground or a push justified the move,
-the count of the steps asks.
+The judge keeps the goal. A controller cannot shorten it, and can move a footstep only by a report before the foot
+lands, with a reason, to a place that a detour explains. Step counting asks whether ground or a push justified the move.
 """
 
 from __future__ import annotations
@@ -51,19 +50,19 @@ class _Move:
 
 
 class WalkGoal:
-    """Where the feet have to be put down, in which order.
+    """Where feet must be put down, in which order.
 
     Args:
         feet: Where the feet stand at the start.
         steps: The footsteps as planned at the start.
-        leg: Length of the robot's legs in m, which distances are judged by.
-        led: How far in m somebody leads the robot off its way, by which any footstep may be moved further.
+        leg: Length of the robot's legs in m, the scale of distances.
+        led: How far in m the robot is led off its way, by which any footstep may be moved further.
 
     Attributes:
         steps: The footsteps as planned at the start.
         near: Distance in m within which a foot has reached a place.
         leg: Length of the robot's legs in m.
-        refused: How many moves were not taken over: without a reason, not finite, or further than a detour explains.
+        refused: Number of refused moves: without a reason, not finite, or further than a detour explains.
     """
 
     def __init__(
@@ -93,12 +92,7 @@ class WalkGoal:
         return ways
 
     def move(self, time: float, moved: Sequence[MovedStep]) -> None:
-        """Take over what a controller reports to have moved.
-
-        Args:
-            time: When it was reported in s, by the judge's clock.
-            moved: The footsteps that it moved since its last report.
-        """
+        """Take the footsteps that a controller reports as `moved` at `time` in s by the judge's clock."""
         wanted = list(self._now)
         known = [m for m in moved if 0 <= m.step < len(wanted) and m.reason.strip()]
         known = [m for m in known if math.isfinite(m.x) and math.isfinite(m.y) and math.isfinite(m.yaw)]
@@ -133,11 +127,11 @@ class WalkGoal:
 
         Args:
             step: Its index.
-            time: When the foot touched down in s; what is reported later does not count.
-            before: When the foot before it did: where that one was to go is not reported later either.
+            time: Its touchdown in s; later reports do not count.
+            before: Touchdown of the foot before it, likewise for that foot's place.
 
         Returns:
-            The way as planned at the start, and as planned last where that is another one.
+            The way as planned at the start, and as planned last where that differs.
         """
         planned = _way(self._before(step), self.steps[step])
         if self._last_move(step, time) is None:
@@ -150,7 +144,7 @@ class WalkGoal:
         return self.steps[step - 1] if step else self._feet[other_side(self.steps[0].side)]
 
     def _last_move(self, step: int, time: float) -> _Move | None:
-        """How a step was moved last until some time."""
+        """A step's last move until some time."""
         reported = [m for m in self._moves.get(step, ()) if m.time <= time]
         return reported[-1] if reported else None
 
@@ -159,20 +153,12 @@ class WalkGoal:
         return self.steps[step] if move is None else move.place
 
     def reason(self, step: int, time: float) -> str:
-        """Why a step was moved last.
-
-        Args:
-            step: The step.
-            time: Time in s until which moves count.
-
-        Returns:
-            The reason; empty where it was not moved.
-        """
+        """Returns why a `step` was moved last, until `time` in s; empty where it was not."""
         move = self._last_move(step, time)
         return "" if move is None else move.reason
 
     def start(self) -> Footstep:
-        """The foot that stands while the first step is made."""
+        """The stance foot of the first step."""
         return self._before(0)
 
     def way_to(self, step: int) -> float:
@@ -198,7 +184,7 @@ class WalkGoal:
         return np.asarray(middle), steps[-1].yaw if steps else self._feet["left"].yaw
 
     def summary(self) -> list[dict[str, object]]:
-        """Footsteps that were moved: how far in m from where they were planned at the start, when last, and why."""
+        """Footsteps that were moved: how far in m from the first plan, when last, and why."""
         rows: list[dict[str, object]] = []
         for k, moves in sorted(self._moves.items()):
             move, planned = moves[-1], self.steps[k]

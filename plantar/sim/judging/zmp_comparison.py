@@ -1,8 +1,7 @@
 """ZMP from the skin against ZMP from force-torque sensors at the ankles (T 4.3.1, Fig. 42-43).
 
-Both are low-pass filtered as a controller would, alike: taxel forces and ankle wrenches each pass a filter of first
-order with the same time constant before anything else. The taxels' means are then freed from what clipping their noise
-at zero adds (`plantar.gait.estimate.skin_load`). Feet are where the controller's estimator has them, for both.
+Taxel forces and ankle wrenches pass the same first-order low-pass filter; the taxels' means are then corrected for the
+bias of clipping noise at zero (`plantar.gait.estimate.skin_load`). Both use the feet of the controller's estimator.
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ class ZmpComparison:
         begin: Time in s from which differences count: filters and estimator have settled.
 
     Attributes:
-        latest: ZMP (2,) in m from the skin and from the ankles in the world frame at the last tick, None without load.
+        latest: World ZMP (2,) in m from the skin and from the ankles at the last tick, None without load.
     """
 
     def __init__(self, layouts: Mapping[Side, SoleLayout], noise: float, period: float, begin: float = 1.0) -> None:
@@ -48,12 +47,7 @@ class ZmpComparison:
         self.latest: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None] = (None, None)
 
     def update(self, time: float, command: Command) -> None:
-        """At each control tick.
-
-        Args:
-            time: Time in s.
-            command: The command, with what the controller sensed; it has to have ankle loads.
-        """
+        """Take the `command` of the tick at `time` in s, with its sensor data and ankle loads."""
         skin: list[NDArray[np.float64] | None] = []
         ankle: list[NDArray[np.float64] | None] = []
         skin_loads: list[float] = []

@@ -1,4 +1,4 @@
-"""Where a point of a body is, and how fast it moves."""
+"""Position and velocity of a point of a body."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ def body_point(
     Args:
         data: The MjData.
         body: Id of the body.
-        root: Id of the body that its tree begins with, about whose centre of mass MuJoCo gives velocities.
+        root: Id of the root of its tree, about whose centre of mass MuJoCo gives velocities.
         local: The point (3,) in the body's frame in m.
 
     Returns:
-        Its place (3,) in m and its velocity (3,) in m/s.
+        Its position (3,) in m and velocity (3,) in m/s.
     """
     place = data.xpos[body] + data.xmat[body].reshape(3, 3) @ local
     # The cross product in full: np.cross takes ten times as long, and this runs once a physics step.

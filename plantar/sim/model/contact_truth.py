@@ -1,9 +1,7 @@
-"""Contact truth: MuJoCo's own contacts of the feet. Skins are made from it and runs judged by it;
-no controller sees it.
+"""Contact truth: MuJoCo's own contacts of the feet, for skins and judges; no controller sees it.
 
-Everything here reads `MjModel` and `MjData` as the last `mj_step` or `mj_forward` left them: contacts, their forces
-and the kinematics then belong to the same instant. Wrenches are [fx, fy, fz, tx, ty, tz], exerted BY the world ON the
-robot.
+Everything here reads `MjModel` and `MjData` after `mj_step` or `mj_forward`, so contacts, forces and kinematics belong
+to one instant. Wrenches are [fx, fy, fz, tx, ty, tz], exerted BY the world ON the robot.
 """
 
 from __future__ import annotations
@@ -37,15 +35,15 @@ __all__ = [
 
 
 class ContactSet(NamedTuple):
-    """The contacts of one foot with everything that is not this foot; k contacts.
+    """The k contacts of one foot with everything else.
 
     Attributes:
         own_geoms: Geom id (k,) on the foot's side.
         other_geoms: Geom id (k,) on the other side; -1 for a flex.
-        positions: Contact point (k, 3) in the world frame in m.
-        forces: Force (k, 3) in the world frame in N, exerted on the foot.
-        torques: Torque (k, 3) in the world frame in N m, exerted on the foot (torsional and rolling friction).
-        distances: Gap (k,) in m, negative where the geoms penetrate.
+        positions: Contact point (k, 3) in the world in m.
+        forces: Force (k, 3) on the foot in the world in N.
+        torques: Torque (k, 3) on the foot in the world in N m (torsional and rolling friction).
+        distances: Gap (k,) in m, negative in penetration.
         carries: Mask (k,): MuJoCo's solver may put a force there; False for a contact within `gap` only.
     """
 
@@ -63,7 +61,7 @@ class ContactSet(NamedTuple):
         return len(self.distances)
 
     def gathered(self) -> FootContacts:
-        """The same as kernels take it."""
+        """The same as `FootContacts`, for kernels."""
         foot = FootContacts(np.zeros(1, dtype=np.uint8))
         foot.take(
             np.column_stack([self.own_geoms, self.other_geoms]).astype(np.int32).reshape(-1, 2),
@@ -75,7 +73,6 @@ class ContactSet(NamedTuple):
 
 
 def _set_of(foot: FootContacts) -> ContactSet:
-    """A foot's contacts as arrays of their own."""
     k = foot.size
     ids, vectors = np.array(foot.ids[:k]), np.array(foot.vectors[: 3 * k])
     return ContactSet(
@@ -94,9 +91,9 @@ class GroundTruth(NamedTuple):
 
     Attributes:
         wrench: Wrench (6,) about the world's origin.
-        zmp: True zero moment point (2,) in m, or None where the feet carry less than the minimum force.
+        zmp: True zero moment point (2,) in m; None below the minimum force.
         ring: Corners (x, y) in m of the true support polygon, counter-clockwise; empty in the air.
-        margin: Signed distance in m of the ZMP to the polygon's edge, positive inside; None where there is no ZMP.
+        margin: Signed distance in m of the ZMP to the polygon's edge, positive inside; None without ZMP.
         points: Points (x, y) in m of each foot that carry a force or could.
     """
 
@@ -113,24 +110,17 @@ class GroundTruth(NamedTuple):
 
 
 def foot_contacts(model: Any, data: Any, geom_ids: Collection[int]) -> ContactSet:
-    """The contacts of a foot and the forces that the world exerts on it.
-
-    MuJoCo's contact normal points from geom 1 to geom 2 and `mj_contactForce` gives the force on geom 2 in the contact
-    frame; where the foot is geom 1 the force changes sign. Contacts between two geoms of the foot are left out.
-
-    Args:
-        model: The MjModel.
-        data: The MjData after `mj_step` or `mj_forward`.
-        geom_ids: Ids of the foot's geoms.
-
-    Returns:
-        The contacts, in MuJoCo's order; empty for a foot in the air.
-    """
+    """The contacts of one foot, `feet_contacts` of its `geom_ids`. Returns them in MuJoCo's order, from `model` and
+    `data`."""
     return feet_contacts(model, data, (geom_ids,))[0]
 
 
 def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tuple[ContactSet, ...]:
-    """`foot_contacts` of several feet in one pass, which costs little more than that of one.
+    """The contacts of several feet and the forces that the world exerts on them, in one pass.
+
+    MuJoCo's contact normal points from geom 1 to geom 2 and `mj_contactForce` gives the force on geom 2 in the contact
+    frame; where the foot is geom 1 the force changes sign. Contacts between two geoms of a foot are left out; one
+    between two feet belongs to both.
 
     Args:
         model: The MjModel.
@@ -138,21 +128,13 @@ def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tup
         feet: Ids of each foot's geoms.
 
     Returns:
-        The contacts of each foot. A contact between two of the feet belongs to both.
+        The contacts of each foot.
     """
     return tuple(_set_of(foot) for foot in ContactReader(model, data, feet).read())
 
 
 def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Wrench of a foot's contacts about a point, along the world's axes.
-
-    Args:
-        contacts: The foot's contacts.
-        point: Reference point (3,) in the world frame in m, for example the origin of the sole frame.
-
-    Returns:
-        Wrench (6,) in N and N m, exerted by the world on the foot; zeros for a foot in the air.
-    """
+    """Returns the wrench (6,) in N and N m of a foot's `contacts` about a `point` (3,) in m, along the world's axes."""
     out = np.zeros(6)
     if contacts.size:
         f = contacts.forces
@@ -169,15 +151,12 @@ def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) ->
 def contact_wrench_in_frame(
     contacts: ContactSet, position: NDArray[np.float64], rotation_to_world: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Wrench of a foot's contacts about the origin of a frame, along the frame's axes.
+    """Returns the wrench (6,) in N and N m of a foot's `contacts` about a frame's origin, along the frame's axes.
 
     Args:
         contacts: The foot's contacts.
         position: Origin (3,) of the frame in the world in m: `data.site_xpos[site]` for the sole frame.
         rotation_to_world: Rotation (3, 3) or (9,) from the frame to the world: `data.site_xmat[site]`.
-
-    Returns:
-        Wrench (6,) in N and N m, exerted by the world on the foot; zeros for a foot in the air.
     """
     world = contact_wrench_in_world(contacts, position)
     return (world.reshape(2, 3) @ rotation_to_world.reshape(3, 3)).reshape(6)
@@ -202,16 +181,11 @@ def zmp_of_contacts(
 def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH) -> NDArray[np.float64]:
     """True support polygon: hull of the contact points that carry a force or could, seen from above.
 
-    A rigid sole under an eccentric load lifts a corner by micrometres, where any real one stays pressed; points within
-    `reach` therefore count. MuJoCo reports them only for geoms with a `gap` of at least that.
+    A rigid sole under an eccentric load lifts a corner by micrometres, where any real one stays pressed; points with a
+    gap up to `reach` in m therefore count. MuJoCo reports them only for geoms with a `gap` of at least that.
 
-    Args:
-        feet: Contacts of each foot.
-        reach: Largest gap in m of a point that could carry a force.
-
-    Returns:
-        Convex polygon (m, 2) in the world frame in m, counter-clockwise; empty where nothing touches, one or two
-        points for a point or line contact.
+    Returns the convex polygon (m, 2) of the contacts of all `feet` in m, counter-clockwise; empty in the air, one or
+    two points for a point or line contact.
     """
     points: list[tuple[float, float]] = []
     for contacts in feet:

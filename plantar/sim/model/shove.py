@@ -13,13 +13,9 @@ __all__ = ["Shove"]
 
 @dataclass(frozen=True)
 class Shove:
-    """One push.
+    """A push from `start` to `end` in s of an `impulse` (3,) in N s in the world frame.
 
-    Attributes:
-        start: Time in s at which it begins.
-        end: Time in s at which it ends.
-        impulse: Impulse (3,) in N s, world frame.
-        smooth: Whether the force swells and fades as a half sine, as a hand's does; else it is constant.
+    A `smooth` force rises and falls as a half sine, like a hand's; else it is constant.
     """
 
     start: float
@@ -28,18 +24,11 @@ class Shove:
     smooth: bool
 
     def force(self, time: float, lasting: float) -> NDArray[np.float64]:
-        """Mean force (3,) in N over an interval, so that forces held for whole steps add up to the impulse.
-
-        Args:
-            time: Begin of the interval in s.
-            lasting: Its length in s, above 0.
-
-        Returns:
-            The force in the world frame.
-        """
+        """Returns the mean force (3,) in N in the world from `time` over `lasting` in s, so that held forces add up to
+        the impulse."""
         return np.asarray(self.impulse * ((self._given(time + lasting) - self._given(time)) / lasting))
 
     def _given(self, time: float) -> float:
-        """Share of the impulse that is given until a time in s."""
+        """Share of the impulse until a time in s."""
         share = min(1.0, max(0.0, (time - self.start) / (self.end - self.start)))
         return 0.5 - 0.5 * math.cos(math.pi * share) if self.smooth else share

@@ -51,10 +51,10 @@ DIVERGED = (
 
 
 def check_stable(warnings: NDArray[np.int32]) -> None:
-    """Refuse to go on where MuJoCo found the state diverged, which it answers by a restart from the model's pose.
+    """Stop where MuJoCo's state diverged, which it answers by a restart from the model's pose.
 
     Args:
-        warnings: How often MuJoCo warned of what: `data.warning.number`, an array that it goes on counting in.
+        warnings: MuJoCo's counts of its warnings: `data.warning.number`.
 
     Raises:
         SceneError: If positions, velocities, accelerations or controls were not finite or too large.
@@ -117,7 +117,7 @@ def add_looks(spec: Any, torso: str) -> None:
 
 
 def _add_touch(spec: Any, sole: Any, name: str) -> None:
-    """Add a sensor of the normal force on a sole box: a touch site that encloses it with 10 mm to spare."""
+    """Add a sensor of the normal force on a sole box: a touch site with 10 mm to spare."""
     site = sole.parent.add_site(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, pos=sole.pos, quat=sole.quat, group=5)
     site.size = np.asarray(sole.size) + 0.01
     spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_TOUCH, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name)
@@ -155,17 +155,17 @@ class World:
         sole_sites: Site id of each sole frame.
         torso: Body id of the torso.
         stiffness: Servo position gains (k,) in N m/rad, of the robot's file.
-        damping: Servo velocity gains (k,) in N m s/rad, likewise.
-        joint_damping: Damping (k,) in N m s/rad that the joints have by themselves, of the robot's model.
-        joint_friction: Dry friction (k,) in N m of the joints, likewise.
+        damping: Servo velocity gains (k,) in N m s/rad, of the robot's file.
+        joint_damping: Damping (k,) in N m s/rad of the joints in the robot's model.
+        joint_friction: Dry friction (k,) in N m of the joints in the robot's model.
         gyro: Address of the gyro in sensordata.
         accelerometer: Address of the accelerometer in sensordata.
         ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
-        touch: Address in sensordata of the normal force on each sole, of whatever presses on it; for benches.
-        leg_contact: Address in sensordata of whether one leg touches the other: above 0; likewise.
-        body: How large the robot is, by its file.
+        touch: Address in sensordata of the normal force on each sole; for benches.
+        leg_contact: Address in sensordata of whether one leg touches the other: above 0.
+        body: The robot's size, by its file.
         period: Time step of the physics in s.
-        moving_ground: Pieces of ground that move, with their number among the mocap bodies.
+        moving_ground: Moving pieces of ground with their number among the mocap bodies.
         ground_top: Height in m that no ground ever exceeds.
     """
 
@@ -198,7 +198,7 @@ class World:
         return REACH * self.body.leg / REFERENCE_BODY.leg
 
     def move_ground(self) -> None:
-        """Put what moves of the ground where it is now."""
+        """Move the ground to where it is now."""
         for i, solid in self.moving_ground:
             self.data.mocap_pos[i] = solid.at(float(self.data.time))
 
@@ -210,17 +210,17 @@ def build_world(
     plant: TruePlant | None = None,
     others: Sequence[Visitor] = (),
 ) -> World:
-    """Build and compile the world.
+    """Build and compile the world, in its reference configuration.
 
     Args:
         robot: The robot.
         ground: The ground.
         period: Time step of the physics in s.
         plant: How the true robot and ground differ; None for no difference.
-        others: Who else is in it; their coordinates come after the robot's.
+        others: Other bodies; their coordinates come after the robot's.
 
     Returns:
-        The world in its reference configuration; the runner puts the robot on its feet.
+        The world; the runner puts the robot on its feet.
 
     Raises:
         RobotError: If the model cannot be read or simulated.
@@ -274,7 +274,7 @@ def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float, da
 
 
 def _servos_of(model: Any, robot: Robot, names: Sequence[str], ids: Sequence[int]) -> NDArray[np.int64]:
-    """The actuator of each joint; refused is a joint that none drives."""
+    """The actuator of each joint; a RobotError for a joint without one."""
     servo_of = {int(model.actuator_trnid[a, 0]): a for a in range(model.nu)}
     missing = [n for n, i in zip(names, ids, strict=True) if i not in servo_of]
     if missing:
@@ -283,7 +283,7 @@ def _servos_of(model: Any, robot: Robot, names: Sequence[str], ids: Sequence[int
 
 
 def _world_of(model: Any, robot: Robot, ground: Ground, body: BodyScale) -> World:
-    """The compiled model with the places of all that is read from it and written to it."""
+    """The compiled model with the addresses of all that is read and written."""
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
     ids = [model.joint(name).id for name in joints]
     servos = _servos_of(model, robot, joints, ids)

@@ -28,14 +28,14 @@ _LOGS = ("distributed", "distributed.client", "tornado", "tornado.application", 
 class ClusterWorkers:
     """The workers of a Dask scheduler.
 
-    Dask itself begins the run of a dead worker again on another one, as often as its setting `allowed-failures` allows.
+    Dask restarts the run of a dead worker on another one, as often as its setting `allowed-failures` allows.
 
     Args:
         address: Address of the scheduler, as tcp://host:8786 or tls://host:8786.
 
     Raises:
         DependencyError: If Dask's `distributed` is not installed.
-        InputError: If the address is not one of a scheduler, certificates are missing, or no scheduler answers there.
+        InputError: If the address is not a scheduler's, certificates are missing, or no scheduler answers.
     """
 
     def __init__(self, address: str) -> None:
@@ -72,7 +72,7 @@ class ClusterWorkers:
 
     @property
     def room(self) -> int:
-        """How many more tasks can be taken: two for each thread of a worker, so that none waits for the next one."""
+        """How many more tasks can be taken: two for each thread of a worker, so that none waits."""
         return max(1, 2 * self._threads) - len(self._tasks)
 
     def submit(self, task: Task) -> None:
@@ -125,7 +125,7 @@ class ClusterWorkers:
         return [(task, row)]
 
     def _check(self) -> None:
-        """Raise where no more will come."""
+        """Raise where no more rows can come."""
         now = time.monotonic()
         if self._error is not None:
             raise self._error

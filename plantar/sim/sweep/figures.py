@@ -32,12 +32,12 @@ def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, An
 
     Args:
         plan: What was run.
-        found: What its rows came to.
+        found: Its results.
         rows: The rows.
 
     Returns:
-        Figures by name: "limit" of a limit search; of others "completed", "map" over the first two settings that take
-        numbers, and "distributions" over the grid's points; those for which there is something to draw.
+        Figures by name: "limit" of a limit search; of others "completed", "map" over the first two numeric settings,
+        and "distributions" over the grid's points; those with something to draw.
     """
     scene = plan.checked.scene
     if isinstance(plan, LimitSearch):
@@ -51,15 +51,8 @@ def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, An
 
 
 def bars_of(points: Sequence[Mapping[str, Any]], scene: str) -> Any:
-    """Completed runs of every grid point, with Wilson's 95 % intervals.
-
-    Args:
-        points: "points" of `run_sweep`'s result.
-        scene: Name for the title.
-
-    Returns:
-        The figure.
-    """
+    """Returns a figure of completed runs at all `points` of `run_sweep`'s result with Wilson's 95 % intervals, titled
+    `scene`."""
     figure, axis = new_figure(min(max(5.0, 1.2 + 1.05 * len(points)), _WIDEST), 4.0)
     names = ["\n".join(f"{k}={v}" for k, v in p["settings"].items()) or scene for p in points]
     shares = np.array([100.0 * p["completed"] / p["runs"] if p["runs"] else 0.0 for p in points])
@@ -119,7 +112,7 @@ def _groups(axis: Any, values: Any, completed: Any) -> None:
 
 
 def _numbers(texts: Sequence[str]) -> list[float] | None:
-    """Numbers of a setting's values, without a unit; None where one is no number."""
+    """Numbers of a setting's values, without a unit; None where one is not a number."""
     try:
         return [float(text.split()[0]) for text in texts]
     except (ValueError, IndexError):

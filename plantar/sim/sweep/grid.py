@@ -1,4 +1,4 @@
-"""Values of a setting as texts: cut from a list, and written in one way, so that 1.0 and 1 are the same value."""
+"""Values of a setting as texts: split from a list, and written in one form, so that 1.0 and 1 are the same value."""
 
 from __future__ import annotations
 
@@ -14,13 +14,7 @@ _CLOSING = {"[": "]", "{": "}"}
 
 
 def split_values(text: str) -> list[str]:
-    """Cut a list of values at the commas that stand outside of brackets and quotes.
-
-    Args:
-        text: TOML values and bare words with commas between them.
-
-    Returns:
-        The values' texts, without spaces around them.
+    """The TOML values and bare words of a list, split at commas outside brackets and quotes.
 
     Raises:
         InputError: If a value is empty, or a bracket or quote is not closed.
@@ -58,22 +52,23 @@ def split_values(text: str) -> list[str]:
 
 
 def is_word(key: str) -> bool:
-    """Whether a setting takes its text as it stands: a name or a path, never a number."""
+    """Whether a setting takes its text unchanged: a name or a path, never a number."""
     return key in ("robot", "machine", "kind", "terrain.kind")
 
 
 def canonical(text: str, *, word: bool = False) -> str:
-    """Write a value in the one way that stands for all texts that mean the same.
+    """The one text for all TOML values or bare words `text` with the same meaning; a setting gets the same value from
+    it.
 
     Args:
         text: A TOML value or a bare word.
-        word: Whether the setting takes its text as it stands (`is_word`): only quotes around it are taken off.
+        word: Whether the setting takes its text unchanged (`is_word`): only quotes around it are removed.
 
     Returns:
-        The value's text; a setting that is given it gets the same value.
+        The value's text.
 
     Raises:
-        InputError: If the text begins like a TOML value and is none, or cannot be printed in a line.
+        InputError: If the text begins like a TOML value and is none, or is not printable.
 
     Example:
         >>> [canonical(text) for text in ("1.0", "0.10", "[1,2]", "'left'", "left", '"1"')]

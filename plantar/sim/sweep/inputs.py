@@ -1,4 +1,4 @@
-"""What the rows of a sweep depend on besides its settings: the content of files, and versions."""
+"""What the rows of a sweep depend on besides its settings: file contents, and versions."""
 
 from __future__ import annotations
 
@@ -24,19 +24,15 @@ _FOLDERS = re.compile(rb"""\b(?:meshdir|texturedir|assetdir)\s*=\s*["']([^"']+)[
 
 
 def inputs_of(scene: str, robot: str) -> dict[str, str]:
-    """Find what a run of a scene with a robot reads.
+    """Versions of the libraries that decide a motion, and SHA-256 of all files that a run of a `scene` with a `robot`
+    reads.
 
-    Args:
-        scene: Name or file of the scene.
-        robot: Name or file of the robot.
-
-    Returns:
-        Versions of the libraries that decide a motion, and SHA-256 of the scene's file, the robot's, its layouts, its
-        model and what that names; by what each is called in messages, without the folders that lead there.
+    Returns them by their names in messages; files are the scene's, the robot's, its layouts, its model and what that
+    names.
 
     Raises:
         SceneError: If the scene is unknown.
-        RobotError: If the robot is unknown, or not valid.
+        RobotError: If the robot is unknown or invalid.
 
     Example:
         >>> sorted(inputs_of("flat", "h1"))[:3]
@@ -51,14 +47,7 @@ def inputs_of(scene: str, robot: str) -> dict[str, str]:
 
 
 def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
-    """State how inputs differ.
-
-    Args:
-        before: Inputs as they were.
-        now: Inputs as they are.
-
-    Returns:
-        What changed, in words; empty for no change.
+    """Returns in words how inputs differ from `before` to `now`; empty for no change.
 
     Example:
         >>> changes({"plantar": "1.0", "layout a": "9f"}, {"plantar": "1.1", "layout a": "e0"})
@@ -87,7 +76,7 @@ def _digest(path: Path, error: type[PlantarError]) -> str:
 
 
 def _files_of(robot: str) -> Iterator[tuple[str, Path]]:
-    """The robot's files by what they are called."""
+    """The robot's files by their names in messages."""
     loaded = load_robot(robot)
     yield f"robot file {loaded.path.name}", loaded.path
     layout = read_toml(loaded.path, RobotError, str(loaded.path))["shoe"]["layout"]
@@ -99,7 +88,7 @@ def _files_of(robot: str) -> Iterator[tuple[str, Path]]:
 
 
 def _files_of_machine(machine: str) -> Iterator[tuple[str, Path]]:
-    """The machine's files by what they are called."""
+    """The machine's files by their names in messages."""
     from plantar.sim.companion.machine import load_machine  # MuJoCo, which a walk's sweep does not need here
 
     loaded = load_machine(machine)

@@ -1,4 +1,4 @@
-"""How sure a count of runs makes of the share behind it."""
+"""Confidence of a share of runs."""
 
 from __future__ import annotations
 
@@ -10,17 +10,11 @@ _NORMAL_95 = 1.959963984540054  # 97.5 % of a standard normal variable are below
 
 
 def wilson_interval(completed: int, runs: int) -> tuple[float, float]:
-    """Wilson's score interval of a share, at 95 %.
-
-    Args:
-        completed: Number of runs that were completed.
-        runs: Number of runs.
-
-    Returns:
-        Lower and upper end, within 0 and 1; both of them without a run.
+    """Returns Wilson's 95 % score interval, within 0 and 1, of the share of `completed` in `runs`; (0, 1) without a
+    run.
 
     Raises:
-        ValueError: If there are not between 0 and `runs` completed.
+        ValueError: If `completed` is not within 0 and `runs`.
 
     Source: Wilson, Probable inference, the law of succession, and statistical inference (JASA 22, 1927).
 

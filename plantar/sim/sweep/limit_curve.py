@@ -1,11 +1,10 @@
-"""Where the outcome of runs turns over along a setting: how sure their outcomes make of it.
+"""Where the outcome of runs changes along a setting, and how well their outcomes show it.
 
-The share of runs that are completed is treated as a logistic curve of the setting, between a lapse and one less the
-lapse: some runs fail, or are completed, for reasons other than the setting. The limit is where half
-of the runs are completed. What is known of limit, width and lapse is a probability over a grid of them. Before the
-first run it is flat in the limit, in the logarithm of the width and over three lapses. The limit is in its interval
-with a probability of 95 %, any width and lapse are. (Kontsevich and Tyler, Bayesian adaptive estimation of
-psychometric slope and threshold, Vision Research 39, 1999.)
+The share of completed runs is a logistic curve of the setting, between a lapse and one less the lapse: some runs fail
+or succeed for other reasons. The limit is where half of the runs are completed. Limit, width and lapse have a
+probability on a grid, at first flat in the limit, in the logarithm of the width and over three lapses; the limit's
+interval integrates over the others. (Kontsevich and Tyler, Bayesian adaptive estimation of psychometric slope and
+threshold, Vision Research 39, 1999.)
 """
 
 from __future__ import annotations
@@ -35,9 +34,9 @@ class LimitCurve:
 
     Attributes:
         rising: Whether more runs are completed at larger values.
-        limits: Limits (n,) that are possible, in the unit of the setting, ascending.
-        probability: Probability (n,) of each; they add up to 1.
-        widths: Widths (k,) of the curve that are possible, in that unit.
+        limits: Possible limits (n,) in the unit of the setting, ascending.
+        probability: Probability (n,) of each; their sum is 1.
+        widths: Possible widths (k,) of the curve in that unit.
         joint: Probability (k, n, lapses) of width, limit and lapse together.
 
     Example:
@@ -54,20 +53,22 @@ class LimitCurve:
 
     @property
     def limit(self) -> float:
-        """The value that is as likely above the limit as below it."""
+        """The median of the limit."""
         return self.quantile(0.5)
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Between which values the limit is with a probability of 95 %, if the number of runs was chosen before."""
+        """The values between which the limit is with a probability of 95 %, for a number of runs that was chosen
+        before."""
         return self.quantile(0.025), self.quantile(0.975)
 
     @property
     def interval_of_search(self) -> tuple[float, float]:
-        """Between which values the limit is in 95 of 100 searches that ended since this interval was narrow enough.
+        """The values between which the limit is in 95 of 100 searches that ended because this interval was narrow
+        enough.
 
-        Such a search ends early where chance makes the curve look steeper than it is: `interval` holds the limit in 90
-        of 100 of them only. This one has a probability of 98 % (`tests/sim/sweep/test_limit_search.py` counts).
+        Such a search ends early where chance makes the curve look too steep: `interval` holds the limit in only 90 of
+        100. This one has a probability of 98 % (`tests/sim/sweep/test_limit_search.py` counts).
         """
         return self.quantile(0.01), self.quantile(0.99)
 
@@ -78,15 +79,7 @@ class LimitCurve:
         return float(np.interp(probability, np.concatenate([[0.0], np.cumsum(self.probability)]), ends))
 
     def inside(self, low: float, high: float) -> float:
-        """Probability that the limit is between two values.
-
-        Args:
-            low: The smaller value.
-            high: The larger one.
-
-        Returns:
-            The probability, 0 to 1.
-        """
+        """Returns the probability, 0 to 1, that the limit is between `low` and `high`."""
         return float(self.probability[(low <= self.limits) & (self.limits <= high)].sum())
 
     def share(self, value: float) -> float:
@@ -97,8 +90,8 @@ class LimitCurve:
     def agreement(self, values: Sequence[float], completed: Sequence[bool]) -> float:
         """Probability that runs of this very curve are as far from it as these: tiny where no curve explains them.
 
-        So it is where the seed chooses what the limit depends on, as the side of a push: half of the runs are then
-        completed somewhere between several limits. Chi square of groups of ten runs or more, by value, after Pearson.
+        So it is where the seed chooses what the limit depends on, such as the side of a push. Pearson's chi square of
+        groups of ten runs or more, by value.
 
         Args:
             values: The setting's value in each run.
@@ -119,11 +112,11 @@ class LimitCurve:
         return float(chdtrc(len(groups) - 3, square))  # limit, width and lapse were chosen by the runs
 
     def turned(self, part: float, low: float, high: float) -> float:
-        """The value at which a part of the way from all to none, or from none to all, is expected to be done.
+        """The value at which a `part` of the change from all to none, or none to all, is expected.
 
         Args:
             part: The part, 0 to 1: one half at the limit. Lapses are left out.
-            low: Smallest value that is allowed.
+            low: Smallest allowed value.
             high: Largest one.
 
         Returns:
@@ -140,7 +133,7 @@ class LimitCurve:
 
 
 def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, high: float) -> LimitCurve:
-    """Find what the outcomes of runs show of a limit.
+    """What the outcomes of runs show of a limit.
 
     Args:
         values: The setting's value in each run.
@@ -149,8 +142,7 @@ def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, 
         high: Largest one.
 
     Returns:
-        What they show. Where they do not show whether more runs are completed at larger values or at smaller ones, the
-        likelier of the two.
+        The curve; where outcomes do not show its direction, the likelier one.
 
     Raises:
         ValueError: If `low` is not below `high`.
@@ -182,7 +174,7 @@ def _log_likelihoods(
     limits: NDArray[np.float64],
     widths: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Logarithm (widths, limits, lapses) of how likely the runs are, of a rising curve and of a falling one."""
+    """Log likelihood (widths, limits, lapses) of the runs, of a rising curve and of a falling one."""
     up = np.zeros((len(widths), len(limits), len(_LAPSES)))
     down = np.zeros_like(up)
     for value, completed, failed in zip(tried, good, bad, strict=True):

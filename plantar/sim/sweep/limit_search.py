@@ -1,4 +1,4 @@
-"""Where does it break: runs along one setting, where they show most of its limit, until that is known well enough."""
+"""Search the limit of one setting with the runs that show most of it, until it is known well enough."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class LimitSearch:
     """The value of a setting at which half of the runs are completed, at each point of a grid.
 
     Attributes:
-        sweep: Scene, grid and the most runs at each point of it, as "seeds": every run has its own seed.
+        sweep: Scene, grid and, as "seeds", the most runs at each point; every run has its own seed.
         limit: The setting and its range.
         within: Width of the limit's 95 % interval, as a share of the limit, at which the search ends.
 
@@ -64,14 +64,8 @@ class LimitSearch:
         return self.checked.identity() | {"limit": ends, "first_seed": self.sweep.first_seed}
 
     def runs(self, rows: Rows) -> Iterator[Run | None]:
-        """The runs, in an order that depends on outcomes alone.
-
-        Args:
-            rows: Rows of the runs that ended, which grow.
-
-        Yields:
-            The next run; None while outcomes have to be waited for.
-        """
+        """The runs, in an order that depends on outcomes alone; None while outcomes of the growing `rows` are
+        needed."""
         chains = [self._chain(point, rows) for point in self.sweep.points()]
         while chains:
             waiting = True
@@ -87,17 +81,13 @@ class LimitSearch:
                 yield None
 
     def found(self, rows: Rows) -> dict[str, Any]:
-        """What the runs come to.
-
-        Args:
-            rows: Rows of the runs that ended.
+        """The result of the rows of the runs that ended.
 
         Returns:
-            "limits": for each grid point its settings, the setting that was searched ("setting", "unit", "range"), its
-            "limit", the 95 % "interval" of that and the interval's "width" as a share of the limit (None where the
-            limit is not in the range), whether it is known well enough ("reached"), whether larger values hold
-            ("rising"), how well one curve explains the runs ("agreement", `LimitCurve.agreement`), runs, completed, and
-            the errors of runs that could not be.
+            "limits": for each grid point its settings, the searched setting ("setting", "unit", "range"), its "limit",
+            the 95 % "interval" of that and its "width" as a share of the limit (None where the limit is not in the
+            range), whether it is known well enough ("reached"), whether larger values hold ("rising"), how well one
+            curve explains the runs ("agreement"), runs, completed, and the errors of impossible runs.
         """
         return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
 
@@ -109,32 +99,16 @@ class LimitSearch:
         return min(1.0, (self.within / widest) ** 2), f"{len(rows)} rows (limit known within {words})"
 
     def tried(self, point: Sequence[str], rows: Rows) -> list[Key]:
-        """Keys of the runs of a grid point that ended.
-
-        Args:
-            point: Settings of the grid point.
-            rows: Rows of the runs that ended.
-
-        Returns:
-            The keys, by their seeds.
-        """
+        """Returns the keys of the runs of a grid `point` in `rows`, by their seeds."""
         values = tuple(settings_of(point).values())
         return sorted((key for key in rows if key[0][:-1] == values), key=lambda key: key[1])
 
     def curve(self, keys: Sequence[Key], rows: Rows) -> LimitCurve:
-        """What the outcomes of some runs show; those that could not be run are left out.
-
-        Args:
-            keys: Keys of the runs.
-            rows: Rows of these and others.
-
-        Returns:
-            What is known of the limit.
-        """
+        """Returns what the outcomes of the runs `keys` in `rows` show; impossible runs are left out."""
         return limit_curve(*self._outcomes(keys, rows), self.limit.low, self.limit.high)
 
     def _outcomes(self, keys: Sequence[Key], rows: Rows) -> tuple[list[float], list[bool]]:
-        """The setting's value and whether it was completed, of each run that came to an end."""
+        """The setting's value and whether it was completed, of each run that was possible."""
         ran = [key for key in keys if not rows[key]["error"]]
         return [self.limit.value(key[0][-1]) for key in ran], [rows[key]["completed"] == "True" for key in ran]
 

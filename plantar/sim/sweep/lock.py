@@ -1,4 +1,4 @@
-"""One process at a time in a folder: a lock that the system takes back however its owner ends."""
+"""One process at a time in a folder: a lock that the system releases however its owner ends."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _PLACE = 1 << 20  # where Windows locks a byte: behind the owner's name, which s
 def locked(folder: Path) -> Iterator[None]:
     """Hold a folder's lock.
 
-    The lock is of the open file, not of its being there: a file that a killed process left behind locks none out.
+    The open file is locked: a file that a killed process left behind locks none out.
 
     Args:
         folder: An existing folder.

@@ -43,21 +43,20 @@ def run_sweep(
     """Run what is not in results.csv yet, append each run as it ends, and draw the figures.
 
     Args:
-        plan: What to run: a `Sweep` over a grid, a `LimitSearch` or a `RandomSearch`.
-        folder: Folder of results.csv; made if needed. A folder of another sweep is refused.
+        plan: A `Sweep` over a grid, a `LimitSearch` or a `RandomSearch`.
+        folder: Folder of results.csv; made if needed.
         workers: Processes on this machine.
         scheduler: Address of a Dask scheduler that runs them instead.
         progress: Called with the fraction done and a text.
 
     Returns:
-        What the plan's `found` gives for all rows, and "runs", "resumed", "files".
+        The plan's `found` for all rows, and "runs", "resumed", "files".
 
     Raises:
-        InputError: If the folder cannot be written, holds the results of another sweep, or another process writes to
-            it; if no scheduler answers; if a file that runs depend on has changed since the sweep began, also where
-            it began earlier or a worker runs.
-        WorkerError: If the workers cannot go on. What was kept is in the text.
-        SweepStopped: A KeyboardInterrupt after Ctrl-C or SIGTERM that names what was kept.
+        InputError: If the folder cannot be written, holds another sweep or is in use; if no scheduler answers; if a
+            file that runs depend on has changed since the sweep began, here or at a worker.
+        WorkerError: If the workers cannot go on; the text names the kept rows.
+        SweepStopped: A KeyboardInterrupt after Ctrl-C or SIGTERM that names the kept rows.
     """
     if workers < 1:
         raise InputError(f"number of workers is {workers}; allowed: 1 or more")
@@ -131,10 +130,7 @@ def _workers(count: int, scheduler: str | None) -> Iterator[Workers]:
 def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Iterator[tuple[Task, Row]]:
     """Run tasks, as many at a time as there is room for, until all have given their rows or a signal comes.
 
-    Args:
-        tasks: The tasks; None where the next one depends on rows that are still to come.
-        pool: The workers.
-        note: Whether a signal came.
+    A task is None while the next one depends on rows to come.
     """
     running, more = 0, True
     while not note.number:

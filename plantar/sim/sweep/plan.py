@@ -1,4 +1,4 @@
-"""What a sweep runs: a scene, the values of its grid, and seeds; all of it checked before the first run."""
+"""What a sweep runs: a scene, the values of its grid, and seeds, checked before the first run."""
 
 from __future__ import annotations
 
@@ -30,24 +30,20 @@ _LAST_SEED = 2**62
 
 
 class Plan(Protocol):
-    """Which runs a table is to have: all points of a grid, points at random, or points that follow from outcomes."""
+    """Which runs a table has: all points of a grid, random points, or points that follow from outcomes."""
 
     @property
     def checked(self) -> Sweep:
         """A sweep with the same axes, whose points were checked."""
 
     def identity(self) -> dict[str, Any]:
-        """What all rows of one table must share, besides the content of files: JSON values by name."""
+        """What all rows of a table share besides file contents: JSON values by name."""
 
     def runs(self, rows: Rows) -> Iterator[Run | None]:
-        """The runs in an order that depends on outcomes alone; None while outcomes have to be waited for.
-
-        Args:
-            rows: Rows of the runs that ended, which grow.
-        """
+        """The runs in an order that depends on outcomes alone; None while outcomes of the growing `rows` are needed."""
 
     def found(self, rows: Rows) -> dict[str, Any]:
-        """What the rows come to."""
+        """The result of the rows."""
 
     def progress(self, rows: Rows) -> tuple[float, str]:
         """How far the runs are, 0 to 1, and in words."""
@@ -55,20 +51,20 @@ class Plan(Protocol):
 
 @dataclass(frozen=True)
 class Sweep:
-    """What a sweep runs.
+    """A grid of settings and seeds.
 
     Attributes:
         scene: Name or file of the scene.
         grid: For each setting the values to try, as texts; kept in their canonical form.
         seeds: Number of seeds.
         robot: Robot to use instead of the scene's, or None.
-        settings: "key=value" settings that hold for all runs.
-        first_seed: The first of the seeds, which follow one another.
+        settings: "key=value" settings of all runs.
+        first_seed: The first of the consecutive seeds.
 
     Raises:
         InputError: If a key or value comes twice, however it is written, or two points are the same scene.
         SceneError: If a setting is unknown or not allowed.
-        RobotError: If the robot is unknown or its file not valid.
+        RobotError: If the robot is unknown or invalid.
     """
 
     scene: str
@@ -111,19 +107,14 @@ class Sweep:
 
         Args:
             scene: Name or file of the scene.
-            grid: Texts of the form "key=a,b,c"; values are TOML, bare words texts, as in "size=[1, 2],[3, 4]".
+            grid: Texts "key=a,b,c"; values are TOML, bare words texts, as in "size=[1, 2],[3, 4]".
             seeds: Number of seeds.
             robot: Robot to use instead of the scene's.
-            settings: Texts of the form "key=value" that hold for all runs.
+            settings: Texts "key=value" for all runs.
             first_seed: The first of the seeds.
 
         Returns:
-            The checked sweep.
-
-        Raises:
-            InputError: If a grid text is not of that form, or what it names comes twice.
-            SceneError: If a setting is unknown or not allowed.
-            RobotError: If the robot is unknown or its file not valid.
+            The checked sweep; errors as of the class.
         """
         axes = []
         for text in grid:
@@ -160,14 +151,7 @@ class Sweep:
                 yield point, seed
 
     def found(self, rows: Rows) -> dict[str, Any]:
-        """What each grid point came to over its seeds.
-
-        Args:
-            rows: Rows of all runs.
-
-        Returns:
-            "points": for each what `point_told` gives.
-        """
+        """ "points": the result of each grid point over its seeds (`point_told`)."""
         return {
             "points": [
                 point_told(point, [rows[key_of(point, seed)] for seed in self.seed_range]) for point in self.points()
@@ -181,14 +165,11 @@ class Sweep:
         return done / len(wanted), f"{done} of {len(wanted)} rows"
 
     def with_axes(self, axes: Sequence[tuple[str, tuple[str, ...]]]) -> Sweep:
-        """This sweep with more settings in its grid, after those that it has."""
+        """This sweep with more settings in its grid, after its own."""
         return replace(self, grid=(*self.grid, *axes))
 
     def fitted(self, wanted: ValueRange) -> ValueRange:
-        """A range of whole numbers, if the setting takes no others and its ends are such.
-
-        Args:
-            wanted: The range of a setting.
+        """A range limited to whole numbers, if the setting takes no others and its ends are such.
 
         Raises:
             SceneError: If the setting does not take numbers, or not those.
@@ -214,10 +195,7 @@ class Sweep:
         return self.opened(point).robot
 
     def identity(self) -> dict[str, Any]:
-        """What all rows of one table must share, in addition the content of files: JSON values by name.
-
-        Points and seeds may be added to a table; other scenes, settings or axes may not.
-        """
+        """What all rows of a table share besides file contents. Points and seeds may be added, other changes not."""
         scene = self.opened(self.points()[0])
         settings = {}
         for key, _, value in (s.partition("=") for s in self.settings):
@@ -255,15 +233,11 @@ class Sweep:
 
 
 def point_told(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:
-    """What a point came to.
-
-    Args:
-        point: Its settings.
-        ran: The rows of its runs.
+    """The result of a `point` over its rows `ran`.
 
     Returns:
         Its settings, runs, completed, the 95 % Wilson interval of their share, how many runs failed each criterion
-        ("reasons"), and the errors of runs that could not be.
+        ("reasons"), and the errors of impossible runs.
     """
     completed = sum(row["completed"] == "True" for row in ran)
     return {

@@ -1,4 +1,4 @@
-"""Runs at random points of the ranges of some settings, each point with a seed of its own."""
+"""Runs at random points of the ranges of some settings, one seed a point."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ __all__ = ["RandomSearch"]
 class RandomSearch:
     """Runs at random points, the same ones at every point of a grid.
 
-    The point of a seed depends on the seed, the settings' names and their ranges alone: more seeds add points.
+    The point of a seed depends on the seed and the ranges alone: more seeds add points.
 
     Attributes:
-        sweep: Scene, grid, and the seeds: as many points are drawn.
+        sweep: Scene, grid, and seeds: one point a seed.
         ranges: The settings that are drawn, each uniformly from its range.
 
     Raises:
@@ -61,15 +61,7 @@ class RandomSearch:
                 yield (*point, *drawn), seed
 
     def found(self, rows: Rows) -> dict[str, Any]:
-        """What the runs come to.
-
-        Args:
-            rows: Rows of the runs that ended.
-
-        Returns:
-            "points": for each grid point its settings, runs, completed, the 95 % interval of their share, how many runs
-            failed each criterion ("reasons"), and the errors of runs that could not be.
-        """
+        """ "points": the result of each grid point over the rows that ended (`point_told`)."""
         ran_at: dict[tuple[str, ...], list[Any]] = {point: [] for point in self.sweep.points()}
         for point, seed in self.runs(rows):
             if (row := rows.get(key_of(point, seed))) is not None:

@@ -1,4 +1,4 @@
-"""The rows of a sweep: a table that only grows, a row a run, whole rows only, each run once."""
+"""The rows of a sweep: a growing table of whole rows, each run once."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _BREAKS = re.compile("[\\r\\n\\0]+")
 
 
 class Results:
-    """Rows of results.csv, open to append to. Made by `open_results`.
+    """Rows of results.csv, open to append to, made by `open_results`.
 
     Attributes:
         path: The file.
@@ -49,13 +49,11 @@ class Results:
         self._size = whole
 
     def append(self, row: Mapping[str, Any]) -> None:
-        """Add a row to file and table; it is on disk when this returns, or not at all.
-
-        Args:
-            row: A value for every column; line breaks in texts become spaces.
+        """Add a row, a value for every column, to file and table; line breaks become spaces. It is then on disk, or not
+        at all.
 
         Raises:
-            InputError: If the file cannot be written; the rows before stay as they are.
+            InputError: If the file cannot be written; the rows before stay.
         """
         texts = {name: _BREAKS.sub(" ", str(row[name])) for name in self.header}
         key = self._key(texts)
@@ -113,7 +111,7 @@ def open_results(
     Args:
         folder: Folder of results.csv and sweep.json; made if needed.
         identity: What all rows share (`Sweep.identity`).
-        inputs: For each robot what its rows depend on in addition (`inputs_of`).
+        inputs: For each robot what its rows depend on besides (`inputs_of`).
         axes: Settings of the grid, the table's first columns.
         columns: Columns after those and the seed.
 
@@ -121,7 +119,7 @@ def open_results(
         The open table.
 
     Raises:
-        InputError: If the folder cannot be used, is another sweep's, or another process writes to it.
+        InputError: If the folder cannot be used, holds another sweep, or is in use.
     """
     path, plan = folder / "results.csv", folder / "sweep.json"
     with ExitStack() as stack:
@@ -141,7 +139,7 @@ def open_results(
 def _known_inputs(
     plan: Path, identity: Mapping[str, Any], inputs: Mapping[str, Mapping[str, str]]
 ) -> dict[str, dict[str, str]]:
-    """Inputs of the rows that are there; refuses a table whose rows do not belong to those that are to come."""
+    """Inputs of the existing rows; refuses a table whose rows do not match the new ones."""
     before = read_json(plan, InputError, str(plan))
     folder = plan.parent
     other = f"{folder} holds the results of another sweep"

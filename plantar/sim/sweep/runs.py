@@ -1,4 +1,4 @@
-"""The runs of a table, and what distinguishes them."""
+"""The runs of a table and their keys."""
 
 from __future__ import annotations
 
@@ -17,13 +17,7 @@ Rows = Mapping[Key, Mapping[str, str]]
 
 
 def settings_of(point: Sequence[str]) -> dict[str, str]:
-    """Values of a point by their settings.
-
-    Args:
-        point: Settings "name=value".
-
-    Returns:
-        The values' texts by name.
+    """Values of a point's settings "name=value" by name.
 
     Example:
         >>> settings_of(("friction=0.7", "lean=true"))
@@ -33,14 +27,7 @@ def settings_of(point: Sequence[str]) -> dict[str, str]:
 
 
 def key_of(point: Sequence[str], seed: int) -> Key:
-    """Key of a run.
-
-    Args:
-        point: Its settings "name=value".
-        seed: Its seed.
-
-    Returns:
-        Values and seed.
+    """Returns the key of a run of a `point`, settings "name=value", with a `seed`.
 
     Example:
         >>> key_of(("friction=0.7",), 3)

@@ -1,4 +1,4 @@
-"""The address of a Dask scheduler: which are taken, and what is needed to trust what answers there."""
+"""The address of a Dask scheduler: which are allowed, and what makes one trustworthy."""
 
 from __future__ import annotations
 
@@ -19,16 +19,7 @@ _VARIABLE = "DASK_DISTRIBUTED__COMM__TLS__"
 
 
 def check_address(address: str) -> str:
-    """The address of a scheduler as Dask takes it.
-
-    Args:
-        address: "tcp://host:port", "tls://host:port", "host:port", or that of a cluster in this process.
-
-    Returns:
-        The address with its scheme.
-
-    Raises:
-        InputError: If it is another one.
+    """The address of a scheduler with its scheme, as Dask takes it; an InputError for other addresses.
 
     Example:
         >>> check_address("192.0.2.1:8786")
@@ -46,16 +37,10 @@ def check_address(address: str) -> str:
 
 
 def tls_files(environment: Mapping[str, str] = os.environ) -> dict[str, str]:
-    """The files by which scheduler and client prove to each other who they are.
-
-    Args:
-        environment: Variables that name them, as Dask reads them.
-
-    Returns:
-        Paths of the authority's certificate, the client's certificate and its key.
+    """Paths of the certificates of authority and client and of the client's key, from Dask's environment variables.
 
     Raises:
-        InputError: If one is not named, or is no file.
+        InputError: If one is not named or not a file.
     """
     found = {}
     for key, name in _FILES.items():
@@ -68,13 +53,7 @@ def tls_files(environment: Mapping[str, str] = os.environ) -> dict[str, str]:
 
 
 def network_note(address: str) -> str:
-    """What to know of a scheduler that is reached over a network without proof of who is there.
-
-    Args:
-        address: Address of the scheduler.
-
-    Returns:
-        A line; empty where the scheduler is on this machine or proves who it is.
+    """A warning about a scheduler that is reached over a network without authentication; empty for others.
 
     Example:
         >>> network_note("tcp://127.0.0.1:8786")

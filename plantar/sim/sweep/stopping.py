@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM in a sweep: while rows come they are a note that is read between two rows, not an exception."""
+"""Ctrl-C and SIGTERM in a sweep: noted while rows come, and read between two rows."""
 
 from __future__ import annotations
 
@@ -14,12 +14,7 @@ _NAMES = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "SIGTERM"}
 
 
 class SweepStopped(KeyboardInterrupt):
-    """A signal ended a sweep; what it had is kept.
-
-    Args:
-        number: The signal.
-        kept: What was kept, in words.
-    """
+    """The signal `number` ended a sweep; `kept` names in words what is kept."""
 
     def __init__(self, number: int, kept: str = "no run was begun") -> None:
         super().__init__(f"stopped by {_NAMES.get(signal.Signals(number), number)}: {kept}")
@@ -27,11 +22,7 @@ class SweepStopped(KeyboardInterrupt):
 
 
 class StopNote:
-    """Which signal asked for a stop. Later ones are ignored: the sweep is already stopping.
-
-    Attributes:
-        number: The first signal, or 0 as long as none came.
-    """
+    """The first signal that asked for a stop, 0 for none; later ones are ignored."""
 
     def __init__(self) -> None:
         self.number = 0
@@ -39,7 +30,7 @@ class StopNote:
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """Let a signal only be noted; it is raised at the end of this."""
+        """Only note a signal during this; it is raised at the end."""
         self._held = True
         try:
             yield
@@ -53,12 +44,7 @@ class StopNote:
             raise SweepStopped(self.number)
 
     def take(self, number: int, frame: Any) -> None:
-        """Handle a signal.
-
-        Args:
-            number: Number of the signal.
-            frame: Where it came, which is not looked at.
-        """
+        """Handle the signal `number`; the `frame` is not used."""
         if not self.number:
             self.number = number
             if not self._held:
@@ -67,7 +53,7 @@ class StopNote:
 
 @contextmanager
 def stop_noted() -> Iterator[StopNote]:
-    """Handle both signals as long as this lasts. Threads other than the main one cannot, and are left alone."""
+    """Handle both signals during this, in the main thread; others cannot."""
     note = StopNote()
     before = {}
     if threading.current_thread() is threading.main_thread():

@@ -1,4 +1,4 @@
-"""What a sweep found in words."""
+"""The result of a sweep in words."""
 
 from __future__ import annotations
 
@@ -12,14 +12,9 @@ _ODD = 1e-3
 
 
 def sweep_text(result: Mapping[str, Any], scene: str) -> str:
-    """How many runs of each grid point were completed and why the others were not, or its limit; and the files.
+    """Completed runs of each grid point and why others failed, or its limit, and the files.
 
-    Args:
-        result: What `run_sweep` gave.
-        scene: Name of the scene, for a sweep without a grid.
-
-    Returns:
-        Lines.
+    Returns lines of `run_sweep`'s `result`; `scene` names a sweep without a grid.
     """
     lines = [_limit_text(found, scene) for found in result.get("limits", ())]
     for point in result.get("points", ()):
@@ -30,15 +25,7 @@ def sweep_text(result: Mapping[str, Any], scene: str) -> str:
 
 
 def sweep_errors(result: Mapping[str, Any], scene: str) -> list[str]:
-    """The runs that could not be, a line for each grid point and error.
-
-    Args:
-        result: What `run_sweep` gave.
-        scene: Name of the scene, for a sweep without a grid.
-
-    Returns:
-        Lines; empty where every run came to an end.
-    """
+    """Returns a line for each grid point and error of impossible runs in a `result`; `scene` as of `sweep_text`."""
     return [
         f"{_name(point, scene)}: {point['errors'].count(error)} run(s) could not be: {error}"
         for point in (*result.get("points", ()), *result.get("limits", ()))

@@ -53,15 +53,8 @@ _COMPANION = ("completed", "fell", "sim_time_s", "real_time_factor", "control_p9
 
 @dataclass(frozen=True)
 class Task:
-    """What a worker is given to run.
-
-    Attributes:
-        scene: Name or file of the scene.
-        robot: Robot to use instead of the scene's, or None.
-        settings: "key=value" settings.
-        seed: Seed.
-        inputs: What `inputs_of` found for scene and robot when the sweep began; empty where it was not asked.
-    """
+    """A worker's task: a `scene`, the `robot` to use instead of its own, "key=value" `settings`, a `seed`, and the
+    `inputs` (`inputs_of`) when the sweep began; empty to skip that check."""
 
     scene: str
     robot: str | None
@@ -110,7 +103,7 @@ def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -
 
 
 def _of_walk(summary: Mapping[str, Any]) -> Row:
-    """What a walk's row takes out of the tables of its summary."""
+    """The columns that a walk's row takes from tables of its summary."""
     impacts = sorted(summary["impacts_N"])
     return {
         "impact_median_N": impacts[len(impacts) // 2] if impacts else "",
@@ -136,12 +129,12 @@ def criteria_of(row: Mapping[str, str]) -> list[str]:
 
 
 def run_task(task: Task) -> Row:
-    """Run a task on a worker; a defect that one run meets becomes its row, so that thousands of others go on.
+    """Run a task on a worker; a defect in one run becomes its row, so that the others go on.
 
     Raises:
-        ImportError: If no run is possible where this is called.
+        ImportError: If no run is possible here.
         DependencyError: Likewise.
-        InputError: If the scene or robot is not there what it was where the sweep began.
+        InputError: If the scene or robot differs from when the sweep began.
     """
     _check_inputs(task)
     try:
@@ -165,5 +158,5 @@ def _check_inputs(task: Task) -> None:
 
 
 def failed(error: str) -> Row:
-    """The row of a run that could not be."""
+    """The row of an impossible run."""
     return {**dict.fromkeys(COLUMNS, ""), "completed": False, "error": error}

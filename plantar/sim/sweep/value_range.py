@@ -1,4 +1,4 @@
-"""From where to where a setting is searched, and which values of that range are tried."""
+"""The range of a searched setting, and which of its values are tried."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _END = re.compile(r"\s*(?P<number>[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)\s*(?P<unit
 
 @dataclass(frozen=True)
 class ValueRange:
-    """From where to where a setting is searched.
+    """The range of a searched setting.
 
     Attributes:
         name: The setting.
@@ -27,7 +27,7 @@ class ValueRange:
         whole: Whether only whole numbers are tried.
 
     Raises:
-        InputError: If the range is empty or not finite, or has no whole number where those are asked for.
+        InputError: If the range is empty or not finite.
 
     Example:
         >>> ValueRange.from_text("width=0.2 sole:0.6 sole", "limit").text(0.41237)
@@ -46,17 +46,11 @@ class ValueRange:
 
     @classmethod
     def from_text(cls, text: str, option: str) -> ValueRange:
-        """A range from the command line's text.
-
-        Args:
-            text: A text "key=from:to"; both may be shares of a body in the same unit.
-            option: The option's name, for messages.
-
-        Returns:
-            The range.
+        """Returns the range of `text` "key=from:to" of a command's `option`; both ends may be body shares of the same
+        unit.
 
         Raises:
-            InputError: If the text is not of that form, or the range empty.
+            InputError: If the text is malformed, or the range empty.
         """
         key, equals, ends = text.partition("=")
         found = [_END.fullmatch(end) for end in ends.split(":")]
@@ -75,7 +69,7 @@ class ValueRange:
         return float(self._digits(min(max(value, self.low), self.high), exponent))
 
     def text(self, value: float) -> str:
-        """The nearest value that is tried, as a setting takes it."""
+        """The nearest value that is tried, as a setting's text."""
         number = self.rounded(value)
         plain = canonical(f"{number:.15g}")
         return f"{plain} {self.unit}" if self.unit else plain

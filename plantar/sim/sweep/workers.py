@@ -1,4 +1,4 @@
-"""Worker processes on this machine. Each has one run at a time, so it is known what a killed one was at."""
+"""Worker processes on this machine, one run at a time each, so that the run of a killed one is known."""
 
 from __future__ import annotations
 
@@ -32,26 +32,18 @@ class Workers(Protocol):
         """Begin a task."""
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """Wait until a task ends, or for a time in s.
-
-        Returns:
-            The tasks that ended, with their rows.
+        """Wait until a task ends, or for a time in s, and return the ended tasks with their rows.
 
         Raises:
             WorkerError: If the workers cannot go on.
         """
 
     def close(self) -> None:
-        """End the workers, whatever they are at."""
+        """End the workers at once."""
 
 
 class LocalWorkers:
-    """Processes on this machine, started as they are needed and replaced when they die.
-
-    Args:
-        count: The most at a time.
-        run: What they do with a task; must be importable by its name.
-    """
+    """At most `count` processes on this machine that `run` tasks by an importable function; replaced when they die."""
 
     def __init__(self, count: int, run: Callable[[Task], Row] = run_task) -> None:
         self._count = count
@@ -80,7 +72,7 @@ class LocalWorkers:
         worker.begin(task)
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """Wait until a task ends, or for a time in s; a task whose worker died begins again on a new one."""
+        """Wait until a task ends, or for a time in s; the task of a dead worker starts again on a new one."""
         if self._error is not None:
             raise self._error
         rows: list[tuple[Task, Row]] = []
@@ -92,7 +84,7 @@ class LocalWorkers:
             try:
                 kind, answer = worker.connection.recv()
             except (EOFError, OSError):
-                rows += self._mourn(worker, task)
+                rows += self._replace(worker, task)
                 continue
             if kind == "ready":
                 worker.ready, self._false_starts = True, 0
@@ -114,8 +106,8 @@ class LocalWorkers:
             worker.connection.close()
         self._workers = []
 
-    def _mourn(self, worker: _Worker, task: Task) -> list[tuple[Task, Row]]:
-        """Replace a dead worker, or give up what it was at."""
+    def _replace(self, worker: _Worker, task: Task) -> list[tuple[Task, Row]]:
+        """Replace a dead worker, or give up its task."""
         self._workers.remove(worker)
         how = worker.end()
         if worker.ready:
@@ -135,12 +127,7 @@ class LocalWorkers:
 
 
 class _Worker:
-    """A process and the pipe to it.
-
-    Attributes:
-        task: What it is at, or None.
-        ready: Whether it has everything loaded.
-    """
+    """A process and its pipe, with its present `task` or None, and whether it is `ready`: everything loaded."""
 
     def __init__(self, run: Callable[[Task], Row]) -> None:
         context = get_context("spawn")
@@ -160,7 +147,7 @@ class _Worker:
             self.connection.send(task)
 
     def end(self) -> str:
-        """Take leave of a process that died, and report how it did."""
+        """Close a dead process, and return how it ended."""
         self.connection.close()
         self.process.join(5.0)
         code = self.process.exitcode
@@ -196,7 +183,7 @@ def _answer(run: Callable[[Task], Row], task: Task) -> tuple[str, Row | PlantarE
 
 
 def _end_with_parent() -> None:
-    """End this worker when the sweep is killed: it would finish its run, and wait for another for ever."""
+    """End this worker when the sweep is killed: it would wait for another task for ever."""
     parent = parent_process()
     if parent is not None:
 
@@ -209,7 +196,7 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def _interrupts_held() -> Iterator[None]:
-    """Start a process with Ctrl-C held back, which it inherits: it would print a traceback while it loads."""
+    """Start a process with Ctrl-C blocked, which it inherits: it would print a traceback while it loads."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
