@@ -17,7 +17,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any, NamedTuple, Self
+from typing import IO, Any, Generic, NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,15 +30,28 @@ from plantar.recordings.foxglove import SCHEMAS, descriptor
 from plantar.recordings.mcap_content import MCAP_MAGIC
 from plantar.recordings.protobuf import Template
 
-__all__ = ["MessageChannel", "RecordChannel", "Recorder", "TemplateChannel"]
+__all__ = ["Channel", "Recorder"]
 
 _INDEX_ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
 _MESSAGE, _CHUNK, _MESSAGE_INDEX = 0x05, 0x06, 0x07
 _CHUNK_HEAD = struct.Struct("<BQQQQII4sQ")  # opcode, length, first and last time, size, CRC, compression, packed size
 _COMPRESSION = b"zstd"
-_CDR_LITTLE_ENDIAN = (0, 1, 0, 0)
+_CDR_LITTLE_ENDIAN = np.array([[0, 1, 0, 0]], dtype=np.uint8)
 _FIELD_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
-_MESSAGE_HEAD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log and publish time
+_MESSAGE_HEAD = np.dtype(
+    [
+        ("opcode", "u1"),
+        ("length", "<u8"),
+        ("channel", "<u2"),
+        ("sequence", "<u4"),
+        ("log_time", "<u8"),
+        ("publish_time", "<u8"),
+    ]
+)
+_MOST = 256  # messages of a topic that are gathered before they are written
+
+_Message = TypeVar("_Message")
+_Encode = Callable[[list[int], list[_Message]], "Sequence[bytes] | NDArray[np.uint8]"]
 
 
 class _Gathered(NamedTuple):
@@ -46,161 +59,73 @@ class _Gathered(NamedTuple):
 
     times: NDArray[np.uint64]
     offsets: NDArray[np.int64]
-    data: bytes | memoryview
+    data: bytes
 
 
-class RecordChannel:
-    """One topic of float64 fields, made by `Recorder.channel`.
+class Channel(Generic[_Message]):
+    """One `topic` of a recording, such as "/skin/left", made by a `Recorder`."""
 
-    Attributes:
-        topic: Its name, for example "/skin/left".
-        fields: Names and widths of its fields in the order of their values.
-    """
-
-    def __init__(self, recorder: Recorder, number: int, topic: str, fields: Sequence[tuple[str, int]]) -> None:
+    def __init__(self, recorder: Recorder, number: int, topic: str, encode: _Encode[_Message]) -> None:
         self.topic = topic
-        self.fields = tuple(fields)
         self._recorder = recorder
         self._number = number
-        self._width = sum(width for _, width in fields)
-        self._times = np.empty(256)
-        self._rows = np.empty((256, self._width))
-        self._filled = 0
+        self._encode = encode
+        self._times: list[int] = []
+        self._messages: list[_Message] = []
         self._written = 0
-        self._message = np.dtype(
-            [
-                ("opcode", "u1"),
-                ("length", "<u8"),
-                ("channel", "<u2"),
-                ("sequence", "<u4"),
-                ("log_time", "<u8"),
-                ("publish_time", "<u8"),
-                ("cdr", "u1", 4),
-                ("values", "<f8", (self._width,)),
-            ]
-        )
 
-    def write(self, time_s: float, values: NDArray[np.float64]) -> None:
-        """Append one message at `time_s`, 0 to 1e9 s, with all fields' `values`, flat; on disk after the next flush.
+    def write(self, time_s: float, message: _Message) -> None:
+        """Append a `message` at `time_s` in s, which the caller must not change; on disk after the next flush.
+
+        A message is an array of all fields' values, flat, or bytes, by the kind of the topic.
 
         Raises:
-            RecordingError: If the number of values or the time is wrong.
+            RecordingError: If the time is not 0 to 1e9 s, or the number of values is wrong.
         """
-        if len(values) != self._width:
-            raise RecordingError(f"topic {self.topic} takes {self._width} values a message; got {len(values)}")
         if not 0.0 <= time_s < 1e9:
             raise RecordingError(f"topic {self.topic} got the time {time_s} s; allowed: 0 to 1e9 s")
         recorder = self._recorder
-        if time_s >= recorder._flush_at or self._filled == len(self._rows):
+        if time_s >= recorder._flush_at or len(self._times) == _MOST:
             recorder.flush()
             recorder._flush_at = time_s + recorder.chunk_duration
-        self._times[self._filled] = time_s
-        self._rows[self._filled] = values
-        self._filled += 1
-
-    def _take_messages(self) -> _Gathered:
-        """The gathered rows as MCAP message records, then emptied."""
-        rows = self._rows[: self._filled]
-        out = np.empty(len(rows), dtype=self._message)
-        nanoseconds = np.rint(self._times[: self._filled] * 1e9).astype(np.uint64)
-        out["opcode"] = _MESSAGE
-        out["length"] = self._message.itemsize - 9
-        out["channel"] = self._number
-        out["sequence"] = (self._written + np.arange(len(rows))) % 2**32
-        out["log_time"] = nanoseconds
-        out["publish_time"] = nanoseconds
-        out["cdr"] = _CDR_LITTLE_ENDIAN
-        out["values"] = rows
-        self._written += len(rows)
-        self._filled = 0
-        return _Gathered(nanoseconds, np.arange(len(rows)) * out.itemsize, out.view(np.uint8).data)
-
-
-class MessageChannel:
-    """One `topic` of encoded messages of a `schema`, made by `Recorder.message_channel`."""
-
-    def __init__(self, recorder: Recorder, number: int, topic: str, schema: str) -> None:
-        self.topic = topic
-        self.schema = schema
-        self._recorder = recorder
-        self._number = number
-        self._times: list[int] = []
-        self._messages: list[bytes] = []
-        self._written = 0
-
-    @property
-    def _filled(self) -> int:
-        return len(self._messages)
-
-    def write(self, time_s: float, message: bytes) -> None:
-        """Append an encoded `message` at `time_s`, 0 to 1e9 s, else a RecordingError; on disk after the next flush."""
-        time = self._recorder._due(self.topic, time_s)  # which may take what has been gathered
-        self._times.append(time)
+        self._times.append(round(time_s * 1e9))
         self._messages.append(message)
 
     def _take_messages(self) -> _Gathered:
         """The gathered messages as MCAP message records, then emptied."""
-        messages, times = self._messages, self._times
-        self._messages, self._times = [], []
-        parts: list[bytes] = []
-        offsets = []
-        offset = 0
-        for time, message in zip(times, messages, strict=True):
-            length = _MESSAGE_HEAD.size - 9 + len(message)
-            parts += [_MESSAGE_HEAD.pack(_MESSAGE, length, self._number, self._written % 2**32, time, time), message]
-            offsets.append(offset)
-            offset += 9 + length
-            self._written += 1
-        return _Gathered(np.array(times, dtype=np.uint64), np.array(offsets, dtype=np.int64), b"".join(parts))
+        times, messages = self._times, self._messages
+        self._times, self._messages = [], []
+        encoded, count, size = self._encode(times, messages), len(times), _MESSAGE_HEAD.itemsize
+        lengths = np.array([len(message) for message in encoded]) + size
+        heads = np.empty(count, dtype=_MESSAGE_HEAD)
+        heads["opcode"] = _MESSAGE
+        heads["length"] = lengths - 9
+        heads["channel"] = self._number
+        heads["sequence"] = (self._written + np.arange(count)) % 2**32
+        heads["log_time"] = heads["publish_time"] = times
+        self._written += count
+        if isinstance(encoded, np.ndarray):
+            data = np.hstack([heads.view(np.uint8).reshape(count, size), encoded]).tobytes()
+        else:
+            data = b"".join(part for head, message in zip(heads, encoded, strict=True) for part in (head, message))
+        return _Gathered(heads["log_time"], np.cumsum(lengths) - lengths, data)
 
 
-class TemplateChannel:
-    """One `topic` whose messages are filled in from rows of numbers, made by `Recorder.template_channel`."""
+class _NumbersChannel(Channel[NDArray[np.float64]]):
+    """A topic of `width` numbers a message, which are copied."""
 
-    def __init__(
-        self,
-        recorder: Recorder,
-        number: int,
-        topic: str,
-        template: Template,
-        values: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None,
-    ) -> None:
-        self.topic = topic
-        self._recorder = recorder
-        self._number = number
-        self._template = template
-        self._values = values
-        self._times: list[int] = []
-        self._rows: list[NDArray[np.float64]] = []
-        self._written = 0
+    def __init__(self, recorder: Recorder, number: int, topic: str, width: int) -> None:
+        super().__init__(recorder, number, topic, _as_cdr)
+        self._width = width
 
-    @property
-    def _filled(self) -> int:
-        return len(self._rows)
-
-    def write(self, time_s: float, row: NDArray[np.float64]) -> None:
-        """Append a message of the numbers `row`, which the caller must not change, at `time_s`, 0 to 1e9 s, else a
-        RecordingError."""
-        time = self._recorder._due(self.topic, time_s)  # which may take what has been gathered
-        self._times.append(time)
-        self._rows.append(row)
-
-    def _take_messages(self) -> _Gathered:
-        """The gathered rows as MCAP message records, then emptied."""
-        times, rows = np.array(self._times, dtype=np.uint64), np.array(self._rows)
-        self._times, self._rows = [], []
-        messages = self._template.filled_all(times, rows if self._values is None else self._values(rows))
-        head, length = _MESSAGE_HEAD.size, messages.shape[1]
-        out = np.empty((len(times), head + length), dtype=np.uint8)
-        out[:, head:] = messages
-        for i, time in enumerate(times.tolist()):
-            packed = _MESSAGE_HEAD.pack(_MESSAGE, head - 9 + length, self._number, self._written % 2**32, time, time)
-            out[i, :head] = np.frombuffer(packed, dtype=np.uint8)
-            self._written += 1
-        return _Gathered(times, np.arange(len(times)) * (head + length), out.ravel().data)
+    def write(self, time_s: float, message: NDArray[np.float64]) -> None:
+        if len(message) != self._width:
+            raise RecordingError(f"topic {self.topic} takes {self._width} values a message; got {len(message)}")
+        super().write(time_s, np.array(message, dtype="<f8"))
 
 
-_Channel = RecordChannel | MessageChannel | TemplateChannel
+def _as_cdr(times: list[int], rows: list[NDArray[np.float64]]) -> NDArray[np.uint8]:
+    return np.hstack([_CDR_LITTLE_ENDIAN.repeat(len(rows), axis=0), np.array(rows).view(np.uint8)])
 
 
 class Recorder:
@@ -256,7 +181,7 @@ class Recorder:
         self._records: Any = records
         self._builder_type: Any = RecordBuilder
         self._compress = ZstdCompressor(level=1).compress  # a third less, in 1 us a message
-        self._channels: list[_Channel] = []
+        self._channels: list[Channel[Any]] = []
         self._definitions: list[Any] = []  # schema and channel records that no chunk holds yet
         self._summary: list[Any] = []
         self._chunk_indexes: list[Any] = []
@@ -279,8 +204,8 @@ class Recorder:
         self._file.flush()
         self._flush_at = 0.0
 
-    def channel(self, topic: str, fields: Sequence[tuple[str, int]]) -> RecordChannel:
-        """Declare a topic of numbers.
+    def channel(self, topic: str, fields: Sequence[tuple[str, int]]) -> Channel[NDArray[np.float64]]:
+        """Declare a topic of numbers; messages are copied.
 
         Args:
             topic: New name that starts with "/".
@@ -292,7 +217,6 @@ class Recorder:
         Raises:
             RecordingError: If the topic exists, or a field's name or width is invalid.
         """
-        self._check_new(topic)
         names = [name for name, _ in fields]
         if not names or len(set(names)) != len(names):
             raise RecordingError(f"topic {topic} needs one or more fields with names that differ; got {names}")
@@ -302,34 +226,31 @@ class Recorder:
                     f"field {name!r} of topic {topic} with {width} values is not valid; "
                     "allowed: lower-case names of letters, digits and single underscores, 1 value or more"
                 )
-        channel = RecordChannel(self, len(self._channels) + 1, topic, fields)
+        channel = _NumbersChannel(self, len(self._channels) + 1, topic, sum(width for _, width in fields))
         lines = [f"float64 {n}" if width == 1 else f"float64[{width}] {n}" for n, width in fields]
         kind = "".join(part[:1].upper() + part[1:] for part in re.split(r"[^A-Za-z0-9]+", topic))
         self._declare(channel, f"plantar_msgs/msg/{kind}", "ros2msg", "\n".join(lines).encode(), "cdr")
         return channel
 
-    def message_channel(self, topic: str, schema: str) -> MessageChannel:
+    def message_channel(self, topic: str, schema: str) -> Channel[bytes]:
         """Declare a new `topic` of encoded messages of a `schema` of `foxglove.SCHEMAS`, else a RecordingError. Returns
         its channel."""
-        self._check_new(topic, schema)
-        channel = MessageChannel(self, len(self._channels) + 1, topic, schema)
-        self._declare(channel, schema, "protobuf", descriptor(schema), "protobuf")
-        return channel
+        return self._drawn(topic, schema, lambda times, messages: messages)
 
     def template_channel(
         self,
         topic: str,
         schema: str,
         template: Template,
-        values: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = None,
-    ) -> TemplateChannel:
-        """Declare a new `topic` of messages that differ in their numbers alone, encoded a chunk at once.
+        values: Callable[[NDArray[np.float64]], NDArray[np.float64]] = np.asarray,
+    ) -> Channel[NDArray[np.float64]]:
+        """Declare a new topic of messages that differ in their numbers alone, encoded a chunk at once.
 
         Args:
             topic: New name that starts with "/".
             schema: Name of their schema in `foxglove.SCHEMAS`.
             template: The message.
-            values: Maps the written rows (m, j) to the template's slot values (m, k); None where they are the same.
+            values: Maps the written rows (m, j) to the template's slot values (m, k).
 
         Returns:
             The channel to write to.
@@ -337,42 +258,32 @@ class Recorder:
         Raises:
             RecordingError: If the topic exists or the schema is unknown.
         """
-        self._check_new(topic, schema)
-        channel = TemplateChannel(self, len(self._channels) + 1, topic, template, values)
+        return self._drawn(topic, schema, lambda times, rows: template.filled_all(times, values(np.array(rows))))
+
+    def _drawn(self, topic: str, schema: str, encode: _Encode[_Message]) -> Channel[_Message]:
+        """A topic of messages that viewers draw."""
+        if schema not in SCHEMAS:
+            raise RecordingError(f"schema {schema!r} of topic {topic} is unknown; allowed: {', '.join(SCHEMAS)}")
+        channel = Channel(self, len(self._channels) + 1, topic, encode)
         self._declare(channel, schema, "protobuf", descriptor(schema), "protobuf")
         return channel
 
-    def _due(self, topic: str, time_s: float) -> int:
-        """A message's time in ns, after what was gathered has been written where that is due."""
-        if not 0.0 <= time_s < 1e9:
-            raise RecordingError(f"topic {topic} got the time {time_s} s; allowed: 0 to 1e9 s")
-        if time_s >= self._flush_at:
-            self.flush()
-            self._flush_at = time_s + self.chunk_duration
-        return round(time_s * 1e9)
-
-    def _check_new(self, topic: str, schema: str | None = None) -> None:
+    def _declare(self, channel: Channel[Any], schema: str, language: str, text: bytes, encoding: str) -> None:
+        topic, number = channel.topic, channel._number
         if not topic.startswith("/") or any(c.topic == topic for c in self._channels):
             raise RecordingError(f"topic {topic!r} is not new or does not start with '/'")
-        if schema is not None and schema not in SCHEMAS:
-            raise RecordingError(f"schema {schema!r} of topic {topic} is unknown; allowed: {', '.join(SCHEMAS)}")
-
-    def _declare(self, channel: _Channel, schema: str, language: str, text: bytes, encoding: str) -> None:
-        number = channel._number
         described = self._records.Schema(id=number, name=schema, encoding=language, data=text)
-        entry = self._records.Channel(
-            id=number, topic=channel.topic, message_encoding=encoding, metadata={}, schema_id=number
-        )
+        entry = self._records.Channel(id=number, topic=topic, message_encoding=encoding, metadata={}, schema_id=number)
         self._definitions += [described, entry]
         self._summary += [described, entry]
         self._channels.append(channel)
 
     def flush(self) -> None:
         """Write what was gathered as one chunk; a RecordingError if the disk is full or the file cannot be written."""
-        full = [channel for channel in self._channels if channel._filled]
+        full = [channel for channel in self._channels if channel._times]
         if not full:
             return
-        parts: list[bytes | memoryview] = [self._encoded(*self._definitions)]
+        parts = [self._encoded(*self._definitions)]
         self._definitions = []
         offset = len(parts[0])
         indexes: list[tuple[int, bytes]] = []
@@ -450,7 +361,7 @@ class Recorder:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if error is not None and self._temporary is not None and not any(c._filled for c in self._channels):
+        if error is not None and self._temporary is not None and not any(c._times for c in self._channels):
             with suppress(OSError):  # nothing was recorded: leave nothing behind
                 self._file.close()
             self._temporary.unlink(missing_ok=True)
@@ -506,7 +417,7 @@ class Recorder:
             record.write(builder)
         return bytes(builder.end())
 
-    def _put(self, data: bytes | memoryview) -> int:
+    def _put(self, data: bytes) -> int:
         """Append bytes to the file and return their offset."""
         try:
             offset = self._file.tell()
