@@ -30,7 +30,6 @@ __all__ = [
     "foot_contacts",
     "ground_truth",
     "support_polygon_of_contacts",
-    "zmp_of_contacts",
 ]
 
 
@@ -162,22 +161,6 @@ def contact_wrench_in_frame(
     return (world.reshape(2, 3) @ rotation_to_world.reshape(3, 3)).reshape(6)
 
 
-def zmp_of_contacts(
-    feet: Sequence[ContactSet], plane_height: float | None = None, minimum_force: float = 1.0
-) -> NDArray[np.float64] | None:
-    """True zero moment point of all feet: where the contact wrench has no horizontal moment (T 4.5-4.8).
-
-    Args:
-        feet: Contacts of each foot.
-        plane_height: Height in m of the plane of the ZMP; None takes the mean contact height weighted by force.
-        minimum_force: Vertical force in N below which there is no ZMP.
-
-    Returns:
-        Position (2,) in the world frame in m, or None.
-    """
-    return _zmp(_total_wrench(feet), feet, plane_height, minimum_force)
-
-
 def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH) -> NDArray[np.float64]:
     """True support polygon: hull of the contact points that carry a force or could, seen from above.
 
@@ -198,7 +181,7 @@ def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH
 def ground_truth(
     feet: Sequence[FootContacts], plane_height: float | None = None, minimum_force: float = 1.0, reach: float = REACH
 ) -> GroundTruth:
-    """Wrench, ZMP, support polygon and the margin between the last two, of all feet together.
+    """Wrench, ZMP, support polygon and the margin between the last two, of all feet together (T 4.5-4.8).
 
     Args:
         feet: Contacts of each foot.
@@ -213,25 +196,3 @@ def ground_truth(
     reaction = GroundReaction(height, minimum_force, reach)
     reaction.update(feet)
     return GroundTruth(*reaction.found_now())
-
-
-def _total_wrench(feet: Sequence[ContactSet]) -> NDArray[np.float64]:
-    total = np.zeros(6)
-    for contacts in feet:
-        if contacts.size:
-            total += contact_wrench_in_world(contacts, _ORIGIN)
-    return total
-
-
-_ORIGIN = np.zeros(3)
-
-
-def _zmp(
-    wrench: NDArray[np.float64], feet: Sequence[ContactSet], plane_height: float | None, minimum_force: float
-) -> NDArray[np.float64] | None:
-    fx, fy, fz, tx, ty, _ = wrench.tolist()
-    if not fz >= minimum_force:
-        return None
-    if plane_height is None:
-        plane_height = sum(float(c.positions[:, 2] @ c.forces[:, 2]) for c in feet if c.size) / fz
-    return np.array([(plane_height * fx - ty) / fz, (plane_height * fy + tx) / fz])

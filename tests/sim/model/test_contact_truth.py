@@ -16,7 +16,6 @@ from plantar.sim.model.contact_truth import (
     foot_contacts,
     ground_truth,
     support_polygon_of_contacts,
-    zmp_of_contacts,
 )
 
 GRAVITY = 9.81
@@ -137,13 +136,12 @@ def test_zmp_moves_with_the_height_of_its_plane() -> None:
     """A horizontal force f at height z shifts the ZMP of plane h by f (z - h) / fz: the line of action tilts."""
     model = foot_model(PLANE)
     data = settled(model, push=(40.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    contacts = sole_contacts(model, data)
-    low = zmp_of_contacts([contacts], plane_height=0.0)
-    high = zmp_of_contacts([contacts], plane_height=0.1)
+    feet = [sole_contacts(model, data).gathered()]
+    low, high = (ground_truth(feet, plane_height=height).zmp for height in (0.0, 0.1))
     assert low is not None
     assert high is not None
     assert high[0] - low[0] == pytest.approx(-0.1 * 40.0 / (MASS * GRAVITY), rel=1e-3)
-    assert zmp_of_contacts([contacts], minimum_force=1e4) is None
+    assert ground_truth(feet, minimum_force=1e4).zmp is None
 
 
 def test_contact_within_the_gap_carries_nothing_and_does_not_support() -> None:
@@ -168,7 +166,9 @@ def test_truth_of_two_feet_is_the_sum_of_its_parts() -> None:
     truth = ground_truth([contacts.gathered() for contacts in feet])
     parts = [contact_wrench_in_world(c, np.zeros(3)) for c in feet]
     assert truth.wrench == pytest.approx(parts[0] + parts[1], abs=1e-9)
-    assert truth.zmp == pytest.approx(zmp_of_contacts(feet), abs=1e-12)
+    fx, fy, fz, tx, ty, _ = parts[0] + parts[1]
+    height = sum(c.positions[:, 2] @ c.forces[:, 2] for c in feet) / fz
+    assert truth.zmp == pytest.approx([(height * fx - ty) / fz, (height * fy + tx) / fz], abs=1e-12)
     assert truth.polygon == pytest.approx(support_polygon_of_contacts(feet), abs=1e-12)
     assert truth.margin == pytest.approx(signed_margin(truth.polygon, truth.zmp), abs=1e-12)
 
