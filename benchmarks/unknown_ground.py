@@ -131,18 +131,27 @@ def _range(values: list[float]) -> str:
 
 
 def forces() -> None:
-    """Draw the ground force on the slab, without and with."""
+    """Draw the ground force on each foot on the slab, without and with (T Fig. 51 and 55)."""
     from tempfile import TemporaryDirectory
 
-    from plantar.sim.figures.run_figure import plot_landing_forces
+    from plantar.plotting import COLOURS, new_figure, save_figure
+    from plantar.recordings.recording import read_mcap
+    from plantar.sides import SIDES
     from plantar.sim.run.runner import run_scene
     from plantar.sim.run.scene import load_scene
 
+    figure, axes = new_figure(8.0, 4.4, 2, 1, sharex=True, sharey=True)
     with TemporaryDirectory() as folder:
-        runs = {name: Path(folder) / f"{name}.mcap" for name in ("off", "on")}
-        run_scene(load_scene("obstacle", ["pfc=false"]), 0, record=runs["off"])
-        run_scene(load_scene("obstacle"), 0, record=runs["on"])
-        plot_landing_forces(runs, FOLDER / "unknown_ground_force.png")
+        for axis, name in zip(axes, ("off", "on"), strict=True):
+            path = Path(folder) / f"{name}.mcap"
+            run_scene(load_scene("obstacle", ["pfc=false"] if name == "off" else []), 0, record=path)
+            for side, foot in ((s, read_mcap(path).topics[f"/truth/{s}"]) for s in SIDES):
+                axis.plot(foot.time, foot.fields["normal_force"][:, 0], color=COLOURS[side], lw=0.7, label=side)
+            axis.set_ylabel(f"{name}\nground force [N]")
+            axis.grid(alpha=0.3)
+    axes[0].legend(fontsize=8, ncol=2)
+    axes[1].set_xlabel("time [s]")
+    save_figure(figure, FOLDER / "unknown_ground_force.png")
 
 
 BENCHMARK = Benchmark(FOLDER / "unknown_ground.csv", COLUMNS, CASES, figures)

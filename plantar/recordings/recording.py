@@ -52,6 +52,10 @@ class Recording:
     topics: Mapping[str, Table] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
 
+    def values(self, topic: str, field: str) -> NDArray[np.float64]:
+        """Returns the values (n, k) of a `field` of a `topic`."""
+        return np.asarray(self.topics[topic].fields[field])
+
     def to_npz(self, path: str | os.PathLike[str]) -> Path:
         """Write all tables to one compressed NPZ at `path` (".npz" is added where it has no suffix), and return its
         path.

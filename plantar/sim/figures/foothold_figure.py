@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.recording import Recording
+from plantar.sim.figures.walk_plane import AXES, WalkPlane
 
 __all__ = ["draw_footholds"]
 
 _PAD = 0.06  # m around what is drawn
-_AXES = ("x forward [m]", "y left [m]")
 
 
 def draw_footholds(run: Recording) -> Any:
@@ -23,67 +23,50 @@ def draw_footholds(run: Recording) -> Any:
     The `run` is a recording with topic "/foothold".
     """
     view = _View.of(run)
-    figure, (plane, time) = new_figure(11.0, 4.2 + view.tall, 2, 1, height_ratios=[view.tall, 3.2])
+    tall = 11.0 * view.plane.slenderness
+    figure, (plane, time) = new_figure(11.0, 4.2 + tall, 2, 1, height_ratios=[tall, 3.2])
     _draw_ground(plane, run, view)
     _draw_supports(plane, view)
     _draw_trajectories(plane, run, view)
-    _frame(plane, view)
+    view.plane.frame(plane)
     _draw_time(time, run, view)
     return figure
 
 
 @dataclass(frozen=True, eq=False)
 class _View:
-    """The plane's content: supports and the ground around them; a walk along y is drawn turned.
+    """The supports of a walk and the plane around them.
 
     Attributes:
         last: Index of the last message of each step on "/foothold".
         rings: Corners (k, 2) in m of the support found for each step.
-        low: Lowest x and y in m.
-        high: Highest x and y in m.
+        plane: What of the ground is shown.
     """
 
     last: list[int]
     rings: dict[int, NDArray[np.float64]]
-    low: NDArray[np.float64]
-    high: NDArray[np.float64]
+    plane: WalkPlane
 
     @classmethod
     def of(cls, run: Recording) -> _View:
         """The view of a run."""
-        steps = _field(run, "/foothold", "step")[:, 0].astype(int)
+        steps = run.values("/foothold", "step")[:, 0].astype(int)
         last = [int(np.flatnonzero(steps == k)[-1]) for k in sorted(set(steps.tolist()))]
-        polygons = _field(run, "/foothold", "polygon")
+        polygons = run.values("/foothold", "polygon")
         rings = {int(steps[i]): _ring(polygons[i]) for i in last}
-        every = np.vstack([_field(run, "/reference", "com")[:, :2], *rings.values()])
-        return cls(last, rings, every.min(axis=0) - _PAD, every.max(axis=0) + _PAD)
-
-    @property
-    def upright(self) -> bool:
-        """Whether the walk goes along y."""
-        return bool(self.high[1] - self.low[1] > self.high[0] - self.low[0])
-
-    @property
-    def turn(self) -> list[int]:
-        """Which of x and y are drawn to the right and up."""
-        return [1, 0] if self.upright else [0, 1]
-
-    @property
-    def tall(self) -> float:
-        """Height of the plane's axes in inches."""
-        span = (self.high - self.low)[self.turn]
-        return float(11.0 * span[1] / span[0])
+        points = np.vstack([run.values("/reference", "com")[:, :2], *rings.values()])
+        return cls(last, rings, WalkPlane.around(points, _PAD))
 
 
 def _draw_ground(plane: Any, run: Recording, view: _View) -> None:
     for n, outline in enumerate(run.metadata.get("ground", [])):
-        closed = np.array(outline)[:, view.turn]
+        closed = np.array(outline)[:, view.plane.turn]
         plane.fill(*closed.T, fc="#f1ece2", ec="#c9bfa8", lw=0.8, zorder=0, label="ground" if n == 0 else None)
 
 
 def _draw_supports(plane: Any, view: _View) -> None:
     for n, ring in enumerate(view.rings.values()):
-        closed = np.vstack([ring, ring[:1]])[:, view.turn]
+        closed = np.vstack([ring, ring[:1]])[:, view.plane.turn]
         name = "support found" if n == 0 else None
         plane.fill(*closed.T, color=COLOURS["edge"], alpha=0.22, lw=0.0, zorder=1, label=name)
         plane.plot(*closed.T, color=COLOURS["edge"], lw=0.7, zorder=2)
@@ -97,29 +80,19 @@ def _draw_trajectories(plane: Any, run: Recording, view: _View) -> None:
         ("/reference", "com", "truth", 1.4, "CoM reference $x_r$"),
     )
     for order, (topic, name, colour, width, label) in enumerate(shown, start=3):
-        points = _field(run, topic, name)[:, view.turn]
+        points = run.values(topic, name)[:, view.plane.turn]
         plane.plot(*points.T, color=COLOURS[colour], lw=width, label=label, zorder=order)
-    points = _field(run, "/foothold", "vrp")[view.last][:, view.turn]
+    points = run.values("/foothold", "vrp")[view.last][:, view.plane.turn]
     plane.plot(*points.T, "s", color=COLOURS["cop"], ms=4.0, label="VRP $r$ over the support", zorder=7)
-
-
-def _frame(plane: Any, view: _View) -> None:
-    (x, y), low, high = view.turn, view.low, view.high
-    plane.set_xlim(low[x], high[x])
-    plane.set_ylim(*((high[y], low[y]) if view.upright else (low[y], high[y])))
-    plane.set_aspect("equal")
-    plane.set_xlabel(_AXES[x])
-    plane.set_ylabel(_AXES[y])
-    plane.legend(ncol=7, fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.01), frameon=False)
 
 
 def _draw_time(axis: Any, run: Recording, view: _View) -> None:
     """ZMP across the walk over time, with the range of each stance's support behind it."""
-    along = view.turn[1]
-    zmp, wanted = _field(run, "/truth/body", "zmp")[:, along], _field(run, "/reference", "zmp_desired")[:, along]
+    along = view.plane.turn[1]
+    zmp, wanted = run.values("/truth/body", "zmp")[:, along], run.values("/reference", "zmp_desired")[:, along]
     clock = run.topics["/reference"].time
-    swing = _field(run, "/reference", "phase")[:, 0] == 2
-    step = _field(run, "/reference", "step")[:, 0].astype(int)
+    swing = run.values("/reference", "phase")[:, 0] == 2
+    step = run.values("/reference", "step")[:, 0].astype(int)
     drawn = False
     for k, ring in view.rings.items():
         stance = np.flatnonzero(swing & (step == k + 1))
@@ -132,7 +105,7 @@ def _draw_time(axis: Any, run: Recording, view: _View) -> None:
     axis.plot(clock, zmp, color=COLOURS["left"], lw=0.6, label="ZMP true $p$")
     axis.plot(clock, wanted, color=COLOURS["active"], lw=0.9, label="ZMP desired $p_d$")
     axis.set_xlabel("time [s]")
-    axis.set_ylabel(_AXES[along])
+    axis.set_ylabel(AXES[along])
     axis.set_xlim(clock[0], clock[-1])
     axis.grid(alpha=0.3)
     axis.legend(fontsize=7, ncol=3, loc="upper left")
@@ -141,7 +114,3 @@ def _draw_time(axis: Any, run: Recording, view: _View) -> None:
 def _ring(row: NDArray[np.float64]) -> NDArray[np.float64]:
     points = np.asarray(row).reshape(-1, 2)
     return points[np.isfinite(points).all(axis=1)]
-
-
-def _field(run: Recording, topic: str, name: str) -> NDArray[np.float64]:
-    return np.asarray(run.topics[topic].fields[name])

@@ -27,7 +27,7 @@ def draw_pushes(run: Recording) -> Any:
     figure, axes = new_figure(11.0, 7.0, 2, 1, sharex=True)
     time = run.topics["/truth/body"].time
     for i, axis in enumerate(axes):
-        axis.plot(time, _field(run, "/truth/body", "zmp")[:, i], color=COLOURS["truth"], lw=0.5, label="ZMP")
+        axis.plot(time, run.values("/truth/body", "zmp")[:, i], color=COLOURS["truth"], lw=0.5, label="ZMP")
         plan = run.topics["/reference"]  # whose ZMP is the VRP: it knows of no push
         axis.plot(plan.time, plan.fields["zmp"][:, i], "--", color=COLOURS["reference"], lw=1.0, label="VRP, planned")
         _draw_body(axis, run, i)
@@ -74,13 +74,13 @@ def draw_partner(run: Recording) -> Any:
 def draw_strides(run: Recording) -> Any:
     """Figure of the CoM's path and footholds from above, six steps a panel, with body forces (K Fig. 13), from
     "/touch"."""
-    step = _field(run, "/reference", "step")[:, 0]
+    step = run.values("/reference", "step")[:, 0]
     rounds = (int(step.max()) + 1) // _STEPS_A_PANEL
     columns = max(1, min(rounds, 4))
     rows = max(1, -(-rounds // columns))
     figure, axes = new_figure(3.4 * columns, 5.2 * rows, rows, columns, squeeze=False, sharex=True, sharey=True)
-    time, com = run.topics["/truth/body"].time, _field(run, "/truth/body", "com")[:, :2]
-    force, when = _field(run, "/touch", "force")[:, :2], run.topics["/touch"].time
+    time, com = run.topics["/truth/body"].time, run.values("/truth/body", "com")[:, :2]
+    force, when = run.values("/touch", "force")[:, :2], run.topics["/touch"].time
     largest = float(np.linalg.norm(force, axis=1).max(initial=0.0))
     for k, axis in enumerate(axes.ravel()[:rounds]):
         chosen = (step >= k * _STEPS_A_PANEL) & (step < (k + 1) * _STEPS_A_PANEL)
@@ -105,8 +105,8 @@ def draw_strides(run: Recording) -> Any:
 def _draw_body(axis: Any, run: Recording, i: int) -> None:
     """DCM and CoM over time along an axis, and the feet while they stand."""
     time = run.topics["/truth/body"].time
-    axis.plot(time, _field(run, "/estimate", "dcm")[:, i], color=COLOURS["active"], lw=1.0, label="DCM")
-    axis.plot(time, _field(run, "/truth/body", "com")[:, i], color=COLOURS["polygon"], lw=1.4, label="CoM")
+    axis.plot(time, run.values("/estimate", "dcm")[:, i], color=COLOURS["active"], lw=1.0, label="DCM")
+    axis.plot(time, run.values("/truth/body", "com")[:, i], color=COLOURS["polygon"], lw=1.4, label="CoM")
     for side in SIDES:
         axis.plot(time, _standing(run, side)[:, i], color=COLOURS[side], lw=2.5, alpha=0.7, label=f"{side} foot")
 
@@ -172,7 +172,3 @@ def _durations(run: Recording, kind: PhaseKind) -> tuple[NDArray[np.float64], ND
     ends = np.append(topic.time[starts[1:]], topic.time[-1])
     chosen = phases[starts] == kind
     return topic.time[starts][chosen], (ends - topic.time[starts])[chosen]
-
-
-def _field(run: Recording, topic: str, name: str) -> NDArray[np.float64]:
-    return np.asarray(run.topics[topic].fields[name])

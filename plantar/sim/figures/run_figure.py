@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recordings.recording import Recording, read_mcap
 from plantar.sides import SIDES
 from plantar.sim.figures.foothold_figure import draw_footholds
 from plantar.sim.figures.guide_figure import draw_guide
 from plantar.sim.figures.push_figure import draw_partner, draw_pushes, draw_strides, draw_swing
+from plantar.sim.figures.walk_plane import AXES, WalkPlane
 from plantar.sim.figures.zmp_figure import draw_zmp_plane, draw_zmps
 
-__all__ = ["plot_landing_forces", "plot_run"]
+__all__ = ["plot_run"]
 
 _PAD = 0.03  # m: what is shown around the walk
 
@@ -47,51 +46,27 @@ def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path
     return [save_figure(figure, folder / f"{name}.png") for name, figure in drawn.items()]
 
 
-def plot_landing_forces(recordings: Mapping[str, str | Path | Recording], path: str | Path) -> Path:
-    """Draw the ground force on each foot over time, a panel a run, into `path` (PNG) (T Fig. 51 and 55). Returns the
-    file.
-
-    Args:
-        recordings: One or more runs by the titles of their panels; none is an InputError.
-    """
-    if not recordings:
-        raise InputError("no runs to compare; name at least one")
-    figure, axes = new_figure(8.0, 1.0 + 1.7 * len(recordings), len(recordings), 1, sharex=True, sharey=True)
-    panels = [axes] if len(recordings) == 1 else list(axes)
-    for axis, (name, recording) in zip(panels, recordings.items(), strict=True):
-        run = recording if isinstance(recording, Recording) else read_mcap(recording)
-        for side in SIDES:
-            topic = f"/truth/{side}"
-            force = _field(run, topic, "normal_force")[:, 0]
-            axis.plot(run.topics[topic].time, force, color=COLOURS[side], lw=0.7, label=side)
-        axis.set_ylabel(f"{name}\nground force [N]")
-        axis.grid(alpha=0.3)
-    panels[0].legend(fontsize=8, ncol=2)
-    panels[-1].set_xlabel("time [s]")
-    return save_figure(figure, Path(path))
-
-
-def _field(run: Recording, topic: str, name: str) -> NDArray[np.float64]:
-    return np.asarray(run.topics[topic].fields[name])
-
-
 def _balance(run: Recording) -> Any:
     figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
     time = run.topics["/truth/body"].time
-    for axis, i, name in zip(axes[:2], (0, 1), ("x (forward)", "y (left)"), strict=True):
-        axis.plot(time, _field(run, "/reference", "zmp")[:, i], color=COLOURS["reference"], label="VRP reference")
-        axis.plot(time, _field(run, "/reference", "zmp_desired")[:, i], color=COLOURS["active"], label="ZMP desired")
-        axis.plot(time, _field(run, "/truth/body", "zmp")[:, i], color=COLOURS["truth"], lw=0.8, label="ZMP true")
-        axis.plot(time, _field(run, "/reference", "dcm")[:, i], "--", color=COLOURS["right"], label="DCM reference")
-        axis.plot(time, _field(run, "/estimate", "dcm")[:, i], color=COLOURS["right"], label="DCM estimated")
-        axis.plot(time, _field(run, "/reference", "com")[:, i], "--", color=COLOURS["left"], label="CoM reference")
-        axis.plot(time, _field(run, "/truth/body", "com")[:, i], color=COLOURS["left"], label="CoM true")
-        axis.set_ylabel(f"{name} [m]")
+    lines = (
+        ("/reference", "zmp", "-", "reference", 1.5, "VRP reference"),
+        ("/reference", "zmp_desired", "-", "active", 1.5, "ZMP desired"),
+        ("/truth/body", "zmp", "-", "truth", 0.8, "ZMP true"),
+        ("/reference", "dcm", "--", "right", 1.5, "DCM reference"),
+        ("/estimate", "dcm", "-", "right", 1.5, "DCM estimated"),
+        ("/reference", "com", "--", "left", 1.5, "CoM reference"),
+        ("/truth/body", "com", "-", "left", 1.5, "CoM true"),
+    )
+    for i, axis in enumerate(axes[:2]):
+        for topic, field, style, colour, width, label in lines:
+            axis.plot(time, run.values(topic, field)[:, i], style, color=COLOURS[colour], lw=width, label=label)
+        axis.set_ylabel(AXES[i])
         axis.grid(alpha=0.3)
     axes[0].legend(ncol=4, fontsize=8)
-    tilt = np.degrees(np.arccos(np.clip(_field(run, "/truth/body", "rotation")[:, 8], -1.0, 1.0)))
+    tilt = np.degrees(np.arccos(np.clip(run.values("/truth/body", "rotation")[:, 8], -1.0, 1.0)))
     axes[2].plot(time, tilt, color=COLOURS["truth"], label="torso tilt [deg]")
-    margin = 100.0 * _field(run, "/truth/body", "zmp_margin")[:, 0]
+    margin = 100.0 * run.values("/truth/body", "zmp_margin")[:, 0]
     axes[2].plot(time, margin, color=COLOURS["polygon"], lw=0.8, label="true ZMP margin [cm]")
     axes[2].set_xlabel("time [s]")
     axes[2].set_ylabel("deg, cm")
@@ -108,35 +83,26 @@ def _plane(run: Recording) -> Any:
         ("/estimate", "dcm", "active", 1.0, "DCM estimated"),
         ("/truth/body", "com", "polygon", 1.4, "CoM true"),
     )
-    paths = [_field(run, topic, name)[:, :2] for topic, name, *_ in lines]
-    points = np.vstack([*(ring for _, ring in rings), *paths])
-    low, high = np.nanmin(points, axis=0) - _PAD, np.nanmax(points, axis=0) + _PAD
-    span = high - low
-    turn = [1, 0] if span[1] > span[0] else [0, 1]
-    figure, axis = new_figure(11.0, float(np.clip(1.2 + 9.5 * span[turn[1]] / span[turn[0]], 2.2, 9.0)))
+    paths = [run.values(topic, name)[:, :2] for topic, name, *_ in lines]
+    plane = WalkPlane.around(np.vstack([*(ring for _, ring in rings), *paths]), _PAD)
+    figure, axis = new_figure(11.0, float(np.clip(1.2 + 9.5 * plane.slenderness, 2.2, 9.0)))
     labelled = set()
     for side, ring in rings:
         label = None if side in labelled else f"{side} foothold"
         labelled.add(side)
-        axis.plot(*np.vstack([ring, ring[:1]])[:, turn].T, color=COLOURS[side], lw=0.8, label=label)
+        axis.plot(*np.vstack([ring, ring[:1]])[:, plane.turn].T, color=COLOURS[side], lw=0.8, label=label)
     for path, (_, _, colour, width, label) in zip(paths, lines, strict=True):
-        axis.plot(*path[:, turn].T, color=COLOURS[colour], lw=width, label=label)
-    axis.set_xlim(low[turn[0]], high[turn[0]])
-    axis.set_ylim(*((high[0], low[0]) if turn[0] else (low[1], high[1])))
-    axis.set_aspect("equal")
-    names = ("x forward [m]", "y left [m]")
-    axis.set_xlabel(names[turn[0]])
-    axis.set_ylabel(names[turn[1]])
-    axis.legend(ncol=5, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.01), frameon=False)
+        axis.plot(*path[:, plane.turn].T, color=COLOURS[colour], lw=width, label=label)
+    plane.frame(axis)
     axis.grid(alpha=0.3)
     return figure
 
 
 def _footholds(run: Recording, side: str) -> list[NDArray[np.float64]]:
     """Outlines (k, 2) in m of a sole in the world, at the start of each of its stances."""
-    position = _field(run, f"/truth/{side}", "position")
-    rotation = _field(run, f"/truth/{side}", "rotation").reshape(-1, 3, 3)
-    force = _field(run, f"/truth/{side}", "normal_force")[:, 0]
+    position = run.values(f"/truth/{side}", "position")
+    rotation = run.values(f"/truth/{side}", "rotation").reshape(-1, 3, 3)
+    force = run.values(f"/truth/{side}", "normal_force")[:, 0]
     loaded = (force > 0.4 * force.max()).astype(int)
     starts = np.flatnonzero(np.diff(np.concatenate([[0], loaded])) == 1)
     outline = run.layouts[side].outline
@@ -147,11 +113,11 @@ def _feet(run: Recording) -> Any:
     figure, axes = new_figure(11.0, 5.0, 2, 1, sharex=True)
     for side in SIDES:
         time = run.topics[f"/truth/{side}"].time
-        axes[0].plot(time, _field(run, f"/truth/{side}", "normal_force")[:, 0], color=COLOURS[side], lw=0.8, label=side)
+        axes[0].plot(time, run.values(f"/truth/{side}", "normal_force")[:, 0], color=COLOURS[side], lw=0.8, label=side)
         skin = run.topics[f"/skin/{side}"]
         axes[0].plot(skin.time, skin.fields["force"].sum(axis=1), color=COLOURS[side], lw=0.3, alpha=0.6)
         axes[1].plot(
-            time, 1e3 * _field(run, f"/truth/{side}", "position")[:, 2], color=COLOURS[side], lw=0.9, label=side
+            time, 1e3 * run.values(f"/truth/{side}", "position")[:, 2], color=COLOURS[side], lw=0.9, label=side
         )
     axes[0].set_ylabel("ground force [N]\n(thin: sum of taxels)")
     axes[1].set_ylabel("sole height [mm]")

@@ -7,7 +7,7 @@ what moves both feet, such as dead reckoning, does not count.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -72,34 +72,30 @@ def step_changes(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: 
     Returns:
         A distance for each step that was taken.
     """
-    found: list[float] = []
-    planned: dict[Side, Footstep] = dict(feet)
-    true: dict[Side, tuple[float, float]] = {side: (foot.x, foot.y) for side, foot in feet.items()}
-    for stand, step in zip(stands, steps, strict=False):
-        if stand.side != step.side or stand.place is None:
-            break
-        other = other_side(step.side)
-        way = (stand.place[0] - true[other][0], stand.place[1] - true[other][1])
-        asked = (step.x - planned[other].x, step.y - planned[other].y)
-        found.append(math.dist(way, asked))
-        planned[step.side], true[step.side] = step, stand.place[:2]
-    return found
+    return [math.dist(*way) for way in _ways(stands, feet, steps, other_side)]
 
 
 def strides(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: Sequence[Footstep]) -> list[Stride]:
     """The way of each foot with its step, until feet no longer take turns. Returns them in order; arguments as of
     `step_changes` (`stands`, `feet`, `steps`)."""
-    found: list[Stride] = []
-    planned: dict[Side, Footstep] = dict(feet)
-    true: dict[Side, tuple[float, float]] = {side: (foot.x, foot.y) for side, foot in feet.items()}
+    return list(_ways(stands, feet, steps, lambda side: side))
+
+
+def _ways(
+    stands: Sequence[Stand],
+    feet: Mapping[Side, Footstep],
+    steps: Sequence[Footstep],
+    start: Callable[[Side], Side],
+) -> Iterator[Stride]:
+    """The way of each step from where one of the feet stands, by the side of the step."""
+    planned = dict(feet)
+    true = {side: (foot.x, foot.y) for side, foot in feet.items()}
     for stand, step in zip(stands, steps, strict=False):
-        if stand.side != step.side or stand.place is None:
-            break
-        (x, y), before = true[step.side], planned[step.side]
-        way = (stand.place[0] - x, stand.place[1] - y)
-        found.append(Stride(way, (step.x - before.x, step.y - before.y)))
+        if stand.side != step.side:
+            return
+        (x, y), before = true[start(step.side)], planned[start(step.side)]
+        yield Stride((stand.place[0] - x, stand.place[1] - y), (step.x - before.x, step.y - before.y))
         planned[step.side], true[step.side] = step, stand.place[:2]
-    return found
 
 
 class PushTruth:

@@ -1,0 +1,49 @@
+"""The ground plane of a figure, with the longer direction of the walk to the right."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["AXES", "WalkPlane"]
+
+AXES = ("x forward [m]", "y left [m]")
+"""Labels of the world's axes."""
+
+
+@dataclass(frozen=True, eq=False)
+class WalkPlane:
+    """A part of the plane from `low` to `high` (2,) in m; a walk along y is drawn with y to the right and x down."""
+
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+
+    @classmethod
+    def around(cls, points: NDArray[np.float64], pad: float) -> WalkPlane:
+        """Returns the plane around `points` (n, 2) in m, NaN left out, with a margin `pad` in m."""
+        return cls(np.nanmin(points, axis=0) - pad, np.nanmax(points, axis=0) + pad)
+
+    @property
+    def turn(self) -> list[int]:
+        """Which of x and y are drawn to the right and up."""
+        span = self.high - self.low
+        return [1, 0] if span[1] > span[0] else [0, 1]
+
+    @property
+    def slenderness(self) -> float:
+        """Height over width as drawn."""
+        span = (self.high - self.low)[self.turn]
+        return float(span[1] / span[0])
+
+    def frame(self, axis: Any) -> None:
+        """Set limits, labels and the legend of a plot."""
+        (x, y), low, high = self.turn, self.low, self.high
+        axis.set_xlim(low[x], high[x])
+        axis.set_ylim(*((high[y], low[y]) if x else (low[y], high[y])))
+        axis.set_aspect("equal")
+        axis.set_xlabel(AXES[x])
+        axis.set_ylabel(AXES[y])
+        axis.legend(ncol=7, fontsize=7, loc="lower center", bbox_to_anchor=(0.5, 1.01), frameon=False)
