@@ -129,8 +129,8 @@ def findings(site: Path, pages: list[str], axe: Path, browser: str, *, dark: boo
         try:
             while (answer := answers.get(timeout=PAGE_TIMEOUT))["of"]:
                 print(f"\r{answer['of']}\033[K", end="", file=sys.stderr, flush=True)
-                said = list(dict.fromkeys(answer["found"]))  # type: ignore[call-overload]
-                yield from (f"{answer['of']}, {'dark' if dark else 'light'}: {what}" for what in said)
+                findings = list(dict.fromkeys(answer["found"]))  # type: ignore[call-overload]
+                yield from (f"{answer['of']}, {'dark' if dark else 'light'}: {what}" for what in findings)
         except Empty:
             yield f"no page was answered within {PAGE_TIMEOUT:g} s"
         finally:
@@ -186,15 +186,15 @@ def main() -> int:
     clean = json.loads(notes.read_text()) if notes.exists() else {}
     left = [page for page in pages if clean.get(page) != prints[page]]
     seen = (findings(options.site, left, options.axe, browser, dark=dark) for dark in (False, True) if left)
-    said = []
+    findings = []
     for finding in chain(broken_links(options.site), *seen):
         print(f"\r\033[K{finding}", flush=True)
-        said.append(finding)
-    if not any(finding.startswith("no page") for finding in said):
-        faulty = {finding.partition(" at ")[0] for finding in said}
+        findings.append(finding)
+    if not any(finding.startswith("no page") for finding in findings):
+        faulty = {finding.partition(" at ")[0] for finding in findings}
         notes.write_text(json.dumps(clean | {page: prints[page] for page in left if page not in faulty}))
-    print(f"\r\033[K{len(said) or 'nothing'} found on {len(pages)} pages, {len(left)} of them opened")
-    return 1 if said else 0
+    print(f"\r\033[K{len(findings) or 'nothing'} found on {len(pages)} pages, {len(left)} of them opened")
+    return 1 if findings else 0
 
 
 if __name__ == "__main__":

@@ -37,10 +37,10 @@ def main(recording: str, path: str) -> None:
     over_time.legend()
     layout, skin = run.layouts["left"], run.topics["/skin/left"]
     force = skin.fields["force"][np.searchsorted(skin.time, MOMENT)]
-    felt = Percept(layout, Reading(MOMENT, force))
+    percept = Percept(layout, Reading(MOMENT, force))
     cells = draw_cells(sole, layout, force, float(force.max()))
     figure.colorbar(cells, ax=sole, label="force on a taxel [N]")
-    cop = felt.position_cop_in_sole
+    cop = percept.position_cop_in_sole
     if cop is not None:
         sole.plot(-cop[1], cop[0], "+", ms=14, mew=3, color=COLOURS["cop"])
     sole.set_aspect("equal")

@@ -1,4 +1,4 @@
-"""For mkdocstrings: docstrings say "Example:", which griffe knows as "Examples:"."""
+"""For mkdocstrings: docstrings use "Example:", which griffe calls "Examples:"."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)((?:#[^)]*)?)\)")
 
 
 def main() -> None:
-    """Write all pages anew."""
+    """Write all pages."""
     shutil.rmtree(PAGES, ignore_errors=True)
     shutil.copytree(ROOT / "docs", PAGES)
     for folder in ("examples", "benchmarks"):
@@ -107,7 +107,7 @@ def settings_page() -> str:
     text = [
         "# Settings",
         "",
-        f"All {len(rows)} keys of a scene, as `plantar list settings` tells them, with the numbers of H1. A default "
+        f"All {len(rows)} keys of a scene, as `plantar list settings` lists them, with the numbers of H1. A default "
         "that grows with the robot is shown with its share. `--set TABLE.NAME=VALUE` changes one for a run, `--grid` "
         "sweeps it; in a scene file each heading is a table.",
     ]
@@ -127,10 +127,10 @@ WHAT_TO_DO = {
     "LayoutError": "The message names the field of the layout file. Positions in m, cells as corners in order.",
     "ReadingError": "Give one value a taxel, in the order of the layout; NaN for a taxel that gave none.",
     "RecordingError": "Check folder, space and rights; a recording that was cut off is read up to there.",
-    "FormatError": "`--format` names it; `--unit`, `--rate`, `--side`, `--layout` say what the file does not.",
-    "FootError": "`--unit`, `--up`, `--forward` and `--sole-z` say what the geometry leaves open.",
+    "FormatError": "`--format` names it; `--unit`, `--rate`, `--side`, `--layout` give what the file does not.",
+    "FootError": "`--unit`, `--up`, `--forward` and `--sole-z` give what the geometry leaves open.",
     "RobotError": "`plantar robot check ROBOT.toml` measures what would go wrong, and which value works.",
-    "SceneError": "The nearest key is named; `plantar list settings` tells all with their ranges.",
+    "SceneError": "The nearest key is named; `plantar list settings` lists all with their ranges.",
     "WorkerError": "What was run is kept: give the same command again when the workers are back.",
     "DependencyError": "The message holds the `pip install` line; `plantar doctor` shows all at once.",
 }
@@ -204,8 +204,8 @@ def _modules(path: Path, room: str) -> list[str]:
 
 def _summary(file: Path) -> str:
     """First line of a module's docstring."""
-    told = ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) if file.exists() else None
-    return (told or "").split("\n")[0]
+    text = ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) if file.exists() else None
+    return (text or "").split("\n")[0]
 
 
 def _api_page(room: str, modules: list[str]) -> str:

@@ -37,7 +37,7 @@ def descriptor_set(schema: str) -> bytes:
 
 
 def main() -> None:
-    """Write all of them anew."""
+    """Write all of them."""
     from plantar.recordings.foxglove import SCHEMAS
 
     FOLDER.mkdir(exist_ok=True)

@@ -131,7 +131,7 @@ def com_height(model: mujoco.MjModel, angles: dict[str, float]) -> float:
 
 
 def main(path: Path) -> None:
-    """Write the file; the posture is that of the machine's TOML beside it."""
+    """Write the file; the posture is that of the machine's TOML next to it."""
     joints = tomllib.loads((path.parent / "machine.toml").read_text())["joints"]
     posture = {name: table.get("posture", 0.0) for name, table in joints.items()}
     robot = load_robot("h1")

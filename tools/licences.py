@@ -38,14 +38,14 @@ def declared() -> dict[str, list[str]]:
 
 
 def licence(name: str) -> str:
-    """Licence of an installed package: its SPDX expression, its classifiers, or the first line of its own words."""
+    """Licence of an installed package: its SPDX expression, its classifiers, or the first line of its text."""
     try:
-        said = metadata(name)
+        facts = metadata(name)
     except PackageNotFoundError:
         return "not installed here"
-    kinds = [c.rpartition(" :: ")[2] for c in said.get_all("Classifier") or [] if c.startswith("License")]
-    own = (said.get("License") or "").strip().split("\n")[0]
-    return str(said.get("License-Expression") or ", ".join(kinds) or own or "see its package")
+    kinds = [c.rpartition(" :: ")[2] for c in facts.get_all("Classifier") or [] if c.startswith("License")]
+    own = (facts.get("License") or "").strip().split("\n")[0]
+    return str(facts.get("License-Expression") or ", ".join(kinds) or own or "see its package")
 
 
 def page() -> str:
@@ -57,8 +57,8 @@ def page() -> str:
 def main() -> None:
     """Write the page, or check it."""
     if sys.argv[1:] == ["--check"]:
-        told = set(re.findall(r"^\| ([\w.-]+) \|", PAGE.read_text(encoding="utf-8"), re.MULTILINE)) - {"library"}
-        wrong = told ^ set(declared())
+        listed = set(re.findall(r"^\| ([\w.-]+) \|", PAGE.read_text(encoding="utf-8"), re.MULTILINE)) - {"library"}
+        wrong = listed ^ set(declared())
         sys.exit(f"docs/licences.md lacks or has too much: {', '.join(sorted(wrong))}" if wrong else 0)
     PAGE.write_text(page(), encoding="utf-8")
 

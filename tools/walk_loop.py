@@ -1,4 +1,4 @@
-"""Make the front page's looping picture: a beam walked on what two soles feel.
+"""Make the front page's looping picture: a beam walked on the feedback of two soles.
 
 MUJOCO_GL=egl python tools/walk_loop.py docs/images/beam.webp
 

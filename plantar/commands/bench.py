@@ -25,7 +25,7 @@ def bench(
     robot: Annotated[
         list[str] | None, Option(metavar="ROBOT", help="scenes: a robot to run them with, likewise.")
     ] = None,
-    quick: Annotated[bool, Option("--quick", help="scenes, all: what tells most, once.")] = False,
+    quick: Annotated[bool, Option("--quick", help="scenes, all: the most telling ones, once.")] = False,
     output: Output = Path("out/bench"),
     as_json: Json = False,
 ) -> None:
@@ -61,8 +61,8 @@ def bench(
     from plantar.sim.bench.kinds import BenchOptions, measure
 
     walks = tuple(scene or ()), tuple(robot or ())
-    told = measure(what, BenchOptions(layout, scenarios, first, *walks, quick), output)
-    end_command(told.result, as_json, told.text, told.failures, bool(told.failures))
+    done = measure(what, BenchOptions(layout, scenarios, first, *walks, quick), output)
+    end_command(done.result, as_json, done.text, done.failures, bool(done.failures))
 
 
 COMMAND = Command(bench, "Measure run time against error, and show it on a page.", 90)

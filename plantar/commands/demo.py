@@ -22,7 +22,7 @@ def demo(
     seed: Annotated[int, Option(help="Seed of the sensor noise.")] = 0,
     as_json: Json = False,
 ) -> None:
-    """The main job in one go: build the H1's tactile shoes, walk a 12 cm beam on what they feel, analyse the walk.
+    """The main job in one go: build the H1's tactile shoes, walk a 12 cm beam on their feedback, analyse the walk.
 
     The simulator wears the layouts just written, and the analysis reads the recording just made.
 
@@ -39,20 +39,20 @@ def demo(
     from plantar.sim.run.runner import run_scene
     from plantar.sim.run.scene import load_scene
 
-    with output_folder(output) as folder, progress_bar() as tell:
+    with output_folder(output) as folder, progress_bar() as progress:
         for name in ("shoe", "walk", "analysis"):
             (folder / name).mkdir()
         foot, taxels = foot_of_robot("h1")
-        build = build_shoe(foot, taxels=taxels, progress=part_of(tell, 0.0, 0.3, "shoe: "))
-        report = export_shoe(build, folder / "shoe", progress=part_of(tell, 0.3, 0.2, "shoe: ")).as_dict()
+        build = build_shoe(foot, taxels=taxels, progress=part_of(progress, 0.0, 0.3, "shoe: "))
+        report = export_shoe(build, folder / "shoe", progress=part_of(progress, 0.3, 0.2, "shoe: ")).as_dict()
         layouts = {s: read_layout(folder / "shoe" / f"layout_{s}.json") for s in SIDES}
         recording = folder / "walk" / "run.mcap"
-        told = part_of(tell, 0.5, 0.3, "walk: ")
-        walk = run_scene(load_scene("beam"), seed, layouts=layouts, record=recording, progress=told)
+        part = part_of(progress, 0.5, 0.3, "walk: ")
+        walk = run_scene(load_scene("beam"), seed, layouts=layouts, record=recording, progress=part)
         plot_run(recording, folder / "walk")
         write_text(folder / "walk" / "summary.json", json.dumps(walk, indent=1) + "\n")
-        told = part_of(tell, 0.8, 0.2, "analysis: ")
-        analysis = analyse_recording(recording, folder / "analysis", progress=told)
+        part = part_of(progress, 0.8, 0.2, "analysis: ")
+        analysis = analyse_recording(recording, folder / "analysis", progress=part)
         files = sorted(str(output / p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
     done = bool(walk["completed"]) and bool(report["holds"])
     made = {"completed": done, "shoe": report, "walk": walk, "analysis": analysis, "files": files}

@@ -21,5 +21,5 @@ def doctor(as_json: Json = False) -> None:
     end_command(found, as_json, examination.doctor_text(found), failures, not found["holds"])
 
 
-COMMAND = Command(doctor, "Say what is installed, what is missing and how to get it.", 100)
+COMMAND = Command(doctor, "List what is installed, what is missing and how to get it.", 100)
 """What `plantar.cli` registers."""

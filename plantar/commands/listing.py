@@ -21,7 +21,7 @@ def list_(
         str | None, Argument(help="settings: a table or a setting, such as estimator or balance.dcm_gain.")
     ] = None,
     robot: Annotated[
-        str | None, Option(help="settings: the robot whose numbers are told where a default is a share of its body.")
+        str | None, Option(help="settings: the robot whose numbers are shown where a default is a share of its body.")
     ] = None,
     as_json: Json = False,
 ) -> None:
@@ -51,8 +51,8 @@ def list_(
         from plantar.settings.setting_text import setting_rows, setting_text
         from plantar.sim.run.setting_list import settings_of_robot
 
-        told = settings_of_robot(name, robot)
-        end_command({what: setting_rows(told)}, as_json, setting_text(told))
+        found = settings_of_robot(name, robot)
+        end_command({what: setting_rows(found)}, as_json, setting_text(found))
         return
     from plantar.sim.run.listing import listed
 

@@ -56,8 +56,9 @@ def robot(
     from plantar.shoes.found_foot import shoe_for_surface
     from plantar.sim.survey.introduce import introduce
 
-    with output_folder(output, files_of_model(model, RobotError)) as folder, progress_bar() as tell:
-        made = introduce(model, folder, partial(shoe_for_surface, solid=solid, progress=part_of(tell, 0.1, 0.5)), tell)
+    with output_folder(output, files_of_model(model, RobotError)) as folder, progress_bar() as progress:
+        fitted = partial(shoe_for_surface, solid=solid, progress=part_of(progress, 0.1, 0.5))
+        made = introduce(model, folder, fitted, progress)
     end_command(made.as_dict(output), as_json, made.text(output))
 
 

@@ -78,14 +78,14 @@ def shoe(
         drawn = {"notes": list(shape.notes), "files": [str(output / "preview.png")]}
         end_command(drawn, as_json, "\n".join(f"  {line}" for line in (*drawn["notes"], *drawn["files"])))
         return
-    with output_folder(output, read) as folder, progress_bar() as tell:
-        build = build_ordered(shape, order, used, taxels, part_of(tell, 0.0, 0.6))
+    with output_folder(output, read) as folder, progress_bar() as progress:
+        build = build_ordered(shape, order, used, taxels, part_of(progress, 0.0, 0.6))
         if order.coupon:
-            made = write_ordered_coupons(build, folder, part_of(tell, 0.6, 0.4))
+            made = write_ordered_coupons(build, folder, part_of(progress, 0.6, 0.4))
             made |= {"files": [str(output / name) for name in made["files"]]}
             end_command(made, as_json, coupons_text(made))
             return
-        report = export_shoe(build, folder, progress=part_of(tell, 0.6, 0.4))
+        report = export_shoe(build, folder, progress=part_of(progress, 0.6, 0.4))
     summary = report.as_dict() | {"files": [str(output / name) for name in report.files]}
     failed = failed_checks(summary)
     end_command(summary, as_json, shoe_text(summary), (f"check does not hold: {line}" for line in failed), bool(failed))

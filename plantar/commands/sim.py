@@ -34,7 +34,7 @@ def sim(
     record: Annotated[
         Path | None, Option(help="Write a recording: an .mcap file for Foxglove and plantar view.")
     ] = None,
-    video: Annotated[Path | None, Option(help="Write a video with what the soles feel: an .mp4 file.")] = None,
+    video: Annotated[Path | None, Option(help="Write a video with what the soles measure: an .mp4 file.")] = None,
     plot: Annotated[Path | None, Option(help="Folder for figures: balance, plane and feet.")] = None,
     as_json: Json = False,
 ) -> None:
@@ -70,8 +70,8 @@ def sim(
     from plantar.sim.run.scene_kind import open_scene, run
 
     loaded = open_scene(scene, settings or [], robot)
-    with progress_bar() as tell:
-        summary = run(loaded, seed, record=record, video=video, plot=plot, progress=tell)
+    with progress_bar() as progress:
+        summary = run(loaded, seed, record=record, video=video, plot=plot, progress=progress)
     end_command(summary, as_json, run_text(summary), failed=not summary["completed"])
 
 

@@ -28,13 +28,13 @@ def sweep(
     ] = None,
     within: Annotated[float, Option(help="Share of the limit at which its 95 % interval is narrow enough.")] = 0.1,
     random: Annotated[
-        list[str] | None, Option(metavar="KEY=FROM:TO", help="Draw a setting from a range, anew a seed; repeatable.")
+        list[str] | None, Option(metavar="KEY=FROM:TO", help="Draw a setting from a range for each seed; repeatable.")
     ] = None,
     seeds: Annotated[
         int | None,
         Option(help="Seeds of each grid point; the most, with --limit. Default: 1, or 1000 with --limit."),
     ] = None,
-    first_seed: Annotated[int, Option(help="The first of them; for figures on seeds that nothing was tuned on.")] = 0,
+    first_seed: Annotated[int, Option(help="The first of them; for seeds that were not used for tuning.")] = 0,
     robot: Annotated[str | None, Option(help="Robot to use instead of the scene's.")] = None,
     settings: Annotated[
         list[str] | None, Option("--set", metavar="KEY=VALUE", help="A setting of all runs; repeatable.")
@@ -70,12 +70,12 @@ def sweep(
     if scheduler is not None and (note := network_note(scheduler)):
         print_note(f"note: {note}")
     try:
-        with progress_bar() as tell, ignore_further_interrupts():
+        with progress_bar() as progress, ignore_further_interrupts():
             count = workers or os.cpu_count() or 1
-            result = run_sweep(wanted, output, workers=count, scheduler=scheduler, progress=tell)
+            result = run_sweep(wanted, output, workers=count, scheduler=scheduler, progress=progress)
     except SweepStopped as stop:
         raise Terminated(stop.number, str(stop)) from None
-    failed = not all(told["reached"] for told in result.get("limits", ()))
+    failed = not all(found["reached"] for found in result.get("limits", ()))
     end_command(result, as_json, sweep_text(result, scene), () if as_json else sweep_errors(result, scene), failed)
 
 

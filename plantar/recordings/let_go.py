@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 __all__ = ["LARGE", "blocks_of_frames", "column_maxima", "let_go", "room", "scale_frames"]
 
 LARGE = 100_000_000
-"""Bytes from which a table is kept in a file: what is smaller is quicker in memory, and hurts nobody."""
+"""Bytes from which a table is kept in a file: smaller ones are quicker in memory."""
 
 
 _BLOCK = 250_000

@@ -43,7 +43,7 @@ _FRAMES = 0.02  # s between two messages of where bodies are
 _SOLES = 0.04  # s between two readings of the soles and of the balance
 _CORNERS = 12  # of a support polygon that is drawn; it seldom has more
 _CELL, _THICK = 0.92, 2e-3  # of a taxel's cell, and m: how wide and how thick it is drawn
-_ARROW = 0.5  # leg: length of an arrow that stands for the robot's weight
+_ARROW = 0.5  # leg: length of the arrow for the robot's weight
 _BEHIND, _AHEAD = 4, 12  # footsteps that are drawn before and after the current one
 _VIRIDIS = [[0.27, 0.0, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.14]]
 _SIDE_COLOURS = {"left": (0.12, 0.42, 0.75, 1.0), "right": (0.80, 0.33, 0.10, 1.0)}
@@ -79,7 +79,7 @@ class DrawnRun:
         self._drawn_steps: dict[tuple[int, Footstep], Part] = {}
         self._full, self._metres = FULL_COLOUR * world.body.weight, _ARROW * world.body.leg / world.body.weight
         self._colours = scale_colours(1.0)
-        self._unit = 0.02 * world.body.leg  # diameter of a ball that stands for a point
+        self._unit = 0.02 * world.body.leg  # diameter of the ball at a point
         frames = self._frames_template()
         soles = Template(*(part for i, s in enumerate(SIDES) for part in self._sole(s, i)))
         scene = "foxglove.SceneUpdate"
@@ -121,7 +121,7 @@ class DrawnRun:
             self._step = command.phase.step
             self._steps.write(time, self._footsteps(plan, self._step).filled(time))
 
-    def say(self, time: float, text: str, level: str = "info") -> None:
+    def log(self, time: float, text: str, level: str = "info") -> None:
         """Log a `text` at `time` in s with a `level`: "info", "warning" or "error"."""
         self._log.write(time, log_message(time, text, level))
 

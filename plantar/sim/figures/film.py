@@ -22,7 +22,7 @@ from plantar.sim.model.world import World
 __all__ = ["BodyFilm", "Film"]
 
 _INSET = 0.25  # of the picture's height
-_ARROW = 0.5  # leg: length of an arrow that stands for the robot's weight
+_ARROW = 0.5  # leg: length of the arrow for the robot's weight
 _LEAST = 0.05  # weight on a sole below which none is drawn: a swing foot's noise
 _COLOUR = (217, 26, 77)
 _WIDTH, _HEIGHT = 960, 540

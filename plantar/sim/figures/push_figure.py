@@ -146,7 +146,7 @@ def _draw_force(axis: Any, run: Recording, i: int) -> None:
 
 
 def _pushed_spans(run: Recording) -> list[tuple[float, float]]:
-    """When somebody pushed, in s."""
+    """Times of pushes in s."""
     touch = run.topics["/touch"]
     force = np.linalg.norm(touch.fields["force"], axis=1)
     on = np.concatenate([[0], (force > _PUSHED * max(float(force.max(initial=0.0)), 1e-9)).astype(int), [0]])

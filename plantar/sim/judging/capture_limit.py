@@ -199,8 +199,8 @@ def capture_limit(limits: CaptureLimits, instant: Instant, direction: ArrayLike)
         Standing on the left foot, one step from a fall: a push to the right is caught by the right foot.
 
         >>> box = np.array([[-0.1, -0.04], [0.1, -0.04], [0.1, 0.04], [-0.1, 0.04]])
-        >>> beside = np.array([[-0.3, 0.15], [0.3, 0.15], [0.3, 0.4], [-0.3, 0.4]])
-        >>> robot = CaptureLimits(50.0, 3.5, box, beside, 0.3, 0.8, swing_speed=2.0, steps=1)
+        >>> aside = np.array([[-0.3, 0.15], [0.3, 0.15], [0.3, 0.4], [-0.3, 0.4]])
+        >>> robot = CaptureLimits(50.0, 3.5, box, aside, 0.3, 0.8, swing_speed=2.0, steps=1)
         >>> now = Instant("left", np.array([0.0, -0.02]), np.array([0.0, -0.2]))
         >>> [round(capture_limit(robot, now, d).impulse, 1) for d in ([0.0, -1.0], [0.0, 1.0])]
         [28.0, 10.5]

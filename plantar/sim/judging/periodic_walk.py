@@ -123,8 +123,8 @@ def capture_map(
 
     Example:
         >>> box = np.array([[-0.1, -0.04], [0.1, -0.04], [0.1, 0.04], [-0.1, 0.04]])
-        >>> beside = np.array([[-0.3, 0.15], [0.3, 0.15], [0.3, 0.4], [-0.3, 0.4]])
-        >>> robot = CaptureLimits(50.0, 3.5, box, beside, 0.4, 0.8, 0.1, swing_speed=1.5, steps=1)
+        >>> aside = np.array([[-0.3, 0.15], [0.3, 0.15], [0.3, 0.4], [-0.3, 0.4]])
+        >>> robot = CaptureLimits(50.0, 3.5, box, aside, 0.4, 0.8, 0.1, swing_speed=1.5, steps=1)
         >>> capture_map(robot, PeriodicWalk(3.5, 0.0, 0.2, 0.5, 0.1), directions=4, phases=2).round(1).tolist()
         [[26.6, 15.7, 26.6, 33.3], [43.6, 16.2, 43.6, 32.6]]
     """

@@ -132,7 +132,7 @@ class RunLog:
             text: What happened.
             level: "info", "warning" or "error".
         """
-        self._drawn.say(time, text, level)
+        self._drawn.log(time, text, level)
 
     def tick(
         self,

@@ -22,7 +22,7 @@ from plantar.sim.sweep.value_range import ValueRange
 if TYPE_CHECKING:
     from plantar.sim.companion.scene import CompanionScene
 
-__all__ = ["Plan", "Sweep", "point_told"]
+__all__ = ["Plan", "Sweep", "point_result"]
 
 _MOST_SEEDS = 1_000_000
 _MOST_POINTS = 100_000
@@ -151,10 +151,10 @@ class Sweep:
                 yield point, seed
 
     def found(self, rows: Rows) -> dict[str, Any]:
-        """ "points": the result of each grid point over its seeds (`point_told`)."""
+        """ "points": the result of each grid point over its seeds (`point_result`)."""
         return {
             "points": [
-                point_told(point, [rows[key_of(point, seed)] for seed in self.seed_range]) for point in self.points()
+                point_result(point, [rows[key_of(point, seed)] for seed in self.seed_range]) for point in self.points()
             ]
         }
 
@@ -232,7 +232,7 @@ class Sweep:
             seen[key] = text
 
 
-def point_told(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:
+def point_result(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:
     """The result of a `point` over its rows `ran`.
 
     Returns:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from plantar.errors import InputError
-from plantar.sim.sweep.plan import Sweep, point_told
+from plantar.sim.sweep.plan import Sweep, point_result
 from plantar.sim.sweep.runs import Rows, Run, key_of
 from plantar.sim.sweep.value_range import ValueRange
 
@@ -61,12 +61,12 @@ class RandomSearch:
                 yield (*point, *drawn), seed
 
     def found(self, rows: Rows) -> dict[str, Any]:
-        """ "points": the result of each grid point over the rows that ended (`point_told`)."""
+        """ "points": the result of each grid point over the rows that ended (`point_result`)."""
         ran_at: dict[tuple[str, ...], list[Any]] = {point: [] for point in self.sweep.points()}
         for point, seed in self.runs(rows):
             if (row := rows.get(key_of(point, seed))) is not None:
                 ran_at[point[: len(self.sweep.grid)]].append(row)
-        return {"points": [point_told(point, ran) for point, ran in ran_at.items()]}
+        return {"points": [point_result(point, ran) for point, ran in ran_at.items()]}
 
     def progress(self, rows: Rows) -> tuple[float, str]:
         """How far the runs are, 0 to 1, and in words."""

@@ -13,7 +13,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.errors import RobotError
+from plantar.commands.robot import robot as robot_command
+from plantar.errors import PlantarError, RobotError
 from plantar.recordings.recording import read_mcap
 from plantar.robots import load_robot
 from plantar.shoes.found_foot import shoe_for_surface, taxel_area
@@ -170,29 +171,24 @@ def test_legs_without_ankle_roll_rock_and_walk_in_their_own_time(tmp_path: Path)
     assert slow["fell"]
 
 
-def test_the_example_introduces_a_robot_and_lets_it_walk(tmp_path: Path) -> None:
+def test_the_example_introduces_a_robot_draws_it_and_lets_it_walk(tmp_path: Path) -> None:
     truth = random_biped(SEED, tmp_path)
     done = subprocess.run(
         [sys.executable, "examples/introduce_robot.py", str(truth.file), str(tmp_path / "out")],
         cwd=Path(__file__).parents[3],
+        env={k: v for k, v in os.environ.items() if k not in ("MUJOCO_GL", "DISPLAY")},
         capture_output=True,
         text=True,
         timeout=120,
     )
     assert done.returncode == 0, done.stderr
     assert "4 of 4 steps" in done.stdout
-
-
-def test_the_command_draws_where_nothing_is_said_of_opengl(tmp_path: Path) -> None:
-    truth = random_biped(SEED, tmp_path)
-    silent = {k: v for k, v in os.environ.items() if k not in ("MUJOCO_GL", "DISPLAY")}
-    done = subprocess.run(
-        [sys.executable, "-m", "plantar", "robot", str(truth.file), "-o", str(tmp_path / "out")],
-        cwd=Path(__file__).parents[3],
-        env=silent,
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    assert done.returncode == 0, done.stderr
     assert (tmp_path / "out" / "robot.png").stat().st_size > 10_000
+
+
+def test_the_command_chooses_opengl_without_a_display(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """As the example does, which draws with it."""
+    monkeypatch.delenv("MUJOCO_GL", raising=False)
+    with pytest.raises(PlantarError):
+        robot_command(tmp_path / "none.urdf", output=tmp_path)
+    assert os.environ["MUJOCO_GL"] == "egl"

@@ -62,29 +62,26 @@ def test_what_a_model_names_counts_too(own: Path) -> None:
     assert changes(before, inputs_of("flat", str(robot))) == "model file meshes/knee.obj has changed"
 
 
-@pytest.mark.parametrize(
-    ("file", "words"),
-    [
-        ("scene.toml", "scene file scene.toml has changed"),
-        ("robot/robot.toml", "robot file robot.toml has changed"),
-        ("robot/layout_left.json", "layout layout_left.json has changed"),
-    ],
-)
-def test_a_file_that_changed_stops_a_resumed_sweep_and_a_run(own: Path, file: str, words: str) -> None:
+def test_a_file_that_changed_stops_a_resumed_sweep_and_a_run(own: Path) -> None:
     sweep = Sweep("scene.toml", (), 1, None, STANDING)
     assert run_sweep(sweep, own / "out")["points"][0]["completed"] == 1
     assert run_sweep(Sweep("scene.toml", (), 2, None, STANDING), own / "out")["resumed"] == 1
-    task = Task(
-        "scene.toml", "robot/robot.toml", STANDING, 0, tuple(inputs_of("scene.toml", "robot/robot.toml").items())
-    )
-    before = (own / file).read_text()
-    (own / file).write_text(before + "\n")
-    with pytest.raises(InputError, match=f"{words} since .*out was begun; bring that back, or choose another folder"):
-        run_sweep(sweep, own / "out")
-    with pytest.raises(InputError, match=f"{words} since the sweep began .seen on"):
-        run_task(task)
-    (own / file).write_text(before)
-    assert run_sweep(sweep, own / "out")["resumed"] == 1
-    (own / file).unlink()
-    with pytest.raises(InputError, match=r"exist|read.*since the sweep began .seen on"):
-        run_task(task)
+    inputs = tuple(inputs_of("scene.toml", "robot/robot.toml").items())
+    task = Task("scene.toml", "robot/robot.toml", STANDING, 0, inputs)
+    for kind, file in (
+        ("scene file", "scene.toml"),
+        ("robot file", "robot/robot.toml"),
+        ("layout", "robot/layout_left.json"),
+    ):
+        path, before = own / file, (own / file).read_text()
+        words = f"{kind} {path.name} has changed since"
+        path.write_text(before + "\n")
+        with pytest.raises(InputError, match=f"{words} .*out was begun; bring that back, or choose another folder"):
+            run_sweep(sweep, own / "out")
+        with pytest.raises(InputError, match=f"{words} the sweep began .seen on"):
+            run_task(task)
+        path.unlink()
+        with pytest.raises(InputError, match=r"exist|read.*since the sweep began .seen on"):
+            run_task(task)
+        path.write_text(before)
+        assert run_sweep(sweep, own / "out")["resumed"] == 1
