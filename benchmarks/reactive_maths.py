@@ -10,6 +10,8 @@ import time
 from pathlib import Path
 
 import numpy as np
+from capture_limit import CaptureLimits
+from periodic_walk import PeriodicWalk, capture_map
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
@@ -41,8 +43,6 @@ from plantar.mechanics.external_wrench import vrp_offset
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from plantar.sensing.net_wrench import NetWrenchRules, net_wrench
 from plantar.sides import SIDES
-from plantar.sim.judging.capture_limit import CaptureLimits
-from plantar.sim.judging.periodic_walk import PeriodicWalk, capture_map
 
 OMEGA, MASS, PERIOD = 3.44, 86.0, 0.005
 COUNT = 2000

@@ -4,7 +4,7 @@
 Hands push with a half sine of 0.1 s at the height of the CoM, in 8 directions at 8 phases of a step (its double
 support, then its single one), in place and at 0.2 m/s. Each cell is bisected over impulses of 5 to 60 N s, first with
 85 % of the bound; a row of survival_map.csv is a run, appended as it ends, and a run that was stopped goes on where it
-was. The bound is `plantar.sim.judging.capture_limit` with the controller's own limits: region and acceleration of the
+was. The bound is `benchmarks/capture_limit.py` with the controller's own limits: region and acceleration of the
 swing foot, times of a step, and the soles. Where the 85 % fail with a joint at its torque limit, the run is repeated
 with that joint's motor four times as strong, and if that fails, too, with all motors.
 """
@@ -91,11 +91,12 @@ def settings(cell: Cell, impulse: float) -> tuple[str, ...]:
 @functools.lru_cache
 def bounds(walk: str) -> dict[tuple[int, float], float]:
     """The largest push in N s that any footsteps, timing and ZMP capture, by direction and phase."""
+    from capture_limit import CaptureLimits
+    from periodic_walk import PeriodicWalk, capture_map
+
     from plantar.gait.contact.foot_contacts import middle_of_sole
     from plantar.gait.propose.ssp_opt import footstep_region, touching_distance
     from plantar.mechanics.lip import pendulum_frequency
-    from plantar.sim.judging.capture_limit import CaptureLimits
-    from plantar.sim.judging.periodic_walk import PeriodicWalk, capture_map
 
     known = simulation()
     chosen, robot = known.settings, known.robot

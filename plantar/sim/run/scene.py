@@ -60,7 +60,7 @@ class Push(Settings):
             at which it begins instead; -1 goes by `phase`. Of pushes by hands.
         with_swing: Whether a push to a side comes in a step whose foot swings to that side: one step later where that
             of `step` does not. (Over the outer edge of the foot that stands no step catches more than 37 N s on h1, see
-            `plantar.sim.judging.capture_limit`.) Of pushes by hands.
+            `benchmarks/capture_limit.py`.) Of pushes by hands.
         repeat: In how many steps, from that one on, one push each comes. Of pushes by hands.
         small: Impulse of one more push some steps earlier, as a share of the impulse; 0 for none. Of pushes by hands.
         small_before: So many steps earlier.

@@ -31,8 +31,6 @@ from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
 from plantar.gravity import GRAVITY
 
-__all__ = ["CaptureLimit", "CaptureLimits", "Instant", "LandedStep", "capture_limit", "mirrored"]
-
 _MOST = 2.0  # m of DCM: no robot comes near
 _ROUND = np.array([(math.cos(a), math.sin(a)) for a in 2.0 * math.pi * np.arange(16) / 16])
 _AXES = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
@@ -42,12 +40,7 @@ _FLAT = 1e-9  # weight of the steps against that of the push: of all steps that 
 
 
 def mirrored(polygon: ArrayLike) -> NDArray[np.float64]:
-    """A `polygon` or point (..., 2) in m with y reversed: of the left side as that of the right side.
-
-    Example:
-        >>> mirrored([0.1, 0.2]).tolist()
-        [0.1, -0.2]
-    """
+    """A `polygon` or point (..., 2) in m with y reversed: of the left side as that of the right side."""
     return np.asarray(polygon, dtype=float) * (1.0, -1.0)
 
 
@@ -182,29 +175,8 @@ class _Found(NamedTuple):
 
 
 def capture_limit(limits: CaptureLimits, instant: Instant, direction: ArrayLike) -> CaptureLimit:
-    """The largest push in a direction that is captured, with all smaller ones.
-
-    Args:
-        limits: The robot's limits.
-        instant: The walk at the moment of the push.
-        direction: Direction (2,) of the push, x forward, y to the left; of any length.
-
-    Returns:
-        The push, and steps that capture it.
-
-    Raises:
-        InputError: If the direction has no length, or the instant's side is neither left nor right.
-
-    Example:
-        Standing on the left foot, one step from a fall: a push to the right is caught by the right foot.
-
-        >>> box = np.array([[-0.1, -0.04], [0.1, -0.04], [0.1, 0.04], [-0.1, 0.04]])
-        >>> aside = np.array([[-0.3, 0.15], [0.3, 0.15], [0.3, 0.4], [-0.3, 0.4]])
-        >>> robot = CaptureLimits(50.0, 3.5, box, aside, 0.3, 0.8, swing_speed=2.0, steps=1)
-        >>> now = Instant("left", np.array([0.0, -0.02]), np.array([0.0, -0.2]))
-        >>> [round(capture_limit(robot, now, d).impulse, 1) for d in ([0.0, -1.0], [0.0, 1.0])]
-        [28.0, 10.5]
-    """
+    """The largest captured push in a `direction` (2,) of any length, with all smaller ones, and steps that capture
+    it."""
     toward = array(direction, "direction", (2,), finite=True)
     length = math.hypot(*toward)
     if length == 0.0:

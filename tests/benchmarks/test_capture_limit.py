@@ -7,13 +7,13 @@ import math
 
 import numpy as np
 import pytest
+from capture_limit import CaptureLimits, Instant, capture_limit, mirrored
+from periodic_walk import PeriodicWalk, capture_map
 from scipy.integrate import solve_ivp
 from scipy.optimize import linprog
 
 from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull, signed_margin
-from plantar.sim.judging.capture_limit import CaptureLimits, Instant, capture_limit, mirrored
-from plantar.sim.judging.periodic_walk import PeriodicWalk, capture_map
 
 SOLE = np.array([[-0.08, -0.04], [0.12, -0.04], [0.12, 0.05], [-0.08, 0.05]])
 REGION = np.array([[-0.3, 0.15], [0.3, 0.15], [0.3, 0.3], [0.2, 0.4], [-0.2, 0.4], [-0.3, 0.3]])

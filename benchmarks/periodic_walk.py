@@ -6,14 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from capture_limit import CaptureLimits, Instant, capture_limit, mirrored
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.mechanics.easing import minimum_jerk
 from plantar.sides import Side
-from plantar.sim.judging.capture_limit import CaptureLimits, Instant, capture_limit, mirrored
-
-__all__ = ["PeriodicWalk", "capture_map"]
 
 
 @dataclass(frozen=True)
@@ -27,14 +25,6 @@ class PeriodicWalk:
         single: Duration of a single support in s, above 0.
         double: Duration of a double support in s, 0 or more; the ZMP moves at constant speed.
         zmp: ZMP under the left foot alone (2,) in m; mirrored under the right one.
-
-    Raises:
-        InputError: If a duration or the frequency is out of its range.
-
-    Example:
-        >>> walk = PeriodicWalk(3.5, 0.0, 0.2, 0.5, 0.1)
-        >>> walk.instant(0.5).dcm.round(4).tolist()
-        [0.0, -0.0526]
     """
 
     omega: float
@@ -52,18 +42,8 @@ class PeriodicWalk:
             )
 
     def instant(self, phase: float, side: Side = "left") -> Instant:
-        """The walk at a phase of a step.
-
-        Args:
-            phase: Share of the step that is over, 0 to 1, from its double support on.
-            side: The foot of its single support.
-
-        Returns:
-            DCM and feet.
-
-        Raises:
-            InputError: If the phase is out of its range.
-        """
+        """The walk at a `phase` of a step, 0 to 1 from its double support on, with its single support on the foot of a
+        `side`."""
         if not 0.0 <= phase <= 1.0:
             raise InputError(f"phase of a step is {phase}; allowed: 0 to 1")
         flip = np.array((1.0, 1.0 if side == "left" else -1.0))
@@ -106,28 +86,8 @@ class PeriodicWalk:
 def capture_map(
     limits: CaptureLimits, walk: PeriodicWalk, directions: int = 8, phases: int = 8, side: Side = "left"
 ) -> NDArray[np.float64]:
-    """The largest captured push, in all directions and phases of a step.
-
-    Args:
-        limits: The robot's limits.
-        walk: Its walk; of the same frequency.
-        directions: Number of directions, from forward to the left and round.
-        phases: Number of phases, from the begin of a step's double support on.
-        side: The foot of the step's single support.
-
-    Returns:
-        Impulses (phases, directions) in N s.
-
-    Raises:
-        InputError: If the frequencies differ.
-
-    Example:
-        >>> box = np.array([[-0.1, -0.04], [0.1, -0.04], [0.1, 0.04], [-0.1, 0.04]])
-        >>> aside = np.array([[-0.3, 0.15], [0.3, 0.15], [0.3, 0.4], [-0.3, 0.4]])
-        >>> robot = CaptureLimits(50.0, 3.5, box, aside, 0.4, 0.8, 0.1, swing_speed=1.5, steps=1)
-        >>> capture_map(robot, PeriodicWalk(3.5, 0.0, 0.2, 0.5, 0.1), directions=4, phases=2).round(1).tolist()
-        [[26.6, 15.7, 26.6, 33.3], [43.6, 16.2, 43.6, 32.6]]
-    """
+    """Largest captured impulses (phases, directions) in N s of a walk: directions from forward to the left and round,
+    phases from the begin of a step's double support on."""
     if walk.omega != limits.omega:
         raise InputError(f"pendulum frequency of the walk is {walk.omega} rad/s, that of the limits {limits.omega}")
     angles = 2.0 * math.pi * np.arange(directions) / directions
