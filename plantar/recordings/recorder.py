@@ -107,7 +107,7 @@ class Channel(Generic[_Message]):
         if isinstance(encoded, np.ndarray):
             data = np.hstack([heads.view(np.uint8).reshape(count, size), encoded]).tobytes()
         else:
-            data = b"".join(part for head, message in zip(heads, encoded, strict=True) for part in (head, message))
+            data = b"".join(head.tobytes() + message for head, message in zip(heads, encoded, strict=True))
         return _Gathered(heads["log_time"], np.cumsum(lengths) - lengths, data)
 
 
