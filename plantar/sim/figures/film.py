@@ -53,12 +53,7 @@ class _Filmed:
 
 
 class Film(_Filmed):
-    """A video of a robot that walks.
-
-    Args:
-        path: MP4 file to write.
-        world: The world, followed at its torso.
-    """
+    """A video at `path` (MP4) of a walking robot in a `world`, following its torso."""
 
     def __init__(self, path: str | os.PathLike[str], world: World) -> None:
         super().__init__(path, world.model, world.torso)
@@ -66,11 +61,7 @@ class Film(_Filmed):
         self._inset = SoleInset(world.robot.layouts, world.body.weight, round(_INSET * _HEIGHT))
 
     def add(self, readings: Mapping[Side, Reading]) -> None:
-        """Add a frame of the world as it is now.
-
-        Args:
-            readings: Readings of the soles; a sole that is missing is not drawn.
-        """
+        """Add a frame of the world now, with the soles' readings; without forces where one is missing."""
         layouts = self._world.robot.layouts
         if set(readings) != set(layouts):
             self._writer.add(self._camera.picture(self._world.data))

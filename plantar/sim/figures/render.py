@@ -24,14 +24,8 @@ FRAME_RATE = 25.0
 
 @dataclass(frozen=True)
 class Line:
-    """A line in a picture, as thick as a rod.
-
-    Attributes:
-        start: Where it begins (3,) in m.
-        end: Where it ends (3,) in m.
-        radius: Its radius in m.
-        colour: Red, green, blue and opacity, 0..1.
-    """
+    """A rod in a picture from `start` to `end` (3,) with a `radius` in m and a `colour`: red, green, blue and opacity,
+    0..1."""
 
     start: NDArray[np.float64]
     end: NDArray[np.float64]
@@ -41,13 +35,13 @@ class Line:
 
 @dataclass(frozen=True)
 class View:
-    """From where a camera shows a body; as it is, from the robot's right front side.
+    """A camera's position relative to a body; by default the robot's right front side.
 
     Attributes:
         distance: Distance of the eye in m.
         azimuth: Viewing direction about z in degrees.
         elevation: Viewing direction against the horizon in degrees.
-        below: How far below the origin of the body the middle of the picture is in m.
+        below: How far below the body's origin the picture's middle is in m.
     """
 
     distance: float = 2.6
@@ -61,12 +55,12 @@ class Camera:
 
     Args:
         model: MuJoCo model.
-        body: Id of the body to follow.
+        body: Id of the body.
         width: Picture width in pixels.
         height: Picture height in pixels.
-        view: From where it is shown.
-        groups: Groups of geoms to show in addition 0, 1 and 2, which are MuJoCo's own choice.
-        fast: Whether edges are not smoothed and shadows half as fine: a third of the time without a GPU.
+        view: The camera's position.
+        groups: Groups of geoms to show besides 0, 1 and 2, MuJoCo's default.
+        fast: Whether to skip smoothing and halve shadows: a third of the time without a GPU.
 
     Raises:
         InputError: If no renderer can be made; the message names the cause.
@@ -114,15 +108,12 @@ class Camera:
         lines: Sequence[Line] = (),
         dots: tuple[NDArray[np.float64], NDArray[np.float64], float] | None = None,
     ) -> NDArray[np.uint8]:
-        """The scene now.
+        """Returns the RGB picture (height, width, 3) of the state `data`.
 
         Args:
             data: The simulation's state.
             lines: Lines to draw into it.
             dots: Cubes to draw into it: places (n, 3) in m, red, green and blue (n, 3) of 0..1, and half a side in m.
-
-        Returns:
-            RGB picture (height, width, 3).
         """
         import mujoco
 
@@ -144,14 +135,7 @@ class Camera:
         return np.asarray(self._renderer.render())
 
     def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Where points of the world are in the last picture.
-
-        Args:
-            points: Points (n, 3) in m, in front of the camera.
-
-        Returns:
-            Pixels (n, 2), x to the right and y down.
-        """
+        """Pixels (n, 2), x to the right and y down, of points (n, 3) in m before the camera, in the last picture."""
         left, right = self._renderer.scene.camera
         forward, up = np.array(left.forward), np.array(left.up)
         offset = points - 0.5 * (np.array(left.pos) + np.array(right.pos))
@@ -168,29 +152,15 @@ class Camera:
 
 
 def opencv() -> Any:
-    """OpenCV, which pictures and videos are written by.
-
-    Returns:
-        The module.
-
-    Raises:
-        InputError: If it is missing; the message names how to get it.
-    """
+    """The module OpenCV, which writes pictures and videos; an InputError names how to get it."""
     with optional_library("cv2", "sim"):
         import cv2
     return cv2
 
 
 def save_picture(picture: NDArray[np.uint8], path: str | os.PathLike[str]) -> Path:
-    """Save a picture as PNG or JPEG; it appears whole or not at all.
-
-    Args:
-        picture: RGB picture (height, width, 3).
-        path: File to write; its suffix chooses the format.
-
-    Returns:
-        The path.
-    """
+    """Save an RGB `picture` (height, width, 3) at `path`, whole or not at all, by its suffix as PNG or JPEG. Returns
+    the path."""
     cv2 = opencv()
     with replacing(path) as temporary:
         cv2.imwrite(str(temporary), picture[:, :, ::-1])
