@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from plantar.errors import SceneError
-from plantar.recordings.recorder import RecordChannel, Recorder
+from plantar.recordings.recorder import Channel, Recorder
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.drives import Drives
@@ -68,7 +68,7 @@ class Companion(Run):
             self._scan_every = max(1, round(1.0 / (scene.lidar.rate * self.world.model.opt.timestep)))
         self.periods = float(self.world.model.opt.timestep), control.period
         self.skipped = Counter(rendered_frames=0)
-        self._channels: tuple[RecordChannel, ...] | None = None
+        self._channels: tuple[Channel[Any], ...] | None = None
         data = self.world.data
         data.qpos[self.world.positions[-len(machine.posture) :]] = machine.posture
         self.experiment.start(self.world)
