@@ -36,14 +36,9 @@ def confined(
 
     Args:
         function: Its module and name, as "package.module:name"; it takes the file's path and returns arrays by name.
-        path: The file or folder.
-        error: What is raised.
         what: What the file should be, for the message, for example "a C3D file".
         memory: Bytes of data that the process may hold.
         seconds: Time of the processor that it may take; it may wait as long again.
-
-    Returns:
-        The arrays.
 
     Raises:
         PlantarError: If the function raises, crashes or passes a limit; of the class `error`.
@@ -75,10 +70,7 @@ def confined(
 
 
 def _environment(folder: str) -> dict[str, str]:
-    """One thread, a folder for temporary files, and no modules from the folder one works in.
-
-    An empty entry of PYTHONPATH, as `PYTHONPATH=lib:$PYTHONPATH` leaves it, means that folder.
-    """
+    """One thread, a folder for temporary files, and no modules from the folder one works in."""
     threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
     places = [place for place in os.environ.get("PYTHONPATH", "").split(os.pathsep) if place]
     return {**os.environ, **threads, "TMPDIR": folder, "PYTHONPATH": os.pathsep.join(places)}

@@ -29,12 +29,6 @@ Name = str | os.PathLike[str]
 def is_file(path: Name) -> bool:
     """Whether there is a regular file of this name; False also for names that no file can have.
 
-    Args:
-        path: The name.
-
-    Returns:
-        Whether it is one.
-
     Example:
         >>> is_file("/dev/null"), is_file("x" * 300), is_file("")
         (False, False, False)
@@ -49,8 +43,6 @@ def check_input(path: Name, error: type[PlantarError], most: float | None = None
     """Refuse what is no regular file, or is larger than allowed; for libraries that open a file themselves.
 
     Args:
-        path: The file.
-        error: What is raised.
         most: Largest size in bytes; None where there is no limit.
         where: Beginning of the message; the path where None.
 
@@ -74,13 +66,8 @@ def open_input(path: Name, error: type[PlantarError], most: float | None = None,
     """Open a regular file for reading.
 
     Args:
-        path: The file.
-        error: What is raised.
         most: Largest size in bytes; None where there is no limit.
         where: Beginning of the message; the path where None.
-
-    Returns:
-        The open file.
 
     Raises:
         PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.
@@ -117,13 +104,8 @@ def read_input(path: Name, error: type[PlantarError], most: float, where: str | 
     """All bytes of a regular file.
 
     Args:
-        path: The file.
-        error: What is raised.
         most: Largest size in bytes.
         where: Beginning of the message; the path where None.
-
-    Returns:
-        The bytes.
 
     Raises:
         PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.

@@ -49,13 +49,8 @@ def named_file(path: Path, folders: tuple[Path, ...], error: type[PlantarError],
     """A file that another file names, if it lies where it may.
 
     Args:
-        path: The file.
         folders: Folders that it may lie in or below.
-        error: What is raised.
         where: Beginning of the message: what names it.
-
-    Returns:
-        The path.
 
     Raises:
         PlantarError: If it lies elsewhere, links followed; of the class `error`.
@@ -92,12 +87,6 @@ def _is_a_package(folder: Path) -> bool:
 def folders_of_model(file: Path) -> tuple[Path, ...]:
     """Folders that a model's files may lie in or below: its own, and the one above where that is a package.
 
-    Args:
-        file: The model.
-
-    Returns:
-        The folders.
-
     Example:
         >>> [f.as_posix() for f in folders_of_model(Path("/robots/mine/xml/mine.xml"))]
         ['/robots/mine/xml', '/robots/mine']
@@ -110,10 +99,7 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
     """Where a URDF's mesh lies: `package://` is looked for next to the file and in the folders above it.
 
     Args:
-        file: The URDF.
         name: The mesh's name in the file.
-        error: What is raised.
-        where: Beginning of the message.
 
     Returns:
         The mesh's path; it may not exist.
@@ -144,13 +130,6 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
 def parsed_model(file: Path, error: type[PlantarError]) -> Element:
     """The XML of an MJCF or URDF, MJCF includes put in their place.
 
-    Args:
-        file: The model.
-        error: What is raised.
-
-    Returns:
-        The outermost element.
-
     Raises:
         PlantarError: If a file cannot be read, is no XML, is included twice, or lies where it may not; of the class
             `error`.
@@ -165,13 +144,6 @@ def parsed_model(file: Path, error: type[PlantarError]) -> Element:
 
 def files_of_model(file: Path, error: type[PlantarError]) -> set[Path]:
     """An MJCF or URDF and the files that it includes.
-
-    Args:
-        file: The model.
-        error: What is raised.
-
-    Returns:
-        Their full paths.
 
     Raises:
         PlantarError: As `parsed_model`.
@@ -206,10 +178,6 @@ def check_model(file: Path, error: type[PlantarError]) -> None:
     """Refuse a model that names files where it may not, or asks for more than a robot is; for a library that reads it.
 
     A model that did not come with Plantar is read by MuJoCo in its own process first.
-
-    Args:
-        file: The model.
-        error: What is raised.
 
     Raises:
         PlantarError: If it cannot be read, or names such a file; of the class `error`.

@@ -40,8 +40,6 @@ def check_model_size(root: Element, error: type[PlantarError], where: str) -> No
 
     Args:
         root: Its outermost element, includes in their place.
-        error: What is raised.
-        where: Beginning of the message.
 
     Raises:
         PlantarError: If it passes a limit; of the class `error`.
@@ -92,9 +90,6 @@ def _numbers(text: str) -> list[float]:
 
 def parsed_in_trial(path: str) -> dict[str, int]:
     """Let MuJoCo read a model, for `confined`: only a crash, or memory or time beyond its limits, counts.
-
-    Args:
-        path: The model.
 
     Returns:
         The number of its bodies; 0 where MuJoCo refuses it, as it will again.

@@ -30,12 +30,6 @@ _DEEP_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{10}}")
 def parse_toml(text: str) -> dict[str, Any]:
     """The table of a TOML text.
 
-    Args:
-        text: The text.
-
-    Returns:
-        The table.
-
     Raises:
         ValueError: If it is not valid TOML, or nested too deep; one line.
 
@@ -69,11 +63,7 @@ def read_toml(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
     Args:
         path: The file, of up to TOML_MOST bytes.
-        error: What is raised.
         where: Beginning of the message, for example "scene file walk.toml".
-
-    Returns:
-        The table.
 
     Raises:
         PlantarError: If it cannot be read or is not valid TOML; of the class `error`.
@@ -95,12 +85,8 @@ def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
     Args:
         path: The file, of up to JSON_MOST bytes.
-        error: What is raised.
         where: Beginning of the message, for example "layout file sole.json".
         kind: What it should have been, for the message.
-
-    Returns:
-        The value.
 
     Raises:
         PlantarError: If it cannot be read or is not valid JSON; of the class `error`.
@@ -142,9 +128,6 @@ def packaged_files(package: str, pattern: str) -> list[Path]:
 
 def described_files(paths: Iterable[Path]) -> dict[Path, str]:
     """The first line of the "title" or "description" that each TOML file gives.
-
-    Args:
-        paths: The files.
 
     Returns:
         The lines by path; empty where a file gives none or cannot be read.

@@ -65,11 +65,7 @@ def named_format(path: str | os.PathLike[str], name: str | None = None) -> Forma
     """The format of a name, or that of a file's content where the name is None.
 
     Args:
-        path: The file.
         name: Name of a format, or None.
-
-    Returns:
-        The format.
 
     Raises:
         FormatError: If there is no format of this name, or the file is of none.
@@ -83,9 +79,6 @@ def named_format(path: str | os.PathLike[str], name: str | None = None) -> Forma
 def is_study_folder(path: str | os.PathLike[str]) -> bool:
     """Whether a path is a folder of recordings, and not a folder that is one recording itself.
 
-    Args:
-        path: The path.
-
     Returns:
         True for a folder that no format claims.
     """
@@ -95,12 +88,6 @@ def is_study_folder(path: str | os.PathLike[str]) -> bool:
 
 def detect_format(path: str | os.PathLike[str]) -> Format:
     """Recognise a file, or a folder that holds a recording, by its content.
-
-    Args:
-        path: The file or folder.
-
-    Returns:
-        Its format.
 
     Raises:
         FormatError: If the file cannot be read, is empty, or is of no known format.
@@ -137,7 +124,6 @@ def read_recording(
     """Read a recording of any known format.
 
     Args:
-        path: The file.
         format: Name of its format; recognised from the content where None.
         layout: Sole layout to use instead of the format's own geometry; its mirror image serves the other foot.
         options: All that the user knows about the file; `layout` is put into it.
@@ -179,11 +165,7 @@ def read_recording(
 
 
 def _insole_size(size: str, format: str) -> str:
-    """A size of insole in lower case, refused where it has no meaning.
-
-    Raises:
-        InputError: If the format has no such sizes, or none of this name.
-    """
+    """A size of insole in lower case, refused where it has no meaning."""
     from plantar.formats.nominal_insole import CELL_AREAS
 
     if format != "pedar":

@@ -77,11 +77,7 @@ class _Array:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read an NPZ or NPY file.
-
-    Raises:
-        FormatError: If it is damaged, too large, or holds no array of frames and cells.
-    """
+    """Read an NPZ or NPY file."""
     try:
         with _arrays(path) as arrays:
             return _recording(path, arrays, options)
@@ -91,14 +87,6 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions, name: Path) -> PressureRecording:
     """A recording from arrays in memory, with the names that an NPZ file has.
-
-    Args:
-        arrays: The arrays by name.
-        options: What is known of them.
-        name: What the recording is called.
-
-    Returns:
-        The recording.
 
     Raises:
         FormatError: If no array holds frames of cells.

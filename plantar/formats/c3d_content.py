@@ -41,7 +41,6 @@ def event_of(label: str, context: str = "") -> tuple[Side, str] | None:
     """The foot and kind of an event, from its label and the context where there is one.
 
     Args:
-        label: Its label.
         context: Its context, such as "Left".
 
     Returns:
@@ -64,9 +63,6 @@ def _side(word: str | None) -> Side | None:
 
 def content_of_file(path: Path) -> dict[str, Any]:
     """Force plates, tracks of the feet and events of a C3D file.
-
-    Args:
-        path: The file.
 
     Returns:
         "rate" in Hz and "frames" of the analog channels and the number of "plates"; of each plate i "channels_i"

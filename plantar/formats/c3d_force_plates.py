@@ -41,12 +41,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read the force plates.
-
-    Raises:
-        FormatError: If the file is damaged, holds no force plate, or its channels are no forces.
-        DependencyError: If ezc3d is not installed.
-    """
+    """Read the force plates."""
     if find_spec("ezc3d") is None:
         raise DependencyError("ezc3d", "formats")
     check_input(path, FormatError, _LARGEST)
@@ -130,11 +125,7 @@ def _vertical_axis(corners: list[NDArray[np.float64]], warnings: list[str]) -> i
 
 
 def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float, warnings: list[str]) -> Plate:
-    """One plate: its channels as force and moment about the middle of its surface, z up.
-
-    Raises:
-        FormatError: If its type is not known, or its channels are not calibrated.
-    """
+    """One plate: its channels as force and moment about the middle of its surface, z up."""
     kind, channels, name = int(held[f"type_{number}"]), held[f"channels_{number}"], f"plate {number + 1}"
     if not 1 <= kind <= 5 or not len(channels):
         raise FormatError(f"{name} is of type {kind} or lacks channels; allowed: types 1 to 5 with all their channels")
@@ -193,11 +184,7 @@ def _load(
     length: float,
     warnings: list[str],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Force (3, n) in N and moment (3, n) in N m about the middle of the surface, in the plate's axes.
-
-    Type 1 gives force, CoP and free moment; 2, 4 and 5 force and moment about `origin`; 3 (Kistler) fx12, fx34, fy14,
-    fy23 and fz1 to fz4, whose transducers are at (+-a, +-b) with origin = (a, b, az0).
-    """
+    """Force (3, n) in N and moment (3, n) in N m about the middle of the surface, in the plate's axes."""
     if kind == 1:
         force = newton * values[:3]
         x, y = length * values[3:5]

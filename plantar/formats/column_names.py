@@ -153,12 +153,6 @@ class Heading:
 def heading_of(text: str) -> Heading:
     """What a heading names.
 
-    Args:
-        text: The heading.
-
-    Returns:
-        What it names.
-
     Example:
         >>> h = heading_of("Left Fz (N)"); h.quantity, h.axis, h.side, h.unit
         ('force', 'z', 'left', 'N')

@@ -52,11 +52,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a table.
-
-    Raises:
-        FormatError: If it holds no rows of numbers, or a unit that is not known.
-    """
+    """Read a table."""
     warnings: list[str] = []
     with open_text(path) as stream:
         lines = list(islice((x.rstrip("\n") for x in stream if x.strip()), _HEAD))

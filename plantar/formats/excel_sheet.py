@@ -33,12 +33,6 @@ def _recognises(head: bytes) -> bool:
 def lines_of_workbook(data: bytes) -> list[str]:
     """The cells of a workbook's fullest sheet, a line a row, with tabs between them.
 
-    Args:
-        data: The file.
-
-    Returns:
-        The lines.
-
     Raises:
         FormatError: If the file is damaged, encrypted, or holds no sheet.
     """
@@ -205,11 +199,7 @@ def _strings(parts: list[bytes]) -> list[str]:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a workbook as the text that it would be saved as.
-
-    Raises:
-        FormatError: If it is damaged or holds no recording.
-    """
+    """Read a workbook as the text that it would be saved as."""
     from plantar.formats import detect_format
 
     lines = lines_of_workbook(read_input(path, FormatError, _LARGEST))

@@ -72,11 +72,7 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
     """Find the footprints in an image.
 
     Args:
-        path: The image.
         mm_per_pixel: Size of a pixel in mm; where None, the resolution that the file states.
-
-    Returns:
-        The image and its footprints.
 
     Raises:
         FormatError: If the file is no image, or no footprint stands out from its background.
@@ -117,9 +113,6 @@ def _decoded(path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
 
 def decoded_image(path: Path) -> dict[str, Any]:
     """An image of a size that is enough to outline a foot, for `confined`.
-
-    Args:
-        path: The image.
 
     Returns:
         "image": BGR over white (h, w, 3), of 8 bits, empty where OpenCV reads none; "factor": by how much it was

@@ -50,11 +50,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a text export.
-
-    Raises:
-        FormatError: If the file holds no frames of one size, or is a binary Excel file.
-    """
+    """Read a text export."""
     with open_input(path, FormatError) as stream:
         if stream.read(4) == _EXCEL:
             raise FormatError(f"{path}: a binary Excel file; save it as text (tab delimited) or CSV first")

@@ -80,9 +80,7 @@ def feet_of_plates(
 
     Args:
         plates: The plates as the file gives them.
-        rate: Frames a second.
         options: With the user's word about the plates' feet.
-        warnings: Where assumptions are put.
         markers: Where each foot's markers are (n, 2) in m, NaN where unseen.
         events: Heel strikes of each foot that the file states, in s from the first frame.
 
@@ -187,11 +185,7 @@ def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool
 
 
 def _refuse_no_foot(plate: Plate) -> None:
-    """Refuse what no foot does to a plate.
-
-    Raises:
-        FormatError: If most of the force is horizontal.
-    """
+    """Refuse what no foot does to a plate."""
     size = np.linalg.norm(np.nan_to_num(plate.force), axis=1)
     loaded = size > max(LEAST, 0.2 * float(np.percentile(size, 99.5)))
     if not loaded.any() or not np.isfinite(plate.force[loaded][:, :2]).any():
@@ -206,11 +200,7 @@ def _refuse_no_foot(plate: Plate) -> None:
 
 
 def _with_cop(plate: Plate, warnings: list[str]) -> Plate:
-    """The plate with its centre of pressure and free moment.
-
-    With the moment M about a point of the surface and the force F, r = (z x M) / Fz and the free moment is
-    z . (M - r x F).
-    """
+    """The plate with its centre of pressure and free moment."""
     vertical = np.where(plate.force[:, 2] > LEAST, plate.force[:, 2], np.nan)
     cop, free = plate.cop, plate.free
     if plate.moment is not None:

@@ -21,8 +21,6 @@ def grid_cells(
         present: Which cells (rows, columns) there are.
         row_pitch: Distance of rows in m.
         column_pitch: Distance of columns in m.
-        side: "left" or "right".
-        name: Name of the sole.
         threshold: Pressure in Pa from which a cell counts as loaded.
 
     Returns:

@@ -24,11 +24,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read the skin topics "/skin/left" and "/skin/right", whose field "force" is in N; else any topics with arrays.
-
-    Raises:
-        FormatError: If the file is no MCAP recording or has no skin in it.
-    """
+    """Read the skin topics "/skin/left" and "/skin/right", whose field "force" is in N; else any topics with arrays."""
     recording = read_mcap(path)
     warnings = list(recording.warnings)
     tables: dict[Side, Table] = {}

@@ -43,11 +43,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a text export.
-
-    Raises:
-        FormatError: If no line names the channels, no row fits it, or a unit is not known.
-    """
+    """Read a text export."""
     warnings: list[str] = []
     with open_text(path) as stream:
         lines = iter(stream)

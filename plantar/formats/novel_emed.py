@@ -51,15 +51,7 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass
 class _Page:
-    """One frame as its pages give it.
-
-    Attributes:
-        picture: Its number.
-        columns: Numbers of the columns that are shown.
-        tables: For each page the numbers of its rows and columns, and the pressures (rows, columns).
-        force: The force that the page states, in N.
-        damaged: How many cells or rows are none.
-    """
+    """One frame as its pages give it."""
 
     picture: int
     columns: list[int] = field(default_factory=list)
@@ -103,11 +95,7 @@ class _Page:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a .lst export.
-
-    Raises:
-        FormatError: If the file holds no frame, or its forces fit no unit of pressure.
-    """
+    """Read a .lst export."""
     facts: dict[str, str] = {}
     warnings: list[str] = []
     with open_text(path) as stream:

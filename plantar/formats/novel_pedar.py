@@ -53,11 +53,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a .asc export.
-
-    Raises:
-        FormatError: If the file is not such an export, states an unknown unit, or holds no frames.
-    """
+    """Read a .asc export."""
     notes: list[str] = []
     with open_text(path) as stream:
         lines = iter(stream)

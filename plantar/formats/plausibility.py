@@ -36,9 +36,6 @@ _SLENDER = (1.8, 4.2)
 def doubts(recording: PressureRecording) -> list[str]:
     """What does not look like feet, one line each; none for a recording that does.
 
-    Args:
-        recording: The recording.
-
     Returns:
         Warnings about raw counts, peak force, peak pressure, cell area, insole length and rate.
     """

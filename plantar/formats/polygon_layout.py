@@ -20,9 +20,6 @@ def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], 
 
     Args:
         rings: Corners (k, 2) of each cell in the sole frame in m, counter-clockwise.
-        ids: Ids of the cells.
-        side: "left" or "right".
-        name: Name of the sole.
 
     Returns:
         The layout: cells that share two corners are neighbours, the outline is the convex hull, and the activation
@@ -87,11 +84,7 @@ def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
     """The layout of some of its cells, in the order given; vertices and outline stay.
 
     Args:
-        layout: The layout.
         cells: Indices of the cells to keep, each once.
-
-    Returns:
-        The smaller layout.
 
     Example:
         >>> from plantar import hex_layout

@@ -41,9 +41,7 @@ def with_numbers(lines: Iterator[str], delimiter: str | None, column: int) -> It
     """Lines in whose side column 0 stands for the left foot and 1 for the right one.
 
     Args:
-        lines: Lines of a table.
         delimiter: What stands between its cells; None for blanks.
-        column: The side column.
 
     Yields:
         The lines; those whose cell names no foot as they are.
@@ -65,7 +63,6 @@ def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side
 
     Args:
         values: What the side column (n,) holds as numbers.
-        warnings: Where an assumption is put.
 
     Returns:
         Indices of the rows of each foot that has some.
@@ -98,7 +95,6 @@ def on_one_time(
 
     Args:
         time: Time (n,) of each row.
-        rows: The rows of each foot.
         columns: Columns (n,) of values.
 
     Returns:

@@ -50,13 +50,7 @@ def recording_of_columns(
     Args:
         table: Numbers (n, k), NaN where one is missing.
         names: Names (k) of the columns; empty where there are none.
-        options: What is known of the table.
-        path: What the recording is called.
         facts: What comments state: "unit", "rate", "side".
-        warnings: Where assumptions are put.
-
-    Returns:
-        The recording.
 
     Raises:
         FormatError: If no column is a load, rows are curves of trials, or a unit is not known.
@@ -103,11 +97,7 @@ def recording_of_columns(
 
 
 def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
-    """Refuse tables whose rows are curves over the stance of trials.
-
-    Raises:
-        FormatError: If columns name subjects or trials and the rest is numbered, without times.
-    """
+    """Refuse tables whose rows are curves over the stance of trials."""
     trial = any({"subject", "trial", "session", "participant"} & set(h.words.split()) for h in headings)
     if at is None and (trial or any("trialid" in h.words for h in headings)):
         stems = [h.words for h in headings if h.number is not None]

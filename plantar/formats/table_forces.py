@@ -62,10 +62,6 @@ def feet_of_forces(
     Args:
         table: Numbers (n, k).
         columns: What columns hold, by number; times are not in it.
-        rate: Frames a second.
-        options: What is known of the table.
-        stated: Unit that comments state.
-        warnings: Where assumptions are put.
 
     Returns:
         The feet; whether every step is seen; "plate" or "insole"; and whether forces are in percent of body weight.
@@ -150,11 +146,7 @@ def _unit(
     stated: str | None,
     warnings: list[str],
 ) -> tuple[float, bool]:
-    """N in one unit of the forces, and whether they are relative to an unknown body weight.
-
-    Raises:
-        FormatError: If the unit is not known.
-    """
+    """N in one unit of the forces, and whether they are relative to an unknown body weight."""
     text = options.unit or next((columns[i].unit for i in verticals if columns[i].unit), "") or stated or ""
     name = plain(text)
     weight = None if options.mass_kg is None else options.mass_kg * GRAVITY

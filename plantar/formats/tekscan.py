@@ -58,11 +58,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read an ASCII export.
-
-    Raises:
-        FormatError: If the file holds no frames, or states a unit that is not known.
-    """
+    """Read an ASCII export."""
     warnings: list[str] = []
     with open_text(path) as stream:
         lines = iter(stream)
@@ -150,10 +146,7 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], re.M
 def _take_frames(
     path: Path, first: re.Match[str], lines: Iterator[str], header: dict[str, str], warnings: list[str]
 ) -> tuple[list[int], tuple[int, int], FrameTable]:
-    """Numbers of the frames, rows and columns of the matrix, and its readings, a frame a row.
-
-    NaN where there is no cell or no number. One frame is in memory as text at a time.
-    """
+    """Numbers of the frames, rows and columns of the matrix, and its readings, a frame a row."""
     stated = _stated(header, "ROWS")
     bodies = _bodies(first, lines, _LARGEST if stated is None else stated)
     known = list(islice(bodies, 1 if stated else _FIRST))

@@ -35,12 +35,8 @@ def open_text(path: Path, encoding: str | None = None, longest: int = _LONGEST_L
     """A text file opened for reading line by line, its line ends made one.
 
     Args:
-        path: The file.
         encoding: Its encoding; found from its beginning where None.
         longest: Longest line in bytes that is read; a longer one is an error where it is met.
-
-    Returns:
-        The open stream.
 
     Raises:
         FormatError: If the file cannot be read, or is no regular one.
@@ -77,7 +73,6 @@ def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16
 
     Args:
         lines: The lines; more can be taken from them where the blocks were left.
-        most: Most lines a block.
         characters: Characters from which a block ends sooner.
 
     Yields:
@@ -139,9 +134,6 @@ def number_in(text: str) -> float | None:
 
 def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
     """Cells of a row as numbers, NaN where a cell is none.
-
-    Args:
-        cells: The cells' texts.
 
     Returns:
         The numbers, and how many cells hold something that is not a number; empty ones do not count.

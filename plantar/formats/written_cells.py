@@ -36,11 +36,7 @@ def names_of_row(line: str, delimiter: str | None) -> list[str]:
     """The cells of a row of names; what stands in quotes may hold the delimiter.
 
     Args:
-        line: The row.
         delimiter: What stands between its cells; None for blanks.
-
-    Returns:
-        The cells without their quotes.
     """
     if delimiter is None or '"' not in line:
         return [cell.strip() for cell in line.split(delimiter)]
@@ -50,9 +46,6 @@ def names_of_row(line: str, delimiter: str | None) -> list[str]:
 
 def time_unit(name: str) -> float | None:
     """What a column's name states about times.
-
-    Args:
-        name: The name.
 
     Returns:
         Their unit in s, 0 where it states none; None where it names no times.
@@ -73,9 +66,6 @@ def time_unit(name: str) -> float | None:
 
 def without_quotes(lines: Iterator[str]) -> Iterator[str]:
     """Lines of a table with commas between cells, whose quoted numbers may have a decimal comma.
-
-    Args:
-        lines: The lines.
 
     Yields:
         The lines; `"1,5","2,5"` as `1.5,2.5`, and those without a comma in quotes as they are.
@@ -98,9 +88,6 @@ def _plain(quoted: re.Match[str]) -> str:
 def has_quoted_commas(line: str) -> bool:
     """Whether a cell of a line is in quotes and holds a comma.
 
-    Args:
-        line: The line.
-
     Returns:
         True where one does.
     """
@@ -111,9 +98,6 @@ def seconds_of_time(text: str) -> float | None:
     """Seconds of a time of day, or since 2020 began of an ISO 8601 date and time.
 
     Of another date, whose order nobody knows, only the time of day counts.
-
-    Args:
-        text: The cell.
 
     Returns:
         The seconds; None where the text is neither.
@@ -142,9 +126,7 @@ def with_seconds(lines: Iterator[str], delimiter: str | None, column: int) -> It
     """Lines in whose time column seconds stand for times of day or dates; they go on beyond midnight.
 
     Args:
-        lines: Lines of a table.
         delimiter: What stands between its cells; None for blanks.
-        column: The column of times.
 
     Yields:
         The lines; those whose cell is no such time as they are. The first line's time counts as 0.

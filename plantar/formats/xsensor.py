@@ -95,11 +95,7 @@ class _Scan:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a CSV export.
-
-    Raises:
-        FormatError: If the file holds no whole matrix, or states a unit that is not known.
-    """
+    """Read a CSV export."""
     with open_text(path) as stream:
         scan = _scan(stream, path.stat().st_size)
     warnings: list[str] = []

@@ -72,10 +72,6 @@ class Activity:
 def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
     """Tell walking, running and standing apart.
 
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
     Returns:
         The activity. A foot that lands on its front and then lets the heel down walks down stairs (or on pointed toes);
         one whose heel never carries walks on its toes; one that lands in front of its heel, stands for long and
@@ -89,15 +85,7 @@ def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
 
 def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
-    """Warnings of feet that are rolled over from toes to heel, and of two feet that were not recorded at one time.
-
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
-    Returns:
-        The warnings.
-    """
+    """Warnings of feet that are rolled over from toes to heel, and of two feet that were not recorded at one time."""
     out = []
     if _out_of_step(feet):
         out.append(
@@ -131,11 +119,7 @@ def _out_of_step(feet: Mapping[Side, FootGait]) -> bool:
 
 
 def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
-    """Where the CoP is at landing, at lift-off and at its hindmost, in shares of the sole from heel to toes (steps, 3).
-
-    Landing and lift-off are the means over the first and last 12 % of the contact, as the strike index is of its first
-    point (Cavanagh & Lafortune 1980, J. Biomech. 13:397). Empty where the sole's place under the foot is not known.
-    """
+    """Where the CoP is at landing, at lift-off and hindmost, in shares of the sole (steps, 3)."""
     layout, cop = gait.foot.layout, gait.cop
     if layout is None or cop is None or recording.kind not in ("insole", "robot"):
         return np.zeros((0, 3))
@@ -214,10 +198,7 @@ def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Ac
 
 
 def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:
-    """Whether a foot of a force (n,) in N is on the ground and off it again and again, next to a usual load in N.
-
-    By shares of its own peak with a wide gap between them: where no step was found, neither are levels to be trusted.
-    """
+    """Whether a foot of a force (n,) in N is on the ground and off it again and again, next to a usual load in N."""
     known = force[np.isfinite(force)]
     peak = float(np.percentile(known, 99.0)) if len(known) else 0.0
     if not peak > _CARRIES * usual:

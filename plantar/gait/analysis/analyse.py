@@ -42,7 +42,6 @@ def analyse(
         subject: The person, as far as known.
         layout: Where the cells are: a layout or the path of its file; mirrored for the other foot.
         unit: Unit of the values, such as "kPa", "N" or "raw".
-        rate_hz: Frames a second.
 
     Returns:
         The analysis: `.steps` (columns of every measure), `.to_pandas()`, `.report()`, `.metrics`, `.feet`; of a folder

@@ -31,10 +31,6 @@ def implied_weight(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
     (Newton's second law over a period). Of one foot alone twice its impulse is taken, without strides the largest force
     of its steps over 1.1, and in standing the mean force of both feet.
 
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
     Returns:
         The weight; None of raw counts, or where the recording does not show it.
     """
@@ -61,10 +57,6 @@ def _median(gait: FootGait, key: str) -> float:
 
 def weight_doubts(recording: PressureRecording, weight: float | None) -> list[str]:
     """Warnings where a recording implies no person's weight, or a robot's taxels read more than they are rated for.
-
-    Args:
-        recording: The recording.
-        weight: What `implied_weight` gave.
 
     Returns:
         The warnings; none for a person of 20 to 200 kg.

@@ -51,7 +51,6 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     What a silent cell lacks is taken as the mean pressure of the neighbours that carry, at the frames of high load.
 
     Args:
-        foot: One foot.
         other: The other foot: of insoles that are each other's mirror image, its cell of the same number shows that a
             part of the sole at an edge is loaded.
 
@@ -136,14 +135,7 @@ def _inside(layout: SoleLayout, cell: int, beside: NDArray[np.int64], loaded: ND
 
 
 def silent_cell_doubts(recording: PressureRecording) -> list[str]:
-    """A warning of each insole with silent cells, with the force that is missing.
-
-    Args:
-        recording: The recording.
-
-    Returns:
-        The warnings.
-    """
+    """A warning of each insole with silent cells, with the force that is missing."""
     out = []
     for side, foot in recording.feet.items() if recording.kind == "insole" else ():
         found = silent_cells(foot, recording.feet.get(other_side(side)))
@@ -160,9 +152,6 @@ def silent_cell_doubts(recording: PressureRecording) -> list[str]:
 
 def creep_doubts(feet: Mapping[Side, FootGait]) -> list[str]:
     """A warning where a step's mean force changes steadily over the recording: body weight does not, gains do.
-
-    Args:
-        feet: The gait of the feet.
 
     Returns:
         The warnings, with the change from the first step to the last.
@@ -190,9 +179,6 @@ def creep_doubts(feet: Mapping[Side, FootGait]) -> list[str]:
 
 def unequal_strides(feet: Mapping[Side, FootGait]) -> float | None:
     """How much longer the left foot's strides are than the right one's, relative to their mean.
-
-    Args:
-        feet: The gait of the feet.
 
     Returns:
         The difference where it is more than a walk has: two clocks, or two people; else None.

@@ -112,9 +112,6 @@ def full_title(key: str) -> str:
     Args:
         key: Its key; of one that is not known the key itself is the title.
 
-    Returns:
-        The title.
-
     Example:
         >>> full_title("cop_path_m"), full_title("peak_force_N"), full_title("mine")
         ('CoP path length', 'Peak force', 'mine')

@@ -35,7 +35,6 @@ def metrics_of(
     """The analysis as plain JSON values; None where a value is not known.
 
     Args:
-        recording: The recording.
         feet: The gait of each of its feet.
         subject: Who walks, as far as it is known.
 
@@ -155,14 +154,7 @@ def _sway(recording: PressureRecording, gait: FootGait, standing: bool) -> dict[
 
 
 def not_given(kind: str) -> dict[str, str]:
-    """Measures that this kind of sensor cannot give, each with the reason.
-
-    Args:
-        kind: What measured.
-
-    Returns:
-        The reasons by key.
-    """
+    """Measures that this kind of sensor cannot give, each with the reason."""
     if kind not in ("insole", "robot"):
         return {}
     what = "an insole" if kind == "insole" else "a robot's sole"

@@ -27,10 +27,6 @@ _MIRRORED = -0.1
 def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
     """A warning of two insoles in which the load lies as in the other foot.
 
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
     Returns:
         One warning, or none; none where a foot has no complete step or no geometry, and of platforms and robots.
     """
@@ -47,9 +43,6 @@ def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait])
 
 def inward_of_toes(gait: FootGait) -> float:
     """How much farther inside the load of the toes lies than that of the midfoot.
-
-    Args:
-        gait: A foot in an insole.
 
     Returns:
         The distance in half widths of the sole, each load's from the middle of the cells there; NaN without load or

@@ -52,8 +52,6 @@ def analyse_feet(
 
     Args:
         recording: The recording; that of a platform as `told_apart` gives it.
-        prints: The footprints of a platform.
-        options: Which steps are in the means.
 
     Returns:
         The gait of each foot, with the lengths that need both.
@@ -99,11 +97,7 @@ def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:
 
 
 def _check_clock(recording: PressureRecording) -> None:
-    """Refuse stated events of another time than the recording's: in ms, or by another clock.
-
-    Raises:
-        InputError: If no event of a foot lies in the recording.
-    """
+    """Refuse stated events of another time than the recording's: in ms, or by another clock."""
     begin, end = float(recording.time[0]), float(recording.time[-1])
     for side in recording.feet:
         events = recording.events[side]
@@ -143,9 +137,6 @@ def analyse_foot(
     """Find the contacts of one foot and measure its complete steps.
 
     Args:
-        recording: The recording.
-        side: A foot that it has.
-        prints: The footprints of a platform.
         stated: Whether the events that the file states are taken.
         events: Levels and contacts of both feet, where they are known.
 

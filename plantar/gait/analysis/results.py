@@ -79,9 +79,6 @@ class Analysis:
 
         Args:
             path: File to write; none where None.
-
-        Returns:
-            The page.
         """
         with tempfile.TemporaryDirectory() as folder:
             write_analysis(self, Path(folder))
@@ -115,7 +112,6 @@ def write_analysis(
     """Write metrics.json, steps.csv and regions.csv of an analysis, and its figures and report.html.
 
     Args:
-        analysis: The analysis.
         folder: Folder to write to, which exists.
         progress: Called with a fraction 0..1 and what is being done.
         figures: Whether figures and the report are drawn.

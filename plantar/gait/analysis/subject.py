@@ -56,7 +56,6 @@ def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
     """A warning where the forces of a recording are not those of a body of the stated mass.
 
     Args:
-        subject: Who walks.
         implied: Weight in N that the forces imply; None where they imply none.
 
     Returns:
@@ -74,9 +73,6 @@ def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
 
 def device_of(recording: PressureRecording) -> dict[str, Any]:
     """What measured a recording, as far as the file states it.
-
-    Args:
-        recording: The recording.
 
     Returns:
         "name" (what the format is of), "sensor" (what the file calls it, or None), and for each foot with geometry its

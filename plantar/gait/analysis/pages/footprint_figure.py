@@ -19,13 +19,7 @@ __all__ = ["draw_footprints"]
 
 @dataclass(frozen=True)
 class _Scale:
-    """How lengths are drawn: mm where the image's scale is known, else pixels.
-
-    Attributes:
-        name: Unit of the axes.
-        of_pixel: Size of a pixel in it.
-        of_length: Factor from a footprint's lengths (m, or pixels) to it.
-    """
+    """How lengths are drawn: mm where the image's scale is known, else pixels."""
 
     name: str
     of_pixel: float
@@ -36,11 +30,7 @@ def draw_footprints(image: FootprintImage, prints: Mapping[Side, Footprint]) -> 
     """Draw the footprints of an image on it.
 
     Args:
-        image: The image.
         prints: Its footprints, in the order of the image's.
-
-    Returns:
-        The figure.
     """
     scale = _Scale("pixels", 1.0, 1.0) if image.pixel is None else _Scale("mm", 1e3 * image.pixel, 1e3)
     height, width = image.picture.shape[:2]

@@ -38,7 +38,6 @@ def report_page(
     """The page of one recording as text.
 
     Args:
-        metrics: What `analyse_recording` returns.
         figures: PNG files to embed, each with a caption that also serves as its alternative text.
         title: Title of the page, for example the file's name.
         player: What `player_data` gives; no player where None.
@@ -76,14 +75,7 @@ def _with_figures(
 
 
 def summary_text(metrics: Mapping[str, Any]) -> str:
-    """The recording in two sentences: what it is of, and how the feet load.
-
-    Args:
-        metrics: What `analyse_recording` returns.
-
-    Returns:
-        Plain text.
-    """
+    """The recording in two sentences: what it is of, and how the feet load."""
     activity = metrics.get("activity", {"name": "unknown"})["name"]
     counts = [f"{len(foot['steps_used'])} of {foot['steps']} {side}" for side, foot in metrics["feet"].items()]
     cadence = metrics["gait"].get("steady_cadence_steps_per_min")
@@ -129,9 +121,7 @@ def comparison_page(
     """The page that puts two recordings side by side.
 
     Args:
-        comparison: What `compare_recordings` returns.
         figures: PNG files to embed, with their captions.
-        names: Names of the recordings.
         links: Files of their own reports, relative to this page.
 
     Returns:

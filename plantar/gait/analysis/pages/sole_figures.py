@@ -82,10 +82,6 @@ def _finish(figure: Any, axes: Any, drawn: Any, what: str, raw: bool) -> None:
 def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
     """Maximum pressure picture of each foot with the CoP paths of its complete steps.
 
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
     Returns:
         The figure, or None where no foot has geometry.
     """
@@ -193,7 +189,6 @@ def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
 
     Args:
         recording: The recording; of a platform the first footprint of each foot is shown.
-        feet: The gait of its feet.
 
     Returns:
         The figure, or None where no foot has regions.
@@ -238,9 +233,6 @@ def _draw_axis_and_thirds(panel: Any, print_: Footprint) -> None:
 
 def axis_is_inside(print_: Footprint) -> bool:
     """Whether a print's axis lies within the print from heel to toes; one next to the foot is not drawn.
-
-    Args:
-        print_: The print.
 
     Returns:
         True where both ends and the middle of the axis are no farther outside its hull than a twentieth of its width.

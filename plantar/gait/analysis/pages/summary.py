@@ -37,9 +37,6 @@ def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
 def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]:
     """Measures of the walk as a whole.
 
-    Args:
-        feet: The feet that were recorded.
-
     Returns:
         landings (heel strikes of all feet), stride_time_s (mean of all complete steps, of several
         activities of those in the means),
@@ -72,10 +69,6 @@ def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
 
 def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:
     """Symmetry index of each measure in percent: 100 (L - R) / ((L + R) / 2) of the feet's means (Robinson 1987).
-
-    Args:
-        feet: The feet that were recorded.
-        names: The measures.
 
     Returns:
         0 for symmetry, above 0 where the left foot's value is larger; None where a foot has no value, the two have

@@ -47,14 +47,7 @@ def _mean_and_sd(spread: Mapping[str, Any], factor: float) -> str:
 
 
 def measures_table(metrics: Mapping[str, Any]) -> str:
-    """Every measure of the steps in the means of each foot, with its spread and the symmetry of both feet.
-
-    Args:
-        metrics: What `analyse_recording` returns.
-
-    Returns:
-        HTML.
-    """
+    """Every measure of the steps in the means of each foot, with its spread and the symmetry of both feet."""
     feet: Mapping[str, Any] = metrics["feet"]
     both = len(feet) == 2
     rows = list(_rows_of_measures(metrics, both))
@@ -115,9 +108,6 @@ def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str,
 def steps_table(metrics: Mapping[str, Any]) -> str:
     """The complete steps of all feet in the order of time, each with its main measures and whether it is in the means.
 
-    Args:
-        metrics: What `analyse_recording` returns.
-
     Returns:
         HTML, empty where there is no step.
     """
@@ -146,9 +136,6 @@ def steps_table(metrics: Mapping[str, Any]) -> str:
 def regions_tables(metrics: Mapping[str, Any]) -> str:
     """A table for each foot that has regions: the mean of each measure over its complete steps.
 
-    Args:
-        metrics: What `analyse_recording` returns.
-
     Returns:
         HTML, empty where no foot has regions.
     """
@@ -175,14 +162,7 @@ def _mean(values: Mapping[str, Any], key: str) -> float | None:
 
 
 def comparison_table(comparison: Mapping[str, Any]) -> str:
-    """Every measure that both recordings have, side by side.
-
-    Args:
-        comparison: What `compare_recordings` returns.
-
-    Returns:
-        HTML.
-    """
+    """Every measure that both recordings have, side by side."""
     raw = bool(comparison["a"].get("raw") or comparison["b"].get("raw"))
     shown = [_shown(key, measure, raw) for key, measure in MEASURES.items()]
     rows: list[str] = []

@@ -50,9 +50,6 @@ def with_toe_line(print_: Footprint) -> Footprint:
     the highest point between 45 and 80 % of the length forwards; the lowest place beyond it counts if it is less than
     60 % of what follows. Strips without a valley take the line of their neighbours.
 
-    Args:
-        print_: The footprint.
-
     Returns:
         The same with `toe_line`, None where no strip has a valley.
     """

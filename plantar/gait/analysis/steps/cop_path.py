@@ -20,7 +20,6 @@ def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], fram
     Args:
         points: Positions (n, 2); NaN where there is none.
         weight: Weights (n,), above 0 where there is a position.
-        frames: Width of the window.
 
     Returns:
         The averaged positions (n, 2).
@@ -80,7 +79,6 @@ def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
     across the foot, positive to the lateral side, is given as a share of the footprint's width there.
 
     Args:
-        print_: The footprint.
         points: Positions (m, 2) in the frame that the print was made from, NaN where there is none.
 
     Returns:
@@ -103,7 +101,6 @@ def margin_to_outline(layout: SoleLayout, points: NDArray[np.float64]) -> float:
     """Smallest signed distance of points to the edges of a sole's convex outline.
 
     Args:
-        layout: The sole.
         points: Positions (m, 2) in the sole frame in m, 1 or more.
 
     Returns:

@@ -84,15 +84,7 @@ def force_measures(
 
 
 def _first_hump(force: NDArray[np.float64], least: float) -> int:
-    """The first place from which a force falls by a share before it rises above it.
-
-    Args:
-        force: Forces (m,).
-        least: What the hump has at least: lower ones, such as the transient of a heel strike, are passed.
-
-    Returns:
-        Its index; that of the largest force where there is none.
-    """
+    """The first place from which a force falls by a share before it rises above it."""
     width = max(1, 2 * (len(force) // 60) + 1)  # 3 % of the stance: noise makes no hump
     even = np.convolve(np.pad(force, width // 2, mode="edge"), np.full(width, 1.0 / width), mode="valid")
     start = 0

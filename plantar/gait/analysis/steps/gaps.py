@@ -25,9 +25,6 @@ _TOLD = 0.01
 def without_gaps(recording: PressureRecording) -> PressureRecording:
     """The recording with the short gaps of each cell filled on straight lines in time.
 
-    Args:
-        recording: The recording.
-
     Returns:
         The recording, with a warning for cells that never measure and for many missing values; `metadata` holds the
         share of each foot's values that were missing, in percent, as "missing_percent".

@@ -33,9 +33,6 @@ def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> dict[str, fl
     Args:
         load: The contact, with pressures.
         layout: Where the cells are; None where only the values are known.
-
-    Returns:
-        The measures by their key.
     """
     assert load.pressure is not None
     highest = load.pressure.max(axis=1)
@@ -71,7 +68,6 @@ def region_measures(
     Args:
         load: The contact, with pressures.
         region: Index (k,) into `names` of each cell, -1 for none.
-        names: Names of the regions.
         duration: Contact time of the whole foot in s.
 
     Returns:
@@ -113,10 +109,6 @@ def robot_measures(load: StepLoad, layout: SoleLayout) -> dict[str, float]:
     """Wrench of a sole of taxels, and margin of its centre of pressure to the support polygon.
 
     Both are of the loaded cells at one instant: forces that push keep their CoP inside the hull of their cells.
-
-    Args:
-        load: The contact.
-        layout: The sole.
 
     Returns:
         Largest magnitudes of the wrench's components about the sole frame's origin, and the smallest and mean margin.

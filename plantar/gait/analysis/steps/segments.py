@@ -61,9 +61,6 @@ def without_standing(contacts: Sequence[Contact]) -> list[Contact]:
 
     Args:
         contacts: The contacts of a foot, in order.
-
-    Returns:
-        The contacts.
     """
     known = [i for i, c in enumerate(contacts) if c.complete]
     lasts = {i: cast(float, contacts[i].toe_off) - cast(float, contacts[i].heel_strike) for i in known}
@@ -80,9 +77,6 @@ def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
 
     Args:
         feet: The gait of each foot, all steps measured.
-
-    Returns:
-        The feet.
     """
     hops = _both_at_once(feet)
     rows = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)

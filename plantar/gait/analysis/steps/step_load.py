@@ -41,8 +41,6 @@ class StepLoads:
     """Cuts contacts out of a foot's recording: forces of all cells, gaps interpolated.
 
     Args:
-        recording: The recording.
-        foot: One foot of it.
         threshold: Force (k,) in N above which a cell counts as loaded.
     """
 
@@ -94,7 +92,6 @@ def cell_threshold(
     A cell that reads something in most frames of swing, such as one that a shoe presses on, counts above that reading.
 
     Args:
-        recording: The recording.
         foot: One foot of it, n frames of k cells.
         contacts: Its contacts; between them the noise is measured.
 

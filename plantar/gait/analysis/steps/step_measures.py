@@ -25,11 +25,8 @@ def step_measures(
     """Everything of one step that does not need other steps.
 
     Args:
-        recording: The recording.
-        gait: One foot of it.
         load: What its cells carried in the step.
         contact: The step, complete.
-        print_: Its footprint.
 
     Returns:
         The measures by their key; what is not in it is not known.

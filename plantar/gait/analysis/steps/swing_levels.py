@@ -82,7 +82,6 @@ def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
 
     Args:
         force: Vertical force (n,), NaN where it was not measured.
-        rate: Frames a second.
 
     Returns:
         The levels; None where fewer than three swings between contacts are found.
@@ -155,10 +154,7 @@ def _known_places(
 
 
 def _jump(force: NDArray[np.float64], change: float) -> int | None:
-    """The frame after which a force jumps by about `change` from one frame to the next; None where it does not.
-
-    A foot loads and unloads over some frames: only a single step that its neighbours have not is a jump.
-    """
+    """The frame after which a force jumps by about `change` from one frame to the next; None where it does not."""
     if len(force) < 6 or not np.isfinite(force).all():
         return None
     steps = np.diff(force)
@@ -176,11 +172,7 @@ def _opened(course: NDArray[np.float64], longest: float, rate: float) -> NDArray
 
 
 def _least(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
-    """Least value (n - width + 1,) of each run of `width` values, in a time that does not grow with the width.
-
-    A run reaches over one border of blocks of its own length: it is the end of one block and the beginning of the next
-    (van Herk 1992).
-    """
+    """Least value (n - width + 1,) of each run of `width` values, in a time that does not grow with the width."""
     count = len(values)
     rows = -(-count // width)
     blocks = np.pad(values, (0, rows * width - count), constant_values=np.inf).reshape(rows, width)
@@ -237,10 +229,7 @@ def _swings(
 
 
 def _level_at_end(course: NDArray[np.float64], a: int, b: int, span: float, least: int) -> tuple[int, int]:
-    """The frames a to b of a swing, at an end of the recording only as far as they are level next to the contact.
-
-    A contact that the recording cuts is no hump there, so that the opening follows it.
-    """
+    """The frames a to b of a swing, at an end of the recording only as far as they are level next to the contact."""
     if a > 0 and b < len(course):
         return a, b
     beside = float(np.median(course[b - least : b] if a == 0 else course[a : a + least]))

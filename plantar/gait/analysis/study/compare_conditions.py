@@ -91,9 +91,6 @@ class Comparison:
 def compare_conditions(results: Sequence[RecordingResult]) -> list[Comparison]:
     """Compare every two conditions, in the order in which they first appear.
 
-    Args:
-        results: The recordings that could be measured.
-
     Returns:
         The comparisons, of six pairs at the most.
     """
@@ -137,7 +134,6 @@ def mean_of(recordings: Sequence[RecordingResult], key: str) -> float:
 
     Args:
         recordings: The participant's recordings in one condition.
-        key: The measure.
 
     Returns:
         The mean; NaN where none has it.
@@ -205,9 +201,6 @@ def _chain(n: int) -> list[list[int]]:
 def grid_neighbours(places: NDArray[np.bool_]) -> list[list[int]]:
     """Neighbours by their sides of the places of a grid that are kept, numbered row by row.
 
-    Args:
-        places: Which places are kept.
-
     Returns:
         For each of them the numbers of its neighbours.
 
@@ -225,9 +218,6 @@ def grid_neighbours(places: NDArray[np.bool_]) -> list[list[int]]:
 
 def outliers(results: Sequence[RecordingResult]) -> list[Outlier]:
     """Participants whose mean of a measure is far from the others' of the same condition.
-
-    Args:
-        results: The recordings.
 
     Returns:
         The outliers, the farthest first; none of conditions of fewer than five participants.

@@ -72,9 +72,6 @@ def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
         _mm, _cm),
             side, insole_size, unit, rate_hz and layout; others are carried through.
 
-    Returns:
-        Its rows.
-
     Raises:
         FormatError: If it has no rows, lacks a column, or names a file twice.
         InputError: If a value is not possible.

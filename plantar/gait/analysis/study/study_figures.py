@@ -21,9 +21,6 @@ _A, _B, _FOUND = COLOURS["left"], COLOURS["right"], "#f2c14e"
 def study_figures(comparisons: Sequence[Comparison]) -> list[tuple[str, Any, str]]:
     """The figures of each comparison.
 
-    Args:
-        comparisons: The comparisons.
-
     Returns:
         Name, figure (None for nothing to draw) and caption of each.
     """
