@@ -29,6 +29,10 @@ __all__ = ["FORMAT"]
 _LARGEST, _HEAD = 256e6, 1 << 16  # bytes
 _TILT = 0.97
 """Least cosine of the angle between a plate's normal and the laboratory's vertical: 14 degrees, a ramp."""
+_LONGEST_PLATE = 2.0
+"""Largest distance in m of a CoP from where a plate's moments are about."""
+_LARGEST_TURN = 0.1
+"""Largest free moment in N m for each N of vertical force."""
 _TO_Z_UP = {0: [1, 2, 0], 1: [2, 0, 1], 2: [0, 1, 2]}
 """The laboratory's axes in the order that makes its vertical one the third, right-handed."""
 
@@ -113,7 +117,10 @@ def _vertical_axis(corners: list[NDArray[np.float64]], warnings: list[str]) -> i
     """The laboratory's vertical axis: the one that the plates' surfaces are perpendicular to; z where none shows it."""
     normals = [np.abs(_axes(c)[:, 2]) for c in corners if len(c) == 4 and np.isfinite(c).all() and np.ptp(c) > 0.0]
     if not normals:
-        warnings.append("the plates state no corners: z is taken as the vertical axis")
+        warnings.append(
+            "the plates state no corners: z is taken as the vertical axis, and the CoP is in each plate's own axes, "
+            "which may be mirrored; left and right may be exchanged (--plates overrides)"
+        )
         return 2
     mean = np.mean(normals, axis=0)
     axis = int(np.argmax(mean))
@@ -139,8 +146,8 @@ def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float
             f"the channels of {name} are in {in_volts[0]}, and no calibration matrix makes forces of them; allowed: "
             "forces and moments in N and N mm, or a plate of type 4 or 5"
         )
-    newton, newton_metre = _scales(units, kind, length, name, warnings)
     values = np.where(np.isfinite(channels), channels, np.nan)
+    newton, newton_metre = _scales(units, kind, length, name, values, warnings)
     origin = np.array(held[f"origin_{number}"], dtype=float)
     local, moment = _load(
         kind, matrix @ values if kind >= 4 else values, origin, newton, newton_metre, length, warnings
@@ -151,28 +158,44 @@ def _plate(held: Mapping[str, NDArray[Any]], number: int, up: int, length: float
     axes, order = _axes(corners), _TO_Z_UP[up]
     known = float(np.ptp(corners)) > 1e-6
     ground = length * corners[:, order][:, :2]
+    middle = ground.mean(axis=0)
+    cop = free = None
+    if kind == 1:  # which states the CoP itself, and the free moment about its own z axis
+        cop = length * (axes[:, :2] @ values[3:5]).T[:, order][:, :2] + middle
+        free = float(np.sign(axes[order[2], 2]) or 1.0) * newton_metre * values[5]
     return Plate(
         name,
         (axes @ local).T[:, order],
-        (axes @ moment).T[:, order],
-        origin=ground.mean(axis=0),
+        None if kind == 1 else (axes @ moment).T[:, order],
+        cop,
+        free,
+        origin=middle,
         corners=ground if known else None,
+        placed=known,
     )
 
 
-def _scales(units: list[str], kind: int, length: float, name: str, warnings: list[str]) -> tuple[float, float]:
+def _scales(
+    units: list[str], kind: int, length: float, name: str, values: NDArray[np.float64], warnings: list[str]
+) -> tuple[float, float]:
     """N and N m in a unit of a plate's forces and moments; a matrix gives N, and N by the points' length."""
     if kind >= 4:
         return 1.0, length
     force = units[0]
+    newton = FORCES.get(force, 1.0)
     if force not in FORCES:
         warnings.append(f"a unit of force {force!r} of {name} is not known: N is assumed")
-    moment = units[5] if kind in (1, 2) else ""
-    if kind in (1, 2) and moment not in MOMENTS:
-        warnings.append(
-            f"a unit of moment {moment!r} of {name} is not known: N by the points' unit of length is assumed"
-        )
-    return FORCES.get(force, 1.0), MOMENTS.get(moment, length)
+    if kind == 3 or units[5] in MOMENTS:
+        return newton, MOMENTS.get(units[5], length)
+    # The largest unit with which the CoP stays on a plate; of type 1, with which the moment is that of a foot's turn.
+    loaded = np.abs(values[2]) > 0.3 * float(np.nanmax(np.abs(values[2]), initial=0.0))
+    moment = np.hypot(*values[3:5, loaded]) if kind == 2 else np.abs(values[5, loaded])
+    far = float(np.nanmedian(moment / (newton * np.abs(values[2, loaded])))) if loaded.any() else 0.0
+    most = _LONGEST_PLATE if kind == 2 else _LARGEST_TURN
+    arm = next((unit for unit in (1.0, 1e-3) if far * unit < most), length)
+    shown = {1.0: "N m", 1e-3: "N mm"}.get(arm, "N by the points' unit of length")
+    warnings.append(f"a unit of moment {units[5]!r} of {name} is not known: {shown} is assumed")
+    return newton, arm
 
 
 def _load(
@@ -184,13 +207,9 @@ def _load(
     length: float,
     warnings: list[str],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Force (3, n) in N and moment (3, n) in N m about the middle of the surface, in the plate's axes."""
+    """Force (3, n) in N and moment (3, n) in N m about the middle of the surface in the plate's axes; 0 of type 1."""
     if kind == 1:
-        force = newton * values[:3]
-        x, y = length * values[3:5]
-        free = newton_metre * values[5]
-        moment = np.array([y * force[2], -x * force[2], x * force[1] - y * force[0] + free])
-        return force, moment
+        return newton * values[:3], np.zeros((3, values.shape[1]))
     if kind == 3:
         fx12, fx34, fy14, fy23, fz1, fz2, fz3, fz4 = newton * values
         a, b, depth = length * origin
@@ -218,4 +237,3 @@ def _load(
 FORMAT = Format(
     name="c3d", title="force plates in a C3D file", suffixes=(".c3d",), recognises=_recognises, read=_read, order=17
 )
-"""The entry of the registry."""

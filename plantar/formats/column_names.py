@@ -26,99 +26,30 @@ BODY_WEIGHTS: dict[str, float] = {
 }
 """Units of force relative to the body's weight; N/kg is apart, since it is of the mass."""
 
-_KINDS: dict[str, str] = {
-    # sides
-    **dict.fromkeys(("l", "left", "links", "linker", "linke", "gauche", "izquierdo", "izquierda", "izq", "lt"), "left"),
-    **dict.fromkeys(
-        ("r", "right", "rechts", "rechter", "rechte", "droit", "droite", "derecho", "derecha", "rt"), "right"
-    ),
-    # loads
-    **dict.fromkeys(
-        ("f", "force", "forces", "for", "kraft", "grf", "grfs", "load", "last", "fuerza", "forza", "reaction", "vgrf"),
-        "force",
-    ),
-    **dict.fromkeys(("pressure", "druck", "press", "pression", "presion", "kpa"), "pressure"),
-    **dict.fromkeys(("cop", "copp", "pressurecenter", "copposition"), "cop"),
-    **dict.fromkeys(("m", "mom", "moment", "moments", "torque", "t", "tz", "free", "drehmoment"), "moment"),
-    # axes
-    **{a: a for a in "xyz"},
-    **dict.fromkeys(("vertical", "vert", "v", "normal", "vertikal", "senkrecht", "verticale"), "vertical"),
-    **dict.fromkeys(("ap", "anteroposterior", "anterior", "posterior"), "ap"),
-    **dict.fromkeys(("ml", "mediolateral", "lateral", "medial"), "ml"),
-    # the rest of a plate's or a foot's name
-    **dict.fromkeys(
-        ("fp", "plate", "forceplate", "platform", "plattform", "belt", "treadmill", "tm", "ground", "amti", "kistler"),
-        "plate",
-    ),
-    **dict.fromkeys(("net", "foot", "feet", "fuss", "leg", "limb", "side", "of", "the", "in"), "plain"),
-    **dict.fromkeys(("insole", "sole", "shoe", "component", "comp", "value", "data", "signal", "ch"), "plain"),
-    **dict.fromkeys(("total", "sum", "gesamt", "summe", "totale", "tot"), "total"),
-    # cells and places of a sole
-    **dict.fromkeys(
-        (
-            "cell",
-            "cells",
-            "sensor",
-            "sens",
-            "taxel",
-            "sensel",
-            "fsr",
-            "fsrs",
-            "pad",
-            "zelle",
-            "s",
-            "c",
-            "p",
-            "a",
-            "adc",
-        ),
-        "cell",
-    ),
-    **dict.fromkeys(
-        (
-            "heel",
-            "hindfoot",
-            "rearfoot",
-            "calcaneus",
-            "mid",
-            "midfoot",
-            "arch",
-            "met",
-            "meta",
-            "metatarsal",
-            "mt",
-            "mth",
-        ),
-        "cell",
-    ),
-    **dict.fromkeys(
-        ("forefoot", "toe", "toes", "hallux", "bigtoe", "big", "great", "ball", "ferse", "zehe", "inner", "outer"),
-        "cell",
-    ),
-    **dict.fromkeys(("mtp", "head", "first", "fifth", "second", "third", "fourth", "central", "front", "back"), "cell"),
-    # what is no load
-    **dict.fromkeys(
-        ("pos", "position", "marker", "angle", "angles", "vel", "velocity", "speed", "acc", "accel", "acceleration"),
-        "foreign",
-    ),
-    **dict.fromkeys(
-        ("accelerometer", "gyr", "gyro", "gyroscope", "mag", "magnetometer", "quat", "quaternion", "emg"), "foreign"
-    ),
-    **dict.fromkeys(
-        ("imu", "angular", "rate", "temp", "temperature", "temperatur", "battery", "volt", "voltage"), "foreign"
-    ),
-    **dict.fromkeys(
-        ("current", "trigger", "sync", "pin", "frame", "frames", "sample", "index", "counter", "count"), "foreign"
-    ),
-    **dict.fromkeys(
-        ("knee", "hip", "ankle", "pelvis", "trunk", "emgs", "power", "event", "phase", "status", "flag", "label"),
-        "foreign",
-    ),
-    **dict.fromkeys(
-        ("subject", "trial", "session", "id", "participant", "state", "step", "stride", "cycle"), "foreign"
-    ),
-    **dict.fromkeys(("roll", "pitch", "yaw", "incline", "slope", "distance", "area", "humidity", "hr"), "foreign"),
+_WORDS_OF_KIND = {
+    "left": "l left links linker linke gauche izquierdo izquierda izq lt",
+    "right": "r right rechts rechter rechte droit droite derecho derecha rt",
+    "force": "f force forces for kraft grf grfs load last fuerza forza reaction vgrf",
+    "pressure": "pressure druck press pression presion kpa",
+    "cop": "cop copp pressurecenter copposition",
+    "moment": "m mom moment moments torque t tz free drehmoment",
+    "vertical": "vertical vert v normal vertikal senkrecht verticale",
+    "ap": "ap anteroposterior anterior posterior",
+    "ml": "ml mediolateral lateral medial",
+    "plate": "fp plate forceplate platform plattform belt treadmill tm ground amti kistler",
+    "plain": "net foot feet fuss leg limb side of the in insole sole shoe component comp value data signal ch",
+    "total": "total sum gesamt summe totale tot",
+    "cell": "cell cells sensor sens taxel sensel fsr fsrs pad zelle s c p a adc heel hindfoot rearfoot calcaneus mid "
+    "midfoot arch met meta metatarsal mt mth forefoot toe toes hallux bigtoe big great ball ferse zehe inner outer mtp "
+    "head first fifth second third fourth central front back",
+    "foreign": "pos position marker angle angles vel velocity speed acc accel acceleration accelerometer gyr gyro "
+    "gyroscope mag magnetometer quat quaternion emg emgs imu angular rate temp temperature temperatur battery volt "
+    "voltage current trigger sync pin frame frames sample index counter count knee hip ankle pelvis trunk power event "
+    "phase status flag label subject trial session id participant state step stride cycle roll pitch yaw incline slope "
+    "distance area humidity hr",
 }
+_KINDS: dict[str, str] = {w: kind for kind, words in _WORDS_OF_KIND.items() for w in words.split()}
+_KINDS |= {axis: axis for axis in "xyz"}
 _PLACES = frozenset(w for w, kind in _KINDS.items() if kind == "cell" and len(w) > 1) - {"adc"}
 _LONGEST = max(map(len, _KINDS))
 _UNIT = re.compile(

@@ -143,4 +143,3 @@ FORMAT = Format(
     read=_read,
     order=99,
 )
-"""The entry of the registry."""

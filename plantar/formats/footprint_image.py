@@ -266,4 +266,3 @@ FORMAT = Format(
     read=None,
     order=19,
 )
-"""The entry of the registry."""

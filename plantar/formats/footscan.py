@@ -183,4 +183,3 @@ FORMAT = Format(
     read=_read,
     order=16,
 )
-"""The entry of the registry."""

@@ -24,9 +24,15 @@ LEAST = 20.0
 """Vertical force in N from which a plate counts as stepped on, and has a centre of pressure."""
 
 _WINDOW, _WINDOW_N = 0.15, 60.0
-"""An empty plate reads less than 0.15 of its peak, or 60 N: larger offsets are left in and reported."""
+"""An empty plate reads less than 0.15 of its peak, or 60 N; else the commonest level is its own, if it is an end."""
+_ONE_SIDE, _FAR = 0.98, 0.05
+"""Share of frames on one side of a level that is an end; share of the range in which an empty plate drifts."""
+_FLAT = 0.05
+"""Largest scatter of an end's level, as a share of half the range: of a wave's turning point it is 0.1 and more."""
 _SHORTEST, _FEWEST = 0.1, 0.02
 """Time in s of a run of empty frames, and their least share, from which they show the plate's zero."""
+_FOOT = (0.45, 0.16)
+"""Length and width in m that the CoP of one foot covers at most."""
 _NOISES = 6.0
 _SHEAR = 0.6
 """Horizontal over vertical force, median of loaded frames, above which what pushes is no foot: friction of shoes on
@@ -53,6 +59,7 @@ class Plate:
         corners: Corners (4, 2) in m; None where they are not known.
         side: The foot that the file or the user names for it.
         stepped: Whether a foot was on it.
+        placed: Whether its place and axes in the laboratory are known.
     """
 
     name: str
@@ -64,6 +71,7 @@ class Plate:
     corners: NDArray[np.float64] | None = None
     side: Side | None = None
     stepped: bool = True
+    placed: bool = True
 
 
 def feet_of_plates(
@@ -113,7 +121,17 @@ def feet_of_plates(
                 "plate, which does not separate them; allowed: a plate for each foot"
             )
     every = _sees_all(contacts, len(used))
-    sides = sides_of_contacts(used, contacts, every, rate, options.side, warnings, markers, events)
+    both = [] if every else [c for c in contacts if _is_of_both(used[c.plate], c)]
+    if both:
+        names = ", ".join(f"{used[c.plate].name} at {c.begin / rate:.1f} s" for c in both[:5])
+        text = f"both feet are on one plate ({names}): its centre of pressure goes farther than a foot is long or wide"
+        if len(both) == len(contacts):
+            raise FormatError(f"{text}; allowed: a plate for each foot")
+        warnings.append(f"{text}; left out")
+    sides: list[Side | None] = [
+        *sides_of_contacts(used, contacts, every, rate, options.side, warnings, markers, events)
+    ]
+    sides = [None if c in both else s for c, s in zip(contacts, sides, strict=True)]
     weights = _weights(used, contacts, sides, round(_BESIDE * rate))
     feet = {side: _foot(side, used, weights[side]) for side in SIDES if side in weights}
     return feet, every
@@ -126,14 +144,17 @@ def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
     force, moment, free = plate.force, plate.moment, plate.free
     noise = 0.0
     if empty is not None:
-        offset = _means(force[empty])
-        noise = float(np.nanstd(vertical[empty]))
-        force = force - offset
-        moment = None if moment is None else moment - _means(moment[empty])
-        if abs(offset[2]) > _STATED:
+        zero = _zero(force, empty)
+        force = force - zero
+        noise = float(np.nanstd(force[empty, 2]))
+        moment = None if moment is None else moment - _zero(moment, empty)
+        free = None if free is None else free - _zero(free[:, None], empty)[:, 0]
+        drift = float(np.ptp(zero[:, 2]))
+        if drift > _STATED or abs(float(zero[:, 2].mean())) > _STATED:
+            moves = f" and drifts by {drift:.3g} N" if drift > _STATED else ""
             warnings.append(
-                f"{plate.name} reads {offset[2]:.3g} N when empty: the mean of its own {int(empty.sum())} empty frames "
-                "is taken off its forces and moments"
+                f"{plate.name} reads {zero[:, 2].mean():.3g} N when empty{moves}: the mean of its own "
+                f"{int(empty.sum())} empty frames is taken off its forces and moments"
             )
     elif np.nanmax(np.abs(vertical), initial=0.0) > LEAST:
         warnings.append(f"{plate.name} is never empty: its zero is taken as it is")
@@ -148,40 +169,77 @@ def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
     return replace(plate, force=force, moment=moment, free=free, stepped=True)
 
 
-def _means(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Means (k,) of columns; 0 of one that holds no number."""
-    known = np.isfinite(values)
-    return np.asarray(np.where(known, values, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1))
+def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
+def _zero(values: NDArray[np.float64], empty: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """What columns (n, k) read when empty: straight lines between the means of runs of empty frames where these differ
+    by more than their scatter, else one mean; 0 for a column that holds no number."""
+    n, runs = len(values), _runs(empty)
+    known = np.where(np.isfinite(values), values, 0.0)
+    whole = known[empty].mean(axis=0)
+    means = np.array([known[a:b].mean(axis=0) for a, b in runs])
+    lengths = np.array([b - a for a, b in runs], dtype=float)
+    scatter = np.std([np.std(known[a:b], axis=0) for a, b in runs], axis=0) + np.mean(
+        [np.std(known[a:b], axis=0) for a, b in runs], axis=0
+    )
+    out = np.tile(whole, (n, 1))
+    ends = [(a, b) for a, b in runs for a, b in ((a, (a + b) // 2), ((a + b) // 2, b)) if b > a]
+    places = np.array([0.5 * (a + b) for a, b in ends])
+    for k in range(values.shape[1]):
+        halves = np.array([known[a:b, k].mean() for a, b in ends])
+        if np.ptp(halves) > 1.5 * scatter[k] and len(means) and lengths.min() > 2:
+            out[:, k] = np.interp(np.arange(n), places, halves)
+    return out
 
 
 def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool_] | None:
-    """Frames (n,) in which nothing is on a plate: the commonest level near zero; None where there is none."""
+    """Frames (n,) in which nothing is on a plate: flat ones about its commonest level near zero, or at an end of its
+    range; None where there is none."""
     known = vertical[np.isfinite(vertical)]
     if len(known) < 3:
         return None
     peak = float(np.percentile(np.abs(known), 99.5))
     window = max(_WINDOW * peak, min(_WINDOW_N, 0.3 * peak))
     near = known[np.abs(known) <= window]
-    if len(near) < max(3.0, _FEWEST * len(known)) or not window > 0.0:
-        return None
-    counts, edges = np.histogram(near, bins=60, range=(-window, window))
-    smooth = np.convolve(counts, [1, 2, 1], mode="same")
-    level = 0.5 * float(edges[np.argmax(smooth)] + edges[np.argmax(smooth) + 1])
-    width = window / 10.0
-    for _ in range(3):
-        part = near[np.abs(near - level) <= width]
-        level = float(np.median(part))
-        width = max(_NOISES * 1.4826 * float(np.median(np.abs(part - level))), 2e-3 * peak, 1e-9)
-    flat = np.abs(np.nan_to_num(vertical, nan=np.inf) - level) <= width
-    least = max(2, round(_SHORTEST * rate))
-    starts = np.flatnonzero(np.diff(np.concatenate([[False], flat, [False]]).astype(np.int8)) == 1)
-    ends = np.flatnonzero(np.diff(np.concatenate([[False], flat, [False]]).astype(np.int8)) == -1)
+    if len(near) >= max(3.0, _FEWEST * len(known)) and window > 0.0:
+        level, width = _level(near, window, 0.0, peak)
+    else:
+        middle, half = 0.5 * float(known.max() + known.min()), 0.5 * float(np.ptp(known))
+        if not half > 0.0:
+            return None
+        level, width = _level(known, half, middle, 2.0 * half)
+        beside = max(float((known > level - width).mean()), float((known < level + width).mean()))
+        if beside < _ONE_SIDE or abs(level - middle) < 0.5 * half or width > _FLAT * half:
+            return None
+    wide = max(width, _FAR * float(np.ptp(known)))
+    flat = np.abs(np.nan_to_num(vertical, nan=np.inf) - level) <= wide
+    block = max(2, round(0.5 * _SHORTEST * rate))
+    whole = np.pad(vertical, (0, -len(vertical) % block), constant_values=np.nan).reshape(-1, block)
+    noise = 1.4826 * float(np.median(np.abs(np.diff(known, 2)))) / np.sqrt(6.0)
+    still = np.fmax.reduce(whole, axis=1) - np.fmin.reduce(whole, axis=1) <= 2.0 * _NOISES * noise + width
+    flat &= np.repeat(still, block)[: len(vertical)]
     empty = np.zeros(len(vertical), dtype=bool)
-    for a, b in zip(starts.tolist(), ends.tolist(), strict=True):
-        if b - a >= least:
+    for a, b in _runs(flat):
+        if b - a >= max(2, round(_SHORTEST * rate)):
             edge = min((b - a) // 5, round(0.05 * rate))  # the ends belong to a foot that lands or leaves
             empty[a + edge : b - edge] = True
     return empty if empty.sum() >= max(2.0, _FEWEST * len(known)) else None
+
+
+def _level(values: NDArray[np.float64], reach: float, about: float, peak: float) -> tuple[float, float]:
+    """The commonest level of values within a reach about a place, and how far its noise goes."""
+    counts, edges = np.histogram(values, bins=60, range=(about - reach, about + reach))
+    smooth = np.convolve(counts, [1, 2, 1], mode="same")
+    level = 0.5 * float(edges[np.argmax(smooth)] + edges[np.argmax(smooth) + 1])
+    width = reach / 10.0
+    for _ in range(3):
+        part = values[np.abs(values - level) <= width]
+        level = float(np.median(part))
+        width = max(_NOISES * 1.4826 * float(np.median(np.abs(part - level))), 2e-3 * peak, 1e-9)
+    return level, width
 
 
 def _refuse_no_foot(plate: Plate) -> None:
@@ -222,6 +280,22 @@ def _with_cop(plate: Plate, warnings: list[str]) -> Plate:
     return replace(plate, cop=cop, free=free)
 
 
+def _is_of_both(plate: Plate, contact: PlateContact) -> bool:
+    """Whether the CoP of a contact goes farther than that of one foot."""
+    if plate.cop is None:
+        return False
+    span = slice(contact.begin, contact.end)
+    load = np.nan_to_num(plate.force[span, 2])
+    points = plate.cop[span][load > 0.1 * load.max(initial=0.0)]
+    points = points[np.isfinite(points).all(axis=1)]
+    if len(points) < 10:
+        return False
+    _, axes = np.linalg.eigh(np.cov(points.T))
+    low, high = np.percentile(points @ axes, (2.0, 98.0), axis=0)
+    width, length = np.sort(high - low)
+    return bool(length > _FOOT[0] or width > _FOOT[1])
+
+
 def _sees_all(contacts: Sequence[PlateContact], plates: int) -> bool:
     """Whether plates see every step of a walk: those of a treadmill are stepped on again and again."""
     counts = np.bincount([c.plate for c in contacts], minlength=plates)
@@ -229,7 +303,7 @@ def _sees_all(contacts: Sequence[PlateContact], plates: int) -> bool:
 
 
 def _weights(
-    plates: Sequence[Plate], contacts: Sequence[PlateContact], sides: Sequence[Side], reach: int
+    plates: Sequence[Plate], contacts: Sequence[PlateContact], sides: Sequence[Side | None], reach: int
 ) -> dict[Side, list[NDArray[np.bool_]]]:
     """Frames (n,) of each plate that are of each foot: its contacts, and up to `reach` frames before and after."""
     n = len(plates[0].force)
@@ -239,6 +313,8 @@ def _weights(
         if not own:
             out[plate.side or "left"][i][:] = True
         for k, (contact, side) in enumerate(own):
+            if side is None:
+                continue
             begin = max(contact.begin - reach, 0 if k == 0 else (own[k - 1][0].end + contact.begin) // 2)
             end = min(contact.end + reach, n if k == len(own) - 1 else (contact.end + own[k + 1][0].begin) // 2)
             out[side][i][begin:end] = True

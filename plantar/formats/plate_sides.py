@@ -44,6 +44,8 @@ class _Plate(Protocol):
     def cop(self) -> NDArray[np.float64] | None: ...
     @property
     def corners(self) -> NDArray[np.float64] | None: ...
+    @property
+    def placed(self) -> bool: ...
 
 
 @dataclass(frozen=True)
@@ -101,11 +103,12 @@ def sides_of_contacts(
         return [plates[c.plate].side or "left" for c in contacts]
     if given is not None and len(plates) == 1:
         return [given] * len(contacts)
-    found: list[Side | None] = [_by_markers(plates[c.plate], c, markers) for c in contacts]
+    placed = all(p.placed for p in plates)
+    found: list[Side | None] = [_by_markers(plates[c.plate], c, markers) if placed else None for c in contacts]
     why = "markers of the feet"
     if not any(found):
         found, why = [_by_events(c, rate, events) for c in contacts], "stated events"
-    if not any(found):
+    if not any(found) and placed:
         forward = _forward(plates, contacts, treadmill)
         found, why = _by_push(plates, contacts, forward), "their push to the body's middle"
         across = _by_place(plates, contacts, forward)

@@ -199,4 +199,3 @@ FORMAT = Format(
     folders=_FOLDERS,
     order=18,
 )
-"""The entry of the registry."""

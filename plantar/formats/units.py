@@ -8,62 +8,46 @@ from typing import Literal
 
 __all__ = ["FORCES", "LENGTHS", "MOMENTS", "PASCALS", "RAW", "Unit", "find_unit", "plain"]
 
-PASCALS: Mapping[str, float] = {
-    "kpa": 1e3,
-    "n/cm2": 1e4,
-    "n/mm2": 1e6,
-    "n/m2": 1.0,
-    "mpa": 1e6,
-    "hpa": 1e2,
-    "pa": 1.0,
-    "kilopascal": 1e3,
-    "pascal": 1.0,
-    "kn/m2": 1e3,
-    "newton/cm2": 1e4,
-    "mmhg": 133.322387415,
-    "psi": 6894.757293168,
-    "lb/in2": 6894.757293168,
-    "lbf/in2": 6894.757293168,
-    "bar": 1e5,
-    "mbar": 1e2,
-    "kg/cm2": 98066.5,
-    "kgf/cm2": 98066.5,
-    "g/cm2": 98.0665,
-    "atm": 101325.0,
-}
+_POUND, _KILOGRAM = 4.4482216152605, 9.80665  # N
+_PSI = 6894.757293168  # Pa
+
+
+def _each(*named: tuple[str, float]) -> Mapping[str, float]:
+    """A unit's factor by each of its names, from names with blanks between."""
+    return {name: factor for names, factor in named for name in names.split()}
+
+
+PASCALS = _each(
+    ("pa pascal n/m2", 1.0),
+    ("hpa mbar", 1e2),
+    ("kpa kilopascal kn/m2", 1e3),
+    ("n/cm2 newton/cm2", 1e4),
+    ("bar", 1e5),
+    ("mpa n/mm2", 1e6),
+    ("mmhg", 133.322387415),
+    ("psi lb/in2 lbf/in2", _PSI),
+    ("kg/cm2 kgf/cm2", 1e4 * _KILOGRAM),
+    ("g/cm2", 10.0 * _KILOGRAM),
+    ("atm", 101325.0),
+)
 """Pressure units by their plain lower-case name, in Pa."""
 
-FORCES: Mapping[str, float] = {
-    "n": 1.0,
-    "newton": 1.0,
-    "newtons": 1.0,
-    "nt": 1.0,
-    "kn": 1e3,
-    "mn": 1e-3,
-    "kgf": 9.80665,
-    "kg": 9.80665,
-    "g": 9.80665e-3,
-    "gf": 9.80665e-3,
-    "lb": 4.4482216152605,
-    "lbf": 4.4482216152605,
-    "lbs": 4.4482216152605,
-}
-"""Force units by their plain lower-case name, in N; a mass stands for its weight."""
+FORCES = _each(
+    ("n newton newtons nt", 1.0),
+    ("kn", 1e3),
+    ("mn", 1e-3),
+    ("kgf kg", _KILOGRAM),
+    ("g gf", 1e-3 * _KILOGRAM),
+    ("lb lbf lbs", _POUND),
+)
+"""Force units by their plain lower-case name, in N; a mass means its weight."""
 
-LENGTHS: Mapping[str, float] = {
-    "mm": 1e-3,
-    "millimeters": 1e-3,
-    "millimetres": 1e-3,
-    "cm": 1e-2,
-    "centimeters": 1e-2,
-    "centimetres": 1e-2,
-    "m": 1.0,
-    "meters": 1.0,
-    "metres": 1.0,
-    "in": 0.0254,
-    "inch": 0.0254,
-    "inches": 0.0254,
-}
+LENGTHS = _each(
+    ("mm millimeters millimetres", 1e-3),
+    ("cm centimeters centimetres", 1e-2),
+    ("m meters metres", 1.0),
+    ("in inch inches", 0.0254),
+)
 """Length units by their plain lower-case name, in m."""
 
 _NAMES = ("n", "nt", "newton", "newtons")
