@@ -31,6 +31,8 @@ _TILT = 0.97
 """Least cosine of the angle between a plate's normal and the laboratory's vertical: 14 degrees, a ramp."""
 _LONGEST_PLATE = 2.0
 """Largest distance in m of a CoP from where a plate's moments are about."""
+_KILONEWTONS = (0.15, 5.0)
+"""Largest forces of a person in kN."""
 _LARGEST_TURN = 0.1
 """Largest free moment in N m for each N of vertical force."""
 _TO_Z_UP = {0: [1, 2, 0], 1: [2, 0, 1], 2: [0, 1, 2]}
@@ -184,7 +186,10 @@ def _scales(
     force = units[0]
     newton = FORCES.get(force, 1.0)
     if force not in FORCES:
-        warnings.append(f"a unit of force {force!r} of {name} is not known: N is assumed")
+        top = float(np.nanpercentile(np.abs(values[2] if kind < 3 else values[4:].sum(axis=0)), 99.5))
+        newton = 1e3 if _KILONEWTONS[0] <= top <= _KILONEWTONS[1] else 1.0
+        assumed = "N" if newton == 1.0 else f"kN, since it reaches {top:.2g},"
+        warnings.append(f"a unit of force {force!r} of {name} is not known: {assumed} is assumed")
     if kind == 3 or units[5] in MOMENTS:
         return newton, MOMENTS.get(units[5], length)
     # The largest unit with which the CoP stays on a plate; of type 1, with which the moment is that of a foot's turn.
@@ -192,8 +197,8 @@ def _scales(
     moment = np.hypot(*values[3:5, loaded]) if kind == 2 else np.abs(values[5, loaded])
     far = float(np.nanmedian(moment / (newton * np.abs(values[2, loaded])))) if loaded.any() else 0.0
     most = _LONGEST_PLATE if kind == 2 else _LARGEST_TURN
-    arm = next((unit for unit in (1.0, 1e-3) if far * unit < most), length)
-    shown = {1.0: "N m", 1e-3: "N mm"}.get(arm, "N by the points' unit of length")
+    arm = next((unit for unit in (newton, 1.0, 1e-3) if far * unit < most), length)
+    shown = {1e3: "kN m", 1.0: "N m", 1e-3: "N mm"}.get(arm, "N by the points' unit of length")
     warnings.append(f"a unit of moment {units[5]!r} of {name} is not known: {shown} is assumed")
     return newton, arm
 

@@ -15,6 +15,9 @@ from plantar.layouts.layout import Side, SoleLayout
 from plantar.recordings.let_go import scale_frames
 from plantar.recordings.pressure_recording import FootRecording, layout_for
 
+_IN_AIR, _ALONE = 0.05, 0.15
+"""Share of its high readings below which a foot is in the air; share of the time in which one of two is alone."""
+
 __all__ = ["cells_of_foot", "halves", "scale_to_force", "unit_of_values"]
 
 
@@ -106,7 +109,22 @@ def halves(
         )
         return [("left", values[:, : k // 2]), ("right", values[:, k // 2 :])]
     side = options.side
+    if side is None and options.layout is None and k >= 4 and k % 2 == 0 and _in_turns(values):
+        warnings.append(
+            f"the two halves of {k} columns carry load in turns, as feet do: the first is taken as the left foot, the "
+            "second as the right (--side, if they are one foot's)"
+        )
+        return [("left", values[:, : k // 2]), ("right", values[:, k // 2 :])]
     if side is None:
         side = "left" if options.layout is None else options.layout.side
         warnings.append(f"the file does not say which foot it is: taken as the {side} one (--side overrides)")
     return [(side, values)]
+
+
+def _in_turns(values: NDArray[np.float64]) -> bool:
+    """Whether each half of the columns (n, k) is free of load for a part of the time in which the other one has it."""
+    half = values.shape[1] // 2
+    one, other = np.nansum(values[:, :half], axis=1), np.nansum(values[:, half:], axis=1)
+    loaded = [x > _IN_AIR * float(np.percentile(x, 98.0)) for x in (one, other)]
+    alone = (float((loaded[0] & ~loaded[1]).mean()), float((loaded[1] & ~loaded[0]).mean()))
+    return min(alone) > _ALONE and float((loaded[0] | loaded[1]).mean()) > 1.0 - 0.5 * _ALONE

@@ -47,7 +47,8 @@ def _recognises(head: bytes) -> bool:
         return False
     above = sum(not x.startswith("#") for x in lines[: found.first])
     if above > 1:  # below other text a table needs names of loads: numbers alone may be of any maker's format
-        return any(heading_of(n).quantity not in ("number", "unknown", "foreign") for n in found.names)
+        headings = [heading_of(n) for n in found.names]
+        return any(h.quantity not in ("number", "unknown", "foreign") or (h.side and h.number) for h in headings)
     return True
 
 

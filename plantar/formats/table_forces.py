@@ -90,7 +90,7 @@ def feet_of_forces(
         raise FormatError("no column is a vertical force; allowed: Fz, a vertical GRF, or forces of all three axes")
     scale = 100.0 / _NOMINAL if relative else 1.0
     if not plates and len(made) <= 2 and all(p.side for p in made):
-        totals = {p.side: p.force[:, 2] * scale for p in made if p.side}
+        totals = {p.side: _upward(p.force[:, 2] * scale, p.name, warnings) for p in made if p.side}
         feet = {s: FootRecording(s, totals[s][:, None], None, total=totals[s]) for s in SIDES if s in totals}
         warnings.append("one force a foot: no cells, so no pressures, areas and centres of pressure")
         return feet, True, "insole", relative
@@ -100,6 +100,15 @@ def feet_of_forces(
     if relative:
         feet = {s: _scaled(f, scale) for s, f in feet.items()}
     return feet, every or (all(p.side for p in made) and len(made) == 2), "plate", relative
+
+
+def _upward(force: NDArray[np.float64], name: str, warnings: list[str]) -> NDArray[np.float64]:
+    """A force (n,) that is positive under load."""
+    low, high = (float(v) for v in np.nanpercentile(force, (5.0, 95.0))) if np.isfinite(force).any() else (0.0, 0.0)
+    if low + high >= 0.0:
+        return force
+    warnings.append(f"the force of {name} points down: turned to that on the foot")
+    return -force
 
 
 def _scaled(foot: FootRecording, scale: float) -> FootRecording:

@@ -72,6 +72,10 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
         rows = [x for x in lines[first : first + 2 * _ROWS] if not x.startswith("#")][:_ROWS]
         delimiter = _delimiter(rows)
         width = _width(rows, delimiter)
+        if width == 1 and first and _numbers(rows[0], "\t"):
+            alone = _name_alone(lines[:first])
+            if alone is not None:
+                return TableHead([alone], "\t", 1, first, _facts(lines[: first - 1], None))
         named = _wider_names(lines[first - 1], rows, width) if first else None
         if named is not None:
             return TableHead(named[0], named[1], len(named[0]), first, _facts(lines[: first - 1], named[1]))
@@ -87,6 +91,14 @@ def head_of_table(lines: Sequence[str]) -> TableHead | None:
         names, above = _names(lines[:first], delimiter, width)
         return TableHead(names, delimiter, width, first, _facts(lines[:above], delimiter))
     return None
+
+
+def _name_alone(above: Sequence[str]) -> str | None:
+    """The name of a single column of forces, with its unit from a line below where it has one; None of others."""
+    texts = [x.strip('"# ') for x in above[-2:]]
+    if len(texts) == 2 and plain(texts[1]) in _UNITS:
+        texts = [f"{texts[0]} [{texts[1]}]"]
+    return texts[-1][:_LONGEST_NAME] if heading_of(texts[-1]).quantity == "force" else None
 
 
 def _delimiter(lines: Sequence[str]) -> str | None:
