@@ -90,7 +90,8 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
     total = foot.vertical_force if foot.total is None else np.nansum(foot.force, axis=1)
     high = np.flatnonzero(total >= 0.5 * np.nanpercentile(total, 99.0))
     high = high[:: max(1, len(high) // 2000)]
-    pressure = np.nanmean(foot.force[high], axis=0) / layout.areas
+    part = foot.force[high]
+    pressure = np.nansum(part, axis=0) / np.maximum(np.isfinite(part).sum(axis=0), 1) / layout.areas
     let_go(foot.force)
     lacking = 0.0
     for i in cells:

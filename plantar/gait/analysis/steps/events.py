@@ -78,9 +78,11 @@ _NOISE_RELEASE, _NOISE_CONTACT = 4.0, 8.0
 _MEDIAN_OF_NORMAL = 0.6745
 """Median of the magnitude of a normal variable, in standard deviations."""
 
-_FALL = (0.60, 0.30, 0.10)
-"""Shares of the range that part the fall of push-off: its steepest piece is continued straight. A foot that leaves
-freely falls steepest at its end; where the shoe presses on, the end is flat and the piece lies higher."""
+_FALL, _SHELF = (0.60, 0.30, 0.15, 0.075), 0.4
+"""Shares of the range that part the fall of push-off, from its steepest piece on: a foot that leaves slowly goes on
+falling at 0.4 of that or more; where the force hardly falls any more the shoe presses, and the piece before is
+continued straight. Of shares and slopes tried, these have the least largest mean over the sets of
+`benchmarks/gait_events.py`."""
 
 _RISE = (0.20, 0.50)
 """Shares of the range that part the rise of a landing, from the event level on: its steepest piece is continued back
@@ -356,6 +358,7 @@ def _begin_of_rise(
     straight = at[steepest] - slow[steepest] * (heights[steepest] - levels.rest)
     before = np.flatnonzero(force[:begin] <= levels.clear)
     least = _crossing(time, force, int(before[-1]) + 1, levels.clear) if len(before) else strike
+    least -= slow[steepest] * (levels.clear - levels.rest)
     return min(strike, max(straight, least))
 
 
@@ -369,17 +372,24 @@ def _end_of_push_off(
     for share in _FALL:
         level = levels.rest + share * (levels.peak - levels.rest)
         loaded = np.flatnonzero(force[begin:end] >= level)
-        at.append(_crossing(time, force, begin + int(loaded[-1]) + 1, level) if len(loaded) else np.inf)
-    known = [k for k in range(len(at) - 1) if at[k] < at[k + 1] < np.inf]
-    if not known:
+        below = np.flatnonzero(force[end:] < level) if level < force[end - 1] else loaded[-1:] + 1 + begin - end
+        at.append(_crossing(time, force, end + int(below[0]), level) if len(loaded) and len(below) else np.inf)
+    slow = [
+        (b - a) / (g - h) if a < b < np.inf else np.inf
+        for a, b, g, h in zip(at, at[1:], _FALL, _FALL[1:], strict=False)
+    ]
+    piece = int(np.argmin(slow[:2]))
+    if not np.isfinite(slow[piece]):
         return lift  # a light contact
-    steepest = min(known, key=lambda k: (at[k + 1] - at[k]) / (_FALL[k] - _FALL[k + 1]))
-    slow = (at[steepest + 1] - at[steepest]) / (_FALL[steepest] - _FALL[steepest + 1])
-    straight = at[steepest + 1] + slow * _FALL[steepest + 1]
+    quickest = slow[piece]
+    while piece + 1 < len(slow) and slow[piece + 1] * _SHELF <= quickest:
+        piece += 1  # the foot still unloads, if more slowly
+    straight = at[piece + 1] + slow[piece] * _FALL[piece + 1]
     stop = int(np.searchsorted(time, straight))
     light = np.flatnonzero(force[end : stop + 1] <= levels.clear)
     if len(light):
-        straight = min(straight, _crossing(time, force, end + int(light[0]), levels.clear))
+        clear = _crossing(time, force, end + int(light[0]), levels.clear)
+        straight = min(straight, clear + slow[piece] * (levels.clear - levels.rest))
     return max(lift, min(straight, float(time[-1])))
 
 
