@@ -1,12 +1,11 @@
-"""The ankle strategy in closed form: which VRP brings the DCM to where the next phase begins (K 17-27).
+"""Ankle strategy in closed form: the VRP that brings the DCM to the start of the next phase (K 17-27).
 
-Under a push that is expected to stay, with offset u_w of the VRP, the DCM obeys xi' = w (xi - u_ref + u_w). The
-reference VRP stays at u_i in single support and moves from u_i to u_e in double support, as 1 - sin does over a quarter
-of its period (K 17), so both phases have a solution by which the VRP that reaches a target is found at once. Everything
-is written with e^(-w t), which is bounded; what does grow is cut, by name:
+Under a push that is expected to stay, with offset u_w of the VRP, xi' = w (xi - u_ref + u_w). The reference VRP stays
+at u_i in single support and moves from u_i to u_e in double support, as 1 - sin over a quarter of its period (K 17), so
+both phases have a closed solution. Everything is written with e^(-w t), which is bounded; growth is limited by
 
-- `SHORTEST_TIME`: a target is approached for that long at least, as no VRP reaches another place at once.
-- `MOST_GROWTH`: a DCM that runs away is told up to e^`MOST_GROWTH` times its distance.
+- `SHORTEST_TIME`: the shortest time in which a target is approached.
+- `MOST_GROWTH`: a diverging DCM grows by e^`MOST_GROWTH` at most.
 """
 
 from __future__ import annotations
@@ -56,7 +55,7 @@ _NODES, _WEIGHTS = (x.tolist() for x in np.polynomial.legendre.leggauss(10))
 
 
 class AnkleRules(Part, table="ankle_strategy", needs={"control.step_adjustment": (True,)}):
-    """How much of the support polygon the ankle strategy uses before a step is changed (K 27).
+    """Share of the support polygon that the ankle strategy uses before a step is changed (K 27).
 
     Attributes:
         forward: Share beta_x of the polygon along the sole (K Table 1).
@@ -79,9 +78,9 @@ class AnkleVrp(NamedTuple):
     """A VRP of the ankle strategy.
 
     Attributes:
-        vrp: u_ref (2,) in m that is wanted now.
+        vrp: Desired u_ref (2,) in m.
         gain: Its derivative by the DCM, the same on both axes; above 1.
-        saturated: What it was cut by.
+        saturated: What limited it.
     """
 
     vrp: NDArray[np.float64]
@@ -90,7 +89,7 @@ class AnkleVrp(NamedTuple):
 
 
 class TargetDcms(NamedTuple):
-    """Where the DCM shall be at the ends of the phases (K 21-24).
+    """Desired DCM at the ends of the phases (K 21-24).
 
     Attributes:
         double_end: xi_d (2,) at the end of the double support in m.
@@ -104,7 +103,7 @@ class TargetDcms(NamedTuple):
 
 
 def growth(omega: float, time: float) -> float:
-    """Factor e^(w t) by which a DCM runs away, up to e^`MOST_GROWTH`.
+    """Factor e^(w t) by which a DCM diverges, limited to e^`MOST_GROWTH`.
 
     Args:
         omega: Pendulum frequency in rad/s.
@@ -158,7 +157,7 @@ def dcm_after_single_support(
         vrp: u_ref (2,) in m.
         offset: u_w (2,) of the push in m.
         omega: Pendulum frequency in rad/s.
-        time: Time in s; what it grows by is cut at `MOST_GROWTH`.
+        time: Time in s; growth is limited by `MOST_GROWTH`.
 
     Returns:
         DCM (2,) in m.
@@ -231,9 +230,9 @@ def target_dcms(
     offset: ArrayLike,
     omega: float,
 ) -> TargetDcms:
-    """Where the DCM has to be when a step ends, for the step after it to come to rest over its foot (K 21-24).
+    """DCM at the end of a step with which the step after it comes to rest over its foot (K 21-24).
 
-    K 22 ends the second step at the DCM u_n - u_w: over the foot as the push has it, not at u_n as the text says;
+    K 22 ends the second step at the DCM u_n - u_w: over the foot shifted by the push, not at u_n as the text states;
     substituted in K 20 only that gives b_e (corrected).
 
     Args:
@@ -241,7 +240,7 @@ def target_dcms(
         stance: u_i (2,), where the other one stands, in m.
         next_stride: s_n (2,) from `place` to the footstep after it in m.
         next_duration: T_n of that step's single support in s, 0 or more.
-        double_support: T_d in s, 0 or more; with 0 the weight goes over at once.
+        double_support: T_d in s, 0 or more; 0 transfers the weight at once.
         offset: u_w (2,) of the push in m.
         omega: Pendulum frequency in rad/s.
 
@@ -274,7 +273,7 @@ def target_dcms(
 
 
 def sway_share(omega: float, double_support: float) -> float:
-    """e^(-w T_d) (1 - C_d w) - (1 - C_d w_d): the share of u_e - u_i that K 24 adds, for the VRP is not at u_e at once.
+    """Share of u_e - u_i that K 24 adds, e^(-w T_d) (1 - C_d w) - (1 - C_d w_d), since the VRP moves gradually.
 
     Args:
         omega: Pendulum frequency in rad/s.
@@ -299,12 +298,12 @@ def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: A
     Args:
         dcm: DCM (2,) now in m.
         target: xi_s (2,) in m.
-        left: Time left in s, `SHORTEST_TIME` at least.
+        left: Time left in s, at least `SHORTEST_TIME`.
         offset: u_w (2,) of the push in m.
         omega: Pendulum frequency in rad/s.
 
     Returns:
-        The VRP, wherever it lies; see `within_support`.
+        The VRP, not yet limited (see `within_support`).
 
     Raises:
         InputError: If a place is not two finite numbers.
@@ -336,19 +335,19 @@ def double_support_vrp(
 ) -> AnkleVrp:
     """VRP now that brings the DCM to a target at the end of a double support (K 25-26).
 
-    From now on the VRP goes to u_e on the way of K 17, begun at the u_i that reaches the target.
+    The VRP then follows K 17 to u_e, from the u_i that reaches the target.
 
     Args:
         dcm: DCM (2,) now in m.
         target: xi_d (2,) in m.
-        end: u_e (2,), the middle of the foot that comes to carry, in m.
+        end: u_e (2,), the middle of the foot that is going to carry, in m.
         duration: T_d in s.
-        begun: Time T_c since the double support began in s; the end is `SHORTEST_TIME` away at least.
+        begun: Time T_c since the double support began in s; at least `SHORTEST_TIME` before its end.
         offset: u_w (2,) of the push in m.
         omega: Pendulum frequency in rad/s.
 
     Returns:
-        The VRP, wherever it lies; see `within_support`.
+        The VRP, not yet limited (see `within_support`).
 
     Raises:
         InputError: If a place is not two finite numbers.
@@ -371,10 +370,10 @@ def double_support_vrp(
 
 
 def double_support_pull(omega: float, duration: float, left: float) -> float:
-    """How far a VRP that is a metre before u_e now, and goes there as in K 17, moves the DCM: integral w e^(-w s) q(s).
+    """Displacement of the DCM by a VRP 1 m before u_e that follows K 17 there: the integral of w e^(-w s) q(s).
 
-    q falls from 1 now to 0 at the end, as 1 - sin(w_d t) does; it is e^(-w T) times the denominator of K 25 over
-    1 - sin(w_d T_c), which is 0 / 0 at the end.
+    q falls from 1 now to 0 at the end, as 1 - sin(w_d t); it is e^(-w T) times the denominator of K 25 over 1 - sin(w_d
+    T_c), which is 0 / 0 at the end.
 
     Args:
         omega: Pendulum frequency in rad/s.
@@ -382,7 +381,7 @@ def double_support_pull(omega: float, duration: float, left: float) -> float:
         left: Time until its end in s, above 0.
 
     Returns:
-        The displacement at the end in metres, brought back by e^(-w left).
+        The displacement at the end in m, times e^(-w left).
 
     Example:
         >>> round(double_support_pull(3.5, 0.2, 0.2), 4)
@@ -410,7 +409,7 @@ def shrunk_support(
     Args:
         polygon: Support polygon S (k, 2) in the world in m.
         rules: Shares along and across the sole.
-        middle: Point (2,) that it shrinks about in m: the middle of the stance foot.
+        middle: Middle (2,) of the stance foot in m, about which it shrinks.
         yaw: Heading of the sole in rad.
 
     Returns:
@@ -433,15 +432,14 @@ def shrunk_support(
 
 
 def within_support(wanted: AnkleVrp, support: ArrayLike) -> AnkleVrp:
-    """A VRP cut to where the feet can press: the closest point of the polygon (K 27).
+    """A VRP limited to the support polygon by its closest point (K 27).
 
     Args:
-        wanted: What the ankle strategy wants.
-        support: Convex polygon (k, 2) in m, already shrunk; an empty one leaves it free.
+        wanted: VRP of the ankle strategy.
+        support: Convex polygon (k, 2) in m, already shrunk; empty does not limit it.
 
     Returns:
-        The same, or the closest one in the polygon, with `Saturation.SUPPORT`: then the DCM misses its target, and it
-        is up to a step.
+        The same VRP, or the closest one with `Saturation.SUPPORT`: then only a step reaches the target.
 
     Raises:
         InputError: If the polygon is not (k, 2) finite numbers.
@@ -466,21 +464,13 @@ def _sway(omega: float, duration: float, time: float) -> float:
 
 
 def _pair(value: ArrayLike, name: str) -> list[float]:
-    """Two finite numbers.
-
-    Raises:
-        InputError: If they are not.
-    """
+    """Two finite numbers, else InputError."""
     found: list[float] = array(value, name, (2,), finite=True).tolist()
     return found
 
 
 def _above_zero(value: float, name: str) -> float:
-    """A finite number above 0.
-
-    Raises:
-        InputError: If it is not.
-    """
+    """A finite number above 0, else InputError."""
     given = number(value, name, finite=True)
     if given <= 0.0:
         raise InputError(f"{name} is {value} s; allowed: above 0")

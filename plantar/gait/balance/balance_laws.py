@@ -1,4 +1,4 @@
-"""Which balance law a robot has: by the name in its file, each law's modules loaded only where it is used."""
+"""Balance laws by the name in a robot's file; a law's modules are loaded at first use."""
 
 from __future__ import annotations
 

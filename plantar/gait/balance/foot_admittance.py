@@ -1,8 +1,8 @@
-"""Foot damping and foot force difference control: feet that yield until they carry the wrenches they shall.
+"""Foot damping and foot force difference control: feet yield until they carry the desired wrenches.
 
-After Kajita et al. 2010 and Caron et al. 2019. A sole that feels too much moment about an axis turns along with it
-until the moment is as wanted, which moves its centre of pressure; of two feet the one that carries too much goes up
-and the other one down. All corrections return to zero slowly, and quickly for a foot in the air.
+After Kajita et al. 2010 and Caron et al. 2019. A sole with too much moment about an axis turns along with it, which
+moves its centre of pressure; of two feet the more loaded one goes up, the other one down. Corrections return to zero
+slowly, and quickly in the air.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ class AdmittanceGains(Settings):
     """Gains of the feet's admittance.
 
     Attributes:
-        foot_turn_gain: Turning rate of a sole in rad/s for each N m of moment error.
-        foot_lift_gain: Rate of the feet's height difference in m/s for each N of error of their force difference.
+        foot_turn_gain: Turning rate of a sole in rad/s per N m of moment error.
+        foot_lift_gain: Rate of the feet's height difference in m/s per N of force difference error.
         foot_return: Rate in 1/s at which corrections return to zero while the foot stands.
-        foot_release: Rate in 1/s at which they do in the air.
+        foot_release: The same in the air.
         foot_filter: Time constant in s of the low-pass on the measured wrench.
         largest_turn: Largest turn of a sole about an axis in rad.
         largest_lift: Largest shift of a sole in m.
@@ -45,8 +45,8 @@ class FootAdmittance:
     """Admittance of both feet.
 
     Attributes:
-        corrections: Correction of each commanded sole: its turn in rad about its x and its y axis, `roll` and `pitch`,
-            and its `shift` in m upwards.
+        corrections: Correction of each commanded sole: turn in rad about its x and y axes, `roll` and `pitch`, and
+            `shift` in m upwards.
 
     Args:
         gains: The gains.
@@ -69,16 +69,16 @@ class FootAdmittance:
         measured: Mapping[Side, NDArray[np.float64]],
         rests: bool = False,
     ) -> Mapping[Side, SoleAdmittance]:
-        """One control tick.
+        """Advance by one control tick.
 
         Args:
-            wanted: Wrench (6,) that each standing foot should carry in its sole frame, by the world on the robot.
-            measured: Wrench (6,) that it carries, for the same feet.
-            rests: Whether the robot stands: corrections then do not return, so that no error of the wrenches is left
-                and soles do not press against each other by their edges.
+            wanted: Desired wrench (6,) on each standing foot in its sole frame, by the world on the robot.
+            measured: Measured wrench (6,) of the same feet.
+            rests: Whether the robot stands: corrections then do not return, so that no wrench error is left and the
+                soles do not press against each other by their edges.
 
         Returns:
-            Correction of each foot, `corrections`; that of a foot in the air fades.
+            `corrections`; that of a foot in the air fades.
         """
         errors: list[float] = []
         for side, foot in self.corrections.items():

@@ -1,7 +1,7 @@
-"""What a balance law is asked, and what it answers: the same for every law.
+"""Interface of balance laws.
 
-A tick has two questions. `update`: where shall CoM and ZMP be? Then `act`: what shall each foot carry, and how does it
-give way? In between, feet may take the shape of the ground.
+Each tick calls `update` (where should CoM and ZMP be?), then `act` (what should each foot carry, and how does it
+yield?). In between, feet may adapt to the ground.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ __all__ = ["BalanceLaw", "BalanceState", "Feet", "FootAction", "FootState"]
 
 
 class BalanceState(Record, frozen=True):
-    """What a balance law decided at one tick, world frame.
+    """Decision of a balance law at one tick, world frame.
 
     Attributes:
         zmp_desired: Desired ZMP p_d (2,) in m, inside the support polygon.
         com: CoM reference (2,) in m after admittance.
         com_velocity: Its rate (2,) in m/s.
-        com_acceleration: Acceleration (2,) in m/s^2 that the desired ZMP asks for.
+        com_acceleration: Acceleration (2,) in m/s^2 for the desired ZMP.
     """
 
     zmp_desired: NDArray[np.float64]
@@ -39,17 +39,17 @@ class BalanceState(Record, frozen=True):
 
 
 class FootState(Record, frozen=True):
-    """A foot as a balance law sees it, command frame.
+    """Input of a balance law for a foot, command frame.
 
     Attributes:
         position: Commanded position (3,) of the sole frame's origin in m.
-        level: Commanded rotation (3, 3) of the sole before foot damping turns it.
-        rotation: The same with the turn of foot damping.
-        center: Point (2,) of the sole frame in m at which the foot is to be loaded.
+        level: Commanded rotation (3, 3) of the sole before foot damping.
+        rotation: The same after foot damping.
+        center: Point (2,) of the sole frame in m at which the foot should be loaded.
         contact: Its sole frame in the world, the part of the sole that may be loaded, and its desired centre of
-            pressure; None in the air, or for a law that does not look at contacts.
-        wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot; None in the air,
-            and for such a law while the robot walks.
+            pressure; None in the air, or for a law without `wants_contacts`.
+        wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot; None in the air, and
+            for such a law while the robot walks.
     """
 
     position: NDArray[np.float64]
@@ -65,7 +65,7 @@ class Feet(Record, frozen=True):
 
     Attributes:
         states: Each foot.
-        stance: The only foot that carries in single support, else None.
+        stance: The only carrying foot in single support, else None.
         frame: The frame that they are commanded in.
         rests: Whether the robot stands after a walk.
     """
@@ -77,7 +77,7 @@ class Feet(Record, frozen=True):
 
 
 class FootAction(Record, frozen=True):
-    """What a balance law wants of a foot: the wrench that the ground shall exert on it, and how it gives way.
+    """Desired wrench of the ground on a foot, and how the foot yields.
 
     Attributes:
         force: Force (3,) in N, command frame.
@@ -95,11 +95,11 @@ class FootAction(Record, frozen=True):
 
 
 class BalanceLaw(Protocol):
-    """What the walking controller asks of a balance law.
+    """Protocol of a balance law.
 
     Attributes:
-        wants_contacts: Whether it looks at the contacts and measured wrenches of the feet; if not, it gets none.
-        states: How often it ended in which of its named states, for the run's summary; empty for a law without states.
+        wants_contacts: Whether it needs contacts and measured wrenches of the feet.
+        states: Counts of its named end states, for the run's summary; empty for a law without states.
     """
 
     wants_contacts: bool
@@ -117,11 +117,11 @@ class BalanceLaw(Protocol):
         Args:
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
-            zmp: Measured ZMP (2,) in m, or None where no foot carries load.
-            region: Convex polygon (k, 2) in which the desired ZMP has to lie; empty leaves it free.
+            zmp: Measured ZMP (2,) in m, or None where no foot is loaded.
+            region: Convex polygon (k, 2) for the desired ZMP; empty does not limit it.
 
         Returns:
-            What the body shall do.
+            The decision.
         """
         ...
 
@@ -129,10 +129,10 @@ class BalanceLaw(Protocol):
         """Share the ground's wrench between the feet.
 
         Args:
-            balanced: What `update` decided at this tick.
+            balanced: Result of `update` at this tick.
             feet: The feet.
 
         Returns:
-            What each foot shall do.
+            Action of each foot.
         """
         ...

@@ -1,4 +1,4 @@
-"""Load transfer by the plan: the pendulum's force, shared between the feet by where the desired ZMP lies."""
+"""Load transfer by the plan: the pendulum's force, shared between the feet by the desired ZMP."""
 
 from __future__ import annotations
 
@@ -13,9 +13,8 @@ __all__ = ["transferred"]
 def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, FootAction]:
     """Share the force of the pendulum, m (a_x, a_y, g), between the feet.
 
-    In single support the stance foot carries all of it. In double support the desired ZMP, projected onto the line
-    between the feet's centres, gives the shares; what it lies beside that line is realised by each foot's own centre
-    of pressure, so that the two together make the desired ZMP.
+    In double support the desired ZMP, projected onto the line between the feet's centres, gives the shares; its
+    distance from that line is realised by each foot's centre of pressure.
 
     Args:
         balanced: Desired ZMP and CoM acceleration.
@@ -23,7 +22,7 @@ def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, F
         feet: The feet.
 
     Returns:
-        What each foot shall carry.
+        Action of each foot.
     """
     left, right, zmp = feet.states["left"], feet.states["right"], feet.frame.to_command(balanced.zmp_desired)
     stance = 0 if feet.stance is None else 1 if feet.stance == "left" else 2

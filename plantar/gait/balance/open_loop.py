@@ -1,4 +1,4 @@
-"""No feedback: the plan as it is, for a walk in open loop and for ticks before the estimate has settled."""
+"""No feedback: the plan as it is, for open-loop walks and for ticks before the estimate has settled."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["OpenLoop"]
 
 
 class OpenLoop:
-    """Follows the plan, whatever is measured (see `plantar.gait.balance.law.BalanceLaw`).
+    """Follows the plan (see `plantar.gait.balance.law.BalanceLaw`).
 
     Args:
         mass: Robot mass in kg.
@@ -36,13 +36,13 @@ class OpenLoop:
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
     ) -> BalanceState:
-        """Take the plan's VRP for the desired ZMP.
+        """Return the plan; its VRP is the desired ZMP.
 
         Args:
             reference: The plan now.
-            dcm: Measured DCM (2,) in m; it does not matter.
-            zmp: Measured ZMP (2,) in m; nor does it.
-            region: Where the desired ZMP has to lie; nor does it.
+            dcm: Not used.
+            zmp: Not used.
+            region: Not used.
 
         Returns:
             The plan.
@@ -53,10 +53,10 @@ class OpenLoop:
         """Load transfer by the plan.
 
         Args:
-            balanced: What `update` took over.
+            balanced: Result of `update`.
             feet: The feet.
 
         Returns:
-            What each foot shall carry.
+            Action of each foot.
         """
         return transferred(balanced, self.mass, feet)

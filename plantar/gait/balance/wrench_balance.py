@@ -1,8 +1,8 @@
 """Balance by distributing the ground's wrench over the feet: DCM feedback, wrench distribution and foot admittance.
 
-After Caron et al. 2019 (T 4.4.4): the DCM error, proportional and integral, asks for a net wrench; a quadratic program
-shares it between the feet, each within the cone of what it stands on; ankles and legs yield until the soles feel their
-shares; the CoM reference gives way a little to what is left of the ZMP error.
+After Caron et al. 2019 (T 4.4.4): the DCM error, proportional and integral, gives a net wrench; a quadratic program
+shares it between the feet, each within its contact's wrench cone; ankles and legs yield until the soles measure their
+shares; the CoM reference yields slightly to the remaining ZMP error.
 """
 
 from __future__ import annotations
@@ -44,13 +44,13 @@ class WrenchBalanceGains(Part, table="balance"):
     Attributes:
         dcm_gain: k_xi of T 4.18 in 1/s.
         dcm_integral: Gain in 1/s of the integral of the DCM error on the desired ZMP.
-        dcm_forgetting: Rate in 1/s at which that integral forgets.
-        largest_integral: Largest part in m that the integral may have in the desired ZMP.
-        zmp_gain: How fast the CoM reference yields to a ZMP error, in 1/s (T 4.29).
-        com_gain: How fast it returns to the plan, in 1/s (T 4.29).
+        dcm_forgetting: Rate in 1/s at which that integral decays.
+        largest_integral: Largest contribution in m of the integral to the desired ZMP.
+        zmp_gain: Rate in 1/s at which the CoM reference yields to a ZMP error (T 4.29).
+        com_gain: Rate in 1/s at which it returns to the plan (T 4.29).
         zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
-        zmp_offset: Inner offset in m that the desired ZMP keeps from the support polygon's edge.
-        minimum_force: Least normal force in N of a foot that stands.
+        zmp_offset: Inner offset in m of the desired ZMP from the support polygon's edge.
+        minimum_force: Least normal force in N of a standing foot.
         feet: Gains of the feet's admittance.
     """
 
@@ -72,8 +72,8 @@ class WrenchBalanceGains(Part, table="balance"):
         Args:
             table: Values by name, of either class.
             where: Name of the table, for messages.
-            error: What is raised.
-            note: On what it depends which keys are allowed, for messages.
+            error: Error class to raise.
+            note: What decides on the allowed keys, for messages.
 
         Returns:
             The gains.
@@ -85,12 +85,12 @@ class WrenchBalanceGains(Part, table="balance"):
 
     @classmethod
     def names(cls) -> tuple[str, ...]:
-        """Names of the settings of the law, and of those of the feet's admittance, that a table may give."""
+        """Allowed keys of a table: settings of the law and of the feet's admittance."""
         return (*super().names(), *AdmittanceGains.names())
 
     @classmethod
     def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
-        """What there is to say of each setting of the law and of the feet's admittance, for a body."""
+        """Descriptions of the settings of the law and of the feet's admittance, for a body."""
         return (*super().described(body), *AdmittanceGains.described(body))
 
 
@@ -98,7 +98,7 @@ class WrenchBalance:
     """DCM feedback, wrench distribution and foot admittance.
 
     Attributes:
-        states: How often the distribution ended in which state.
+        states: Counts of the distribution's end states.
 
     Args:
         gains: Gains of the law.
@@ -144,8 +144,8 @@ class WrenchBalance:
         Args:
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
-            zmp: Measured ZMP (2,) in m, or None where no foot carries load.
-            region: Convex polygon (k, 2) in which the desired ZMP has to lie; empty leaves it free.
+            zmp: Measured ZMP (2,) in m, or None where no foot is loaded.
+            region: Convex polygon (k, 2) for the desired ZMP; empty does not limit it.
 
         Returns:
             Desired ZMP and CoM reference.
@@ -154,14 +154,14 @@ class WrenchBalance:
         return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Share the pendulum's wrench between the feet that stand, and let them give way.
+        """Share the pendulum's wrench between the standing feet, and let them yield.
 
         Args:
-            balanced: What `update` decided.
+            balanced: Result of `update`.
             feet: The feet.
 
         Returns:
-            What each foot shall carry and how it gives way.
+            Action of each foot.
         """
         states, wanted = feet.states, self.distributed(balanced, feet)
         measured = {side: foot.wrench for side, foot in states.items() if foot.wrench is not None}
@@ -172,14 +172,14 @@ class WrenchBalance:
         }
 
     def distributed(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, NDArray[np.float64]]:
-        """Distribute the pendulum's wrench over the feet that stand.
+        """Distribute the pendulum's wrench over the standing feet.
 
         Args:
-            balanced: What `update` decided.
+            balanced: Result of `update`.
             feet: The feet.
 
         Returns:
-            Wrench (6,) in its sole frame about its origin that each foot that stands shall feel, by the world on it.
+            Wrench (6,) on each standing foot in its sole frame about its origin, by the world.
         """
         contacts: dict[str, Contact] = {
             side: foot.contact for side, foot in feet.states.items() if foot.contact is not None
@@ -204,7 +204,7 @@ class WrenchBalance:
 
 
 def _action(wrench: NDArray[np.float64], foot: FootState, correction: SoleAdmittance) -> FootAction:
-    """A wrench in the sole frame as a force at its centre of pressure, and how the foot gives way."""
+    """A wrench in the sole frame as a force at its centre of pressure, and how the foot yields."""
     force, place = pressed(wrench, foot.level, foot.position, foot.center)
     return FootAction(force, place, correction.roll, correction.pitch, correction.shift)
 

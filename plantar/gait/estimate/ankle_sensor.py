@@ -1,7 +1,6 @@
-"""Force-torque sensor between ankle and foot: from what it measures to the ground's wrench on the sole.
+"""Force-torque sensor between ankle and foot: from its reading to the ground's wrench on the sole.
 
-The sensor carries the foot and the shoe too. Their weight is subtracted with the sole's estimated orientation, as on a
-real robot; their inertia is not known to the controller and stays in the result.
+The weight of foot and shoe below the sensor is subtracted with the sole's estimated orientation; their inertia is not.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ __all__ = ["AnkleSensor", "SoleWrench"]
 
 @dataclass(frozen=True)
 class SoleWrench:
-    """A ground reaction wrench on a sole, asked like a percept.
+    """A ground reaction wrench on a sole, with the interface of a percept.
 
     Attributes:
         wrench_in_sole: Wrench (6,) about the sole frame's origin in N and N m, by the world on the robot.
@@ -65,11 +64,11 @@ class AnkleSensor:
         """The ground's wrench on the sole.
 
         Args:
-            measured: Wrench (6,) in the sensor frame about its origin in N and N m that the foot exerts on the leg.
-            rotation_sole_to_world: Rotation (3, 3) of the sole, as estimated.
+            measured: Wrench (6,) in the sensor frame about its origin in N and N m, by the foot on the leg.
+            rotation_sole_to_world: Estimated rotation (3, 3) of the sole.
 
         Returns:
-            The wrench that the foot passes on, less its own weight.
+            The measured wrench less the foot's weight.
         """
         force = self.rotation.dot(measured[:3])
         lift = (self.mass * GRAVITY) * rotation_sole_to_world[2]  # what carries the weight, in the sole frame

@@ -6,10 +6,10 @@ __all__ = ["CoMHeight"]
 
 
 class CoMHeight:
-    """Follows the height of the footholds without a jump in speed: a critically damped second-order filter.
+    """Follows the height of the footholds by a critically damped second-order filter.
 
-    A step onto a slab moves the wanted height at once; a first-order filter would start with a speed, which stiff legs
-    turn into an impact on the stance foot.
+    A first-order filter would start with a speed when the robot steps onto a slab, which stiff legs turn into an
+    impact.
 
     Args:
         ground: Height in m of the ground at the start.
@@ -30,13 +30,13 @@ class CoMHeight:
         self._frequency = frequency
 
     def update(self, target: float) -> float:
-        """One control tick.
+        """Advance by one control tick.
 
         Args:
-            target: Height in m of the ground that the feet stand on.
+            target: Height in m of the ground under the feet.
 
         Returns:
-            Height in m of the ground to stand above now.
+            Filtered height in m.
         """
         w = self._frequency
         # Damping ratio 1: a step of the ground neither overshoots nor jumps in speed, which the legs would have to

@@ -1,7 +1,7 @@
-"""Offset of the CoM from the model's, by where the ground carries a robot that stands still: under its CoM.
+"""Offset of the CoM from the model's, from where the ground carries a robot that stands still.
 
-A CoM that is elsewhere, a base that is elsewhere over its feet because encoders err, and taxels whose gains differ all
-show alike: as a ZMP beside the model's CoM. For balance they are alike, too. Its height does not show.
+A displaced CoM, a base displaced by encoder errors and taxels of unequal gain have the same effect here, and on
+balance: a ZMP that is not under the model's CoM. Its height cannot be observed.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ def com_offset(
     feet: Mapping[Side, tuple[float, float, float, float]],
     wrenches: Mapping[Side, NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """By how much the CoM of a robot that stands still is elsewhere than its model says.
+    """Horizontal offset of a standing robot's CoM from its model's.
 
     Args:
         posture: Its posture.
         rotation: Rotation (3, 3) from the base frame to the world.
-        feet: Where each sole stands, flat: x, y, z in m and heading in rad.
+        feet: Pose of each flat sole: x, y, z in m and heading in rad.
         wrenches: Wrench (6,) on each sole in its own frame in N and N m.
 
     Returns:
-        Horizontal offset (3,) in the base frame in m; none of a robot that nothing carries.
+        Offset (3,) in the base frame in m; zero where no foot is loaded.
     """
     points: list[NDArray[np.float64] | None] = []
     bases: list[NDArray[np.float64]] = []

@@ -1,8 +1,8 @@
-"""The frame that joints are solved in, and how it follows the real footholds.
+"""The frame in which joints are solved, and how it follows the real footholds.
 
-Servos give a little, so a commanded foothold and the real one drift apart by a millimetre or two a step. Commands stay
-in a frame of their own, in which the commanded footholds stand still; it follows the world through the foot that
-carries, slowly enough that nothing jumps when the other foot takes over.
+Servos give, so a commanded foothold and the real one drift apart by a millimetre or two a step. In the command frame
+commanded footholds do not move; the frame follows the world through the carrying foot, slowly enough not to jump when
+the other foot takes over.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class CommandFrame:
     """Offset and turn between the command frame and the world.
 
     Args:
-        anchor: Position (3,) of a foot in the command frame in m, where the walk begins.
+        anchor: Initial position (3,) of a foot in the command frame in m.
         period: Control period in s.
         time_constant: Time constant in s with which the frame follows.
     """
@@ -39,7 +39,7 @@ class CommandFrame:
 
         Args:
             commanded: Its commanded position (3,) in m.
-            real: Where it stands in the world (3,) in m, as estimated.
+            real: Its estimated position (3,) in the world in m.
             turn: Its heading in the world less the commanded one in rad.
         """
         (ax, ay, az), (ox, oy, oz), share = self._anchor, self._offset, self._share
@@ -51,11 +51,11 @@ class CommandFrame:
 
     @property
     def offset(self) -> tuple[float, float, float]:
-        """How far in m the frame's points are from the same ones of the world, at its anchor."""
+        """Offset in m from the world to the frame, at its anchor."""
         return self._offset
 
     def now(self) -> CommandFrame:
-        """The frame as it is now: `update` of this one leaves it alone."""
+        """A copy of the frame that later updates do not change."""
         frame = object.__new__(CommandFrame)
         frame.__dict__.update(self.__dict__)
         return frame
@@ -86,7 +86,7 @@ class CommandFrame:
             point: Point (3,) in the command frame in m.
 
         Returns:
-            The same point (3,) in the world in m.
+            The point (3,) in the world in m.
         """
         (px, py, pz), (x, y, z), (ox, oy, oz) = point.tolist(), self._anchor, self._offset
         dx, dy = px - x, py - y

@@ -1,13 +1,12 @@
-"""CoM and DCM of a pendulum that is pushed: a Kalman filter that knows the force (after K 7-12).
+"""CoM and DCM of a pushed pendulum: a Kalman filter with the force as input (after K 7-12).
 
-An observer that takes every acceleration that the ZMP does not explain for an error of its measurement follows a push
-late. Here the felt push is an input as the ZMP is, and what neither explains may be a state of its own, the unfelt
-offset d: a push on a part of the body that has no skin. On each axis
+An observer that attributes every acceleration the ZMP does not explain to measurement error follows a push late. Here
+the measured push is an input like the ZMP; the remaining disagreement may be a state, the offset d of a push on a part
+without skin. On each axis
 
     x' = w (xi - x),    xi' = w (xi - p + u_w + d),    d' = 0 + noise,
 
-sampled exactly at the control period. All noises are constant, so the gain is the stationary one, found once from the
-discrete Riccati equation by doubling; an update is a few products.
+sampled exactly at the control period. The noises are constant, so the gain is the stationary one.
 """
 
 from __future__ import annotations
@@ -28,14 +27,13 @@ __all__ = ["DcmFilter", "DcmFilterRules", "PushedPendulum"]
 
 
 class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("kalman",)}):
-    """How far each source is trusted: standard deviations at one tick.
+    """Standard deviations at one tick.
 
     Attributes:
         com_noise: Of the kinematic CoM in m.
         velocity_noise: Of the velocity of the CoM in m/s, where one is measured.
-        zmp_noise: Of the ZMP less the felt offset in m: taxels, skin, and what no pendulum is.
-        unfelt_rate: By how much in m/s the offset of a push that no skin feels changes; 0 trusts the skin alone, and
-            what it does not feel counts as noise of the ZMP.
+        zmp_noise: Of the ZMP less the measured offset in m.
+        unfelt_rate: Of the change in m/s of the offset of an unmeasured push; 0 counts it as noise of the ZMP.
     """
 
     com_noise: float = share(0.00333, "leg", 1e-6, 0.1)
@@ -45,12 +43,12 @@ class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("
 
 
 class PushedPendulum(NamedTuple):
-    """What a `DcmFilter` says.
+    """State of a `DcmFilter`.
 
     Attributes:
         com: CoM (2,) in m.
         dcm: DCM (2,) in m.
-        unfelt: Offset (2,) of the VRP in m by a push that no skin feels.
+        unfelt: Offset (2,) of the VRP in m by a push that no skin measures.
     """
 
     com: NDArray[np.float64]
@@ -59,10 +57,10 @@ class PushedPendulum(NamedTuple):
 
 
 class DcmFilter:
-    """Estimates CoM and DCM from the kinematic CoM, the ZMP and the felt push.
+    """Estimates CoM and DCM from the kinematic CoM, the ZMP and the measured push.
 
     Args:
-        rules: How far each source is trusted.
+        rules: Standard deviations.
         omega: Pendulum frequency in rad/s.
         period: Control period in s.
 
@@ -72,7 +70,7 @@ class DcmFilter:
     Example:
         >>> known = DcmFilter(DcmFilterRules(), 3.5, 0.005)
         >>> state = known.update([0.0, 0.0], None, [0.0, 0.0], [0.0, 0.0])
-        >>> state = known.update([0.0, 0.0], None, [0.0, 0.0], [0.1, 0.0])  # a push that is felt moves it at once
+        >>> state = known.update([0.0, 0.0], None, [0.0, 0.0], [0.1, 0.0])  # a measured push moves it at once
         >>> round(float(state.dcm[0]), 4)
         0.0018
     """
@@ -104,22 +102,23 @@ class DcmFilter:
         self._state: NDArray[np.float64] | None = None
 
     def reset(self) -> None:
-        """Forget everything; the next update begins anew."""
+        """Restart at the next update."""
         self._state = None
 
     def update(
         self, com: ArrayLike, com_velocity: ArrayLike | None, zmp: ArrayLike | None, offset: ArrayLike
     ) -> PushedPendulum:
-        """One control tick.
+        """Advance by one control tick.
 
         Args:
-            com: CoM (2,) by kinematics in m.
-            com_velocity: Velocity (2,) of the CoM in m/s where it is measured; else None.
-            zmp: ZMP (2,) since the tick before in m; None where no foot carries, and no ground pushes.
-            offset: Offset u_w (2,) of the VRP by the felt push in m (`plantar.mechanics.external_wrench.vrp_offset`).
+            com: Kinematic CoM (2,) in m.
+            com_velocity: Measured velocity (2,) of the CoM in m/s, or None.
+            zmp: ZMP (2,) since the tick before in m; None where no foot is loaded.
+            offset: Offset u_w (2,) of the VRP by the measured push in m
+                (`plantar.mechanics.external_wrench.vrp_offset`).
 
         Returns:
-            The state now; at the first update it is what is measured.
+            The state; at the first update what is measured.
 
         Raises:
             InputError: If one of these is not two finite numbers.
@@ -153,11 +152,9 @@ class DcmFilter:
 def _stationary_gain(
     step: NDArray[np.float64], noise: NDArray[np.float64], measured: NDArray[np.float64], error: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Kalman gain (n, m) that the filter settles at: P of the discrete Riccati equation by doubling.
-
-    Each pass doubles the number of ticks that P accounts for (E. Chu, H. Fan, W. Lin, C. Wang, "Structure-preserving
-    algorithms for periodic discrete-time algebraic Riccati equations", Int. J. Control 77, 2004), so 60 of them are far
-    more than any filter needs to settle.
+    """Stationary Kalman gain (n, m) from the discrete Riccati equation, by doubling (Chu, Fan, Lin and Wang,
+    "Structure-preserving algorithms for periodic discrete-time algebraic Riccati equations", Int. J. Control 77,
+    2004).
     """
     one = np.eye(len(step))
     a, g, p = step.T, measured.T @ np.linalg.solve(error, measured), noise

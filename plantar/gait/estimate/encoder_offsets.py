@@ -1,11 +1,9 @@
-"""Errors of the encoders' zeros, by two feet that stand flat on the ground at known places.
+"""Zero errors of the encoders, from two feet that stand flat on the ground at known places.
 
-Both legs make a loop through the ground. Six equations say where one sole is against the other, two more which way
-the soles are against gravity, which the accelerometer measures. The unknowns are an offset a joint and the pose of the
-base. Four combinations of offsets stay unseen, those that move the base against both feet without tilting it; of them,
-as of all, the smallest that explain what is measured are taken. What is left of those is a base that is some
-millimetres elsewhere over its feet. It shows as a CoM that is elsewhere, and is identified as such
-(`plantar.gait.estimate.com_offset`).
+Both legs form a loop through the ground: six equations relate the soles to each other, two more relate them to gravity,
+which the accelerometer measures. Unknown are one offset a joint and the pose of the base. Four combinations of offsets
+cannot be observed (they move the base against both feet without tilting it), so the smallest offsets that explain the
+measurements are taken; the rest appears as an offset of the CoM (`plantar.gait.estimate.com_offset`).
 """
 
 from __future__ import annotations
@@ -35,12 +33,12 @@ class _Posture(Protocol):
 
 
 class StandingTolerances(NamedTuple):
-    """Standard deviations by which what is known of a standing robot is weighed.
+    """Standard deviations of what is known of a standing robot.
 
     Attributes:
-        offset: Of an encoder's zero in rad: how well joints are calibrated.
-        place: Of each coordinate of a foot that stands at a known place in m.
-        turn: Of each angle of a sole against flat ground, and of the accelerometer's mean against gravity, in rad.
+        offset: Of an encoder's zero in rad.
+        place: Of each coordinate of a standing foot in m.
+        turn: Of each angle of a sole against flat ground, and of the mean accelerometer direction, in rad.
     """
 
     offset: float
@@ -55,18 +53,18 @@ def encoder_offsets(
     feet: Mapping[Side, tuple[float, float, float, float]],
     tolerances: StandingTolerances,
 ) -> NDArray[np.float64]:
-    """The offsets that explain best how a standing robot's joints are read.
+    """The most probable encoder offsets of a standing robot.
 
     Args:
-        kinematics: Posture of joint positions (k,) in rad: position (3,) in m and rotation (3, 3) of each sole in the
-            base frame.
+        kinematics: Maps joint positions (k,) in rad to position (3,) in m and rotation (3, 3) of each sole in the base
+            frame.
         joint_positions: Mean encoder readings (k,) in rad.
         up: Unit vector (3,) against gravity in the base frame.
-        feet: Where each sole stands: x, y, z in m and heading in rad.
-        tolerances: How well all of it is known.
+        feet: Pose of each sole: x, y, z in m and heading in rad.
+        tolerances: Standard deviations.
 
     Returns:
-        What each encoder reads too much (k,) in rad.
+        Reading less true angle of each encoder (k,) in rad.
     """
     k = len(joint_positions)
     offsets = np.zeros(k)
@@ -98,12 +96,12 @@ def encoder_offsets(
 def standing_base(
     posture: _Posture, up: NDArray[np.float64], feet: Mapping[Side, tuple[float, float, float, float]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Where the base of a robot is that stands on known footholds: level by gravity, headed along and over its feet.
+    """Pose of the base of a robot on known footholds: level by gravity, headed along and placed over its feet.
 
     Args:
         posture: Position (3,) in m and rotation (3, 3) of each sole in the base frame.
         up: Unit vector (3,) against gravity in the base frame.
-        feet: Where each sole stands: x, y, z in m and heading in rad.
+        feet: Pose of each sole: x, y, z in m and heading in rad.
 
     Returns:
         Rotation (3, 3) from the base frame to the world, and the base's position (3,) in m.
@@ -121,7 +119,7 @@ def standing_base(
 def _differenced(
     kinematics: Callable[[NDArray[np.float64]], _Posture], joints: NDArray[np.float64]
 ) -> tuple[_Posture, dict[Side, NDArray[np.float64]], dict[Side, NDArray[np.float64]]]:
-    """A posture, and how each sole moves (3, k) in m/rad and turns (3, k) in the base frame with each joint."""
+    """A posture, and the velocity (3, k) and angular velocity (3, k) of each sole in the base frame by each joint."""
     posture = kinematics(joints)
     moved: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}
     turned: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}

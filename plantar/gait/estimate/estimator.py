@@ -1,16 +1,15 @@
-"""Floating-base state from what the robot has: joint encoders, IMU and the soles' readings.
+"""Floating-base state from joint encoders, IMU and the soles' readings.
 
-Orientation: the gyro is integrated, less its bias where that is identified; gravity, freed from the acceleration that
-the plan asks for, corrects roll and pitch slowly, and the heading of the loaded feet corrects yaw. (The pendulum's own
-estimate of the acceleration would not do: a wrong tilt moves the estimated CoM over the feet by just what makes it
-agree with the accelerometer.)
+Orientation: the gyro, less its identified bias, is integrated; gravity, corrected by the planned acceleration, slowly
+corrects roll and pitch, and the heading of the loaded feet corrects yaw. (The pendulum's own acceleration would not do:
+a tilt error moves the estimated CoM so that it agrees with the accelerometer.)
 
-Position: the material point of each loaded sole that lies at its centre of pressure does not move, so the base moves
-by what the leg's kinematics say, weighted by load; a foot that rolls about its edge is followed too.
+Position: the material point of each loaded sole at its centre of pressure does not move, so the base moves by the leg's
+kinematics, weighted by load; a foot that rolls about its edge is followed too.
 
-Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the taxels' ZMP p as input and the kinematic
-CoM as measurement, so that no encoder is differentiated. A push on the body, felt or estimated, is another input. A
-Kalman filter (`plantar.gait.estimate.dcm_filter`) may do the same in its place, horizontally.
+Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the measured ZMP p as input and the kinematic
+CoM as measurement, so that no encoder is differentiated. A measured or estimated push is another input. A Kalman filter
+(`plantar.gait.estimate.dcm_filter`) can replace the observer horizontally.
 """
 
 from __future__ import annotations
@@ -64,7 +63,7 @@ class Posture(Record, frozen=True):
 
 
 class SoleLoad(Protocol):
-    """What a sole carries, by its taxels (`plantar.Percept`) or its ankle (`SoleWrench`)."""
+    """Load of a sole, by its taxels (`plantar.Percept`) or its ankle (`SoleWrench`)."""
 
     @property
     def vertical_force(self) -> float:
@@ -83,7 +82,7 @@ class SoleLoad(Protocol):
 
 
 class LegKinematics(Protocol):
-    """What the estimator needs of a robot model."""
+    """Kinematics that the estimator needs of a robot model."""
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
         """Forward kinematics of joint positions (k,) in rad."""
@@ -92,15 +91,15 @@ class LegKinematics(Protocol):
 
 @runtime_checkable
 class LiveKinematics(LegKinematics, Protocol):
-    """A robot model that spares its user the copies of each posture."""
+    """Kinematics that return the same arrays at each call."""
 
     def live_posture(self, joint_positions: NDArray[np.float64]) -> Posture:
-        """The same as `posture`, in the same arrays at each call, where they hold until the next one of either."""
+        """As `posture`, in arrays that hold until the next call of either."""
         ...
 
 
 def live_kinematics(kinematics: LegKinematics) -> Callable[[NDArray[np.float64]], Posture]:
-    """The quickest forward kinematics of a model, of which a posture is read before the next one is asked for."""
+    """The fastest forward kinematics of a model, for callers that keep no posture."""
     return kinematics.live_posture if isinstance(kinematics, LiveKinematics) else kinematics.posture
 
 
@@ -113,12 +112,12 @@ class EstimatorGains(Part, table="estimator"):
 
     Attributes:
         gravity: Roll and pitch correction by the accelerometer in 1/s.
-        averaging: Time in s for which the robot holds still at the start and gravity is averaged.
+        averaging: Time in s at the start for which the robot holds still and gravity is averaged.
         yaw: Heading correction by the loaded feet in 1/s.
-        observer: Bandwidth of the CoM velocity observer in rad/s, more than the pendulum's frequency.
+        observer: Bandwidth of the CoM velocity observer in rad/s, above the pendulum's frequency.
         tare: Time constant in s with which a foot in the air finds its zero.
-        minimum_load: Vertical force in N that a foot must exceed to count as loaded; above the noise that many unloaded
-            taxels add up to. Feet weigh in with what they carry beyond it.
+        minimum_load: Vertical force in N above which a foot counts as loaded; above the summed noise of unloaded
+            taxels. Feet are weighted by their load beyond it.
     """
 
     gravity: float = share(0.0495, "1/beat", 0, 50)
@@ -139,14 +138,12 @@ class FloatingBaseEstimator:
         period: Control period in s.
         feet: Known standing pose (x, y, z, yaw) of each sole at the start.
         gains: Gains.
-        gyro_bias: Identifies the gyro's bias; None takes the gyro at its word. With it the heading goes by what the
-            gyro has turned more than the legs since the start while feet stood still, so that nothing stays of what a
-            bias turned it before it was known; in between it goes by the gyro less its bias. Without it a foot counts
-            from when it comes to carry.
-        steady: Tells which feet stand still enough to hold the gyro against; None takes all that are loaded.
-        push: Estimates a push on the body from the soles and the IMU; None expects none.
-        dcm_filter: Estimates the horizontal CoM and its velocity; None leaves them to the observer.
-        push_acceleration: Acceleration (2,) of the CoM in m/s^2 that a push gives it at this tick.
+        gyro_bias: Identifies the gyro's bias; None disables bias correction. With it the heading follows what the gyro
+            has turned more than the legs while feet were still, so that the bias before identification leaves no error.
+        steady: Selects the feet that are still enough to compare the gyro with; None takes all loaded ones.
+        push: Estimates a push on the body from soles and IMU; None disables it.
+        dcm_filter: Estimates the horizontal CoM and its velocity; None uses the observer.
+        push_acceleration: Acceleration (2,) of the CoM in m/s^2 by a push at this tick.
     """
 
     kinematics: LegKinematics
@@ -201,17 +198,17 @@ class FloatingBaseEstimator:
         airborne: Side | None = None,
         felt: NDArray[np.float64] | None = None,
     ) -> BaseState:
-        """One control tick.
+        """Advance by one control tick.
 
         Args:
             joint_positions: Encoder readings (k,) in rad.
             gyro: Angular velocity (3,) of the base in the base frame in rad/s.
             accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
-            soles: What each sole carries.
-            planned_acceleration: Horizontal CoM acceleration (2,) in m/s^2 that the plan asks for; 0 where None.
-            airborne: Foot that is high in the air by plan: what it reads there becomes its tare.
-            felt: Acceleration (2,) of the CoM in m/s^2 by a push that skin on the body feels; None goes by the soles.
-                Heeded where there is a `push` estimate beside it.
+            soles: Load of each sole.
+            planned_acceleration: Planned horizontal CoM acceleration (2,) in m/s^2; 0 where None.
+            airborne: Foot that is high in the air by plan: its reading becomes its tare.
+            felt: Acceleration (2,) of the CoM in m/s^2 by a push that skin on the body measures; None uses the soles.
+                Used only with a `push` estimate.
 
         Returns:
             The estimated state.
@@ -254,10 +251,8 @@ class FloatingBaseEstimator:
         )
 
     def _anchor(self, loads: Mapping[str, float]) -> None:
-        """Draw the base back to the height at which its feet came to carry.
-
-        A foot that comes to carry as high as the other one, as far as can be told, is taken to stand at the same
-        height: what dead reckoning errs by in each step, a tilt of milliradians times the step, would add up.
+        """Return the base to the height at which its feet landed: feet whose landing heights cannot be told apart are
+        at one height, or the error of each step, a tilt of milliradians times the step, would add up.
         """
         heights, error, total = self._heights, 0.0, 0.0
         left, right = self._places[:, 2].tolist()
@@ -274,7 +269,7 @@ class FloatingBaseEstimator:
             self._position[2] -= self._share * error / total
 
     def _carry(self, index: int, side: Side, soles: Mapping[Side, SoleLoad]) -> float:
-        """Tell the kernel what a foot carries; the load in N."""
+        """Pass a foot's load to the kernel; the load in N."""
         sole = soles[side]
         load, point = max(0.0, sole.vertical_force - self._tare[side]), sole.position_cop_in_sole
         x, y = (0.0, 0.0) if point is None else point.tolist()
@@ -283,7 +278,7 @@ class FloatingBaseEstimator:
         return load
 
     def stand_again(self, joint_positions: NDArray[np.float64]) -> None:
-        """Take the robot to stand on the known footholds again: it has not moved, but its kinematics are known better.
+        """Reset the robot to its known footholds, after its kinematics were corrected.
 
         Args:
             joint_positions: Encoder readings (k,) in rad.
@@ -297,14 +292,15 @@ class FloatingBaseEstimator:
         self._base.rest()
 
     def _watch(self, posture: Posture) -> None:
-        """Let the kernel read a posture; one that is live it knows already."""
+        """Pass a posture to the kernel, unless it holds its arrays already."""
         if posture is not self._watched:
             self._watched, places, turns = posture, posture.positions, posture.rotations
             self._base.watch(posture.com, places["left"], places["right"], turns["left"], turns["right"])
 
     def _stand(self, posture: Posture, up: NDArray[np.float64]) -> None:
-        """Level the base by a unit vector (3,) against gravity in the base frame, head it along the feet, and stand on
-        the known footholds."""
+        """Level the base by a unit vector (3,) against gravity in the base frame, and place it over the known
+        footholds.
+        """
         rotation, position = standing_base(posture, up, self.feet)
         self._base.stand(rotation, position, *(self.feet[side][3] for side in SIDES))
         if self.dcm_filter is not None:
@@ -317,13 +313,13 @@ class FloatingBaseEstimator:
         zmp: NDArray[np.float64] | None,
         felt: NDArray[np.float64] | None,
     ) -> NDArray[np.float64]:
-        """The push at this tick: what skin on the body feels of it, else what the soles tell."""
+        """Acceleration by the push at this tick: from skin on the body, else from the soles."""
         pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp)
         estimated = push.update(self._rotation.dot(accelerometer)[:2], pendulum)
         return estimated if felt is None else felt
 
     def _filter(self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None) -> None:
-        """Take the horizontal CoM and its velocity from a filter in the observer's place."""
+        """Replace the horizontal CoM and its velocity by the filter's."""
         com = self._position + self._rotation.dot(posture.com)
         told = dcm_filter.update(com[:2], None, zmp, self.push_acceleration / self.omega**2)
         self._com[:2], self._velocity[:2] = told.com, self.omega * (told.dcm - told.com)

@@ -1,13 +1,12 @@
-"""Bias of the gyro, by feet that carry: a sole on the ground does not turn, so the base turns as the leg's joints do.
+"""Bias of the gyro, from feet that carry: a sole on the ground does not turn, so the base turns as the leg's joints do.
 
-With R_s the rotation from a sole that stands to the base frame, R_s(k-1) R_s(k)^T is how the base turned in a tick,
-seen in its own frame. What the gyro says beyond that is bias and noise. A single tick says little of it, as the noise
-of the encoders is differentiated (5e-5 rad in 5 ms: 14 mrad/s), but in a mean over time that telescopes: after T
-seconds an angle of 0.1 mrad over T is left of it. No accelerometer is needed, so all three axes are found, the vertical
-one too.
+With R_s the rotation from a standing sole to the base frame, R_s(k-1) R_s(k)^T is the turn of the base in a tick, in
+its own frame. The rest of the gyro's reading is bias and noise. Encoder noise in one tick is large (5e-5 rad in 5 ms:
+14 mrad/s), but the mean telescopes: after T seconds 0.1 mrad / T is left. No accelerometer is needed, so all three axes
+are observed, the vertical one too.
 
-Soles do turn: one that slips turns by milliradians within a tenth of a second. Both are therefore compared piece by
-piece, each short enough for a slip to stand out of what noise leaves.
+Soles slip: by milliradians within a tenth of a second. Both turns are therefore compared in pieces short enough for a
+slip to exceed the noise.
 """
 
 from __future__ import annotations
@@ -32,25 +31,24 @@ _FIRST_PIECES = 2
 
 
 class GyroBias:
-    """Mean of what the gyro measures beyond the turn of the legs: of all that came so far, then over a time constant.
+    """Mean difference of the gyro and the turn of the legs: over all samples so far, then over a time constant.
 
-    A foot weighs in with its load. A tick in which both feet carry counts ten times as much as one in which one does:
-    the robot stands, while a sole that carries it in a step may turn, on soft ground or an edge, which is not told from
-    a bias; over steps that comes to 0.1 mrad/s. A piece in which both are further apart about the base's z axis than
-    noise explains counts as one in which they are as far apart as it may be.
+    A foot is weighted by its load, and a tick in which both feet carry counts ten times as much: a single sole may turn
+    on soft ground or an edge, which cannot be told from a bias (0.1 mrad/s over steps). A piece in which both differ
+    about the base's z axis by more than noise explains is limited to that difference.
 
     Attributes:
         value: The bias (3,) in the base frame in rad/s.
-        missed: Angle (3,) in the base frame in rad by which the legs turned more than the gyro says, less its bias, in
-            the piece that has just ended and in which no sole slipped; None while none has.
-        kernel: What computes it: the estimator calls it within its own.
+        missed: Angle (3,) in the base frame in rad by which the legs turned more than the corrected gyro in the piece
+            that has just ended without a slip; else None.
+        kernel: The compiled part, which the estimator calls within its own.
 
     Args:
         period: Control period in s.
         time_constant: Time constant in s of the mean.
-        largest: Largest bias of an axis in rad/s; what would be beyond it is something else.
+        largest: Largest bias of an axis in rad/s.
         piece: Duration in s of a piece.
-        slip: Angle in rad that noise leaves at most in a piece.
+        slip: Largest angle in rad by which noise differs in a piece.
 
     Example:
         >>> bias = GyroBias(0.005, 20.0, 0.05, 0.005, 6e-4)
@@ -68,12 +66,12 @@ class GyroBias:
 
     @property
     def value(self) -> NDArray[np.float64]:
-        """The bias (3,) as it is now."""
+        """The bias (3,) in the base frame in rad/s."""
         return self._value.copy()
 
     @property
     def missed(self) -> NDArray[np.float64] | None:
-        """What the legs turned more in the piece that ended at the last tick (3,)."""
+        """Angle (3,) in rad by which the legs turned more in the piece that ended at the last tick."""
         return self._missed.copy() if self.kernel.concluded else None
 
     def update(
@@ -82,16 +80,16 @@ class GyroBias:
         turn: NDArray[np.float64] | None,
         weights: Mapping[Side, float],
     ) -> NDArray[np.float64]:
-        """One control tick.
+        """Advance by one control tick.
 
         Args:
-            gyro: Angular velocity (3,) of the base in its own frame in rad/s, as measured.
-            turn: Angle (3,) in the base frame in rad by which feet that stand still say the base has turned in the tick
-                (`plantar.kernels.gait.floating_base.FloatingBase.stand_still`); None where no foot stands still.
-            weights: How much each foot carries, in any unit; 0 for one that does not stand still.
+            gyro: Measured angular velocity (3,) of the base in its own frame in rad/s.
+            turn: Turn (3,) of the base in the tick in rad by the still feet, in the base frame
+                (`plantar.kernels.gait.floating_base.FloatingBase.stand_still`); None where no foot is still.
+            weights: Load of each foot in any unit; 0 for one that is not still.
 
         Returns:
-            The bias (3,) in rad/s; the last one while no foot stands still.
+            The bias (3,) in rad/s, unchanged while no foot is still.
         """
         gx, gy, gz = gyro.tolist()
         tx, ty, tz = (0.0, 0.0, 0.0) if turn is None else turn.tolist()

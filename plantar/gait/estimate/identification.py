@@ -1,4 +1,4 @@
-"""Settings of what the controller finds out of the robot that it walks: by how much that differs from its model."""
+"""Settings of what the controller identifies of its robot: the difference from the model."""
 
 from __future__ import annotations
 
@@ -12,28 +12,27 @@ class IdentificationRules(Part, table="identification", needs={"control.identify
     """What is identified while the robot stands and walks, and how fast.
 
     Attributes:
-        gyro: Whether the gyro's bias is identified, by feet that carry: they do not turn.
-        gyro_time: Time constant in s with which it is followed once as much time has been averaged.
-        gyro_largest: Largest bias in rad/s of an axis that is believed.
+        gyro: Whether the gyro's bias is identified, by carrying feet.
+        gyro_time: Time constant in s of the bias, after as much time has been averaged.
+        gyro_largest: Largest accepted bias of an axis in rad/s.
         gyro_piece: Duration in s of the pieces in which gyro and legs are compared.
-        gyro_slip: Angle in rad by which both differ in a piece where no sole slips: noise of encoders and gyro leaves
-            1.6e-4 rad.
-        steady_share: Share of what both feet carry from which one is held against the gyro; others turn on edges.
-        steady_time: Time constant in s of a foot's usual load: one that carries as usual stands, and counts, too.
-        steady_band: How far in N a foot's load may be from that.
-        encoders: Whether the encoders' zeros are identified, by the feet of the opening stand.
-        encoder_error: Standard deviation of a joint's zero that is expected, in rad: 3e-3 are 0.17 degrees.
-        encoder_least: Root mean square in rad of the joints' offsets up to which they count as none: noise of the
-            accelerometer alone makes half of that.
-        encoder_largest: Largest offset of a joint in rad that is believed.
+        gyro_slip: Angle in rad by which both may differ in a piece without a slip (noise leaves 1.6e-4).
+        steady_share: Share of the total load from which a foot is compared with the gyro; others turn on edges.
+        steady_time: Time constant in s of a foot's usual load; a foot at its usual load is compared too.
+        steady_band: Largest deviation in N from the usual load.
+        encoders: Whether the encoders' zeros are identified in the opening stand.
+        encoder_error: Expected standard deviation of a joint's zero in rad (3e-3 are 0.17 degrees).
+        encoder_least: Root mean square in rad of the offsets up to which they count as none; twice what noise of the
+            accelerometer makes.
+        encoder_largest: Largest accepted offset of a joint in rad.
         com: Whether the CoM's offset is identified, by the ZMP of the opening stand.
         com_least: Offset in m up to which it counts as none.
-        com_largest: Largest offset in m that is believed.
-        lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet for each tenth
-            that mass and CoM load the hips more than in the model, up to two tenths; 0 leans as the walk says.
-        place_error: How well it is known where the feet stand at the start, as a standard deviation in m.
-        turn_error: How well soles are known to lie flat, and the accelerometer to show gravity on average, in rad.
-        fade: Time in s in which what is commanded follows what was found in the opening stand.
+        com_largest: Largest accepted offset in m.
+        lean: Roll of the torso in rad per metre between the CoM and the middle of the feet, for each tenth by which
+            mass and CoM load the hips more than in the model, up to two tenths; 0 uses the walk's own lean.
+        place_error: Standard deviation in m of the feet's known places at the start.
+        turn_error: Standard deviation in rad of flat soles, and of the accelerometer's mean direction.
+        fade: Time in s in which commands approach what was identified in the opening stand.
     """
 
     gyro: bool = switch(True)

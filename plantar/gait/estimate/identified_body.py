@@ -1,4 +1,4 @@
-"""The robot as it is found to be: kinematics of its model, less what encoders err, with the CoM where it shows."""
+"""Kinematics of the robot as identified: encoder offsets removed, CoM where it was found."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ _MASS_RATIOS = (0.7, 1.4)  # that are believed of the mass over the model's; bey
 class IdentifiedBody:
     """Identifies encoder offsets and CoM in the opening stand, and corrects kinematics by them from then on.
 
-    What is measured is corrected at once; what is commanded follows gradually (`joint_offsets`, `com_shift`), as joints
-    that jump by 0.3 degrees would jerk at the ground.
+    Measurements are corrected at once; commands follow gradually (`joint_offsets`, `com_shift`), since joints that jump
+    by 0.3 degrees would jerk at the ground.
 
     Attributes:
-        encoder_offsets: What each encoder reads too much (k,) in rad; empty until it is known, and without a stand.
-        com_offset: By how much the CoM is elsewhere than in the model (3,), in the base frame in m.
-        mass_ratio: Mass by the ground's forces over the model's; of many taxels the gains' errors cancel for the most.
-        known: Whether the stand is over and these are known.
+        encoder_offsets: Reading less true angle of each encoder (k,) in rad; empty until known.
+        com_offset: Offset (3,) of the CoM from the model's in the base frame in m.
+        mass_ratio: Mass by the ground's forces over the model's.
+        known: Whether these have been identified.
 
     Args:
         kinematics: Kinematics of the model.
         weight: Weight of the model in N.
-        feet: Where each sole stands at the start: x, y, z in m and heading in rad.
+        feet: Pose of each sole at the start: x, y, z in m and heading in rad.
         rules: What is identified.
         period: Control period in s.
     """
@@ -69,7 +69,7 @@ class IdentifiedBody:
         self._step = period / rules.fade
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
-        """Forward kinematics of encoder readings (k,) in rad (see `LegKinematics`), as far as is known."""
+        """Corrected forward kinematics of encoder readings (k,) in rad (see `LegKinematics`)."""
         if not self.known:
             return self._kinematics.posture(joint_positions)
         read = joint_positions - self.encoder_offsets if len(self.encoder_offsets) else joint_positions
@@ -91,17 +91,17 @@ class IdentifiedBody:
     def stand(
         self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, SoleLoad]
     ) -> None:
-        """A tick in which the robot stands still.
+        """Take in a tick in which the robot stands still.
 
         Args:
             joint_positions: Encoder readings (k,) in rad.
             accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
-            soles: What each sole carries.
+            soles: Load of each sole.
         """
         self._stand.update(joint_positions, accelerometer, soles)
 
     def conclude(self) -> None:
-        """The stand is over: identify by it."""
+        """Identify from the stand, which is over."""
         stood, rules = self._stand.mean(), self._rules
         self.known = True
         if stood is None:
@@ -128,25 +128,25 @@ class IdentifiedBody:
         self._tenths = min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)
 
     def advance(self) -> None:
-        """A tick after the stand: what is commanded follows what is known."""
+        """Advance the commanded corrections by a tick after the stand."""
         self._share = min(1.0, self._share + self._step)
 
     @property
     def joint_offsets(self) -> NDArray[np.float64] | None:
-        """What joint set-points have to be higher by (k,) in rad, as servos go by the encoders; None for nothing."""
+        """Offsets (k,) in rad to add to joint set-points, since servos follow the encoders; None for none."""
         return self._faded * self.encoder_offsets if len(self.encoder_offsets) else None
 
     @property
     def com_shift(self) -> NDArray[np.float64]:
-        """How far (3,) in m in the base frame the model's CoM has to be from where the CoM shall be, less of it."""
+        """Shift (3,) in m in the base frame to take off the desired CoM to get the model's."""
         return self._faded * self.com_offset
 
     @property
     def lean(self) -> float:
-        """Roll of the torso over the stance foot in rad per metre of the CoM's distance from the middle of the feet.
+        """Roll of the torso over the stance foot in rad per metre between the CoM and the middle of the feet.
 
-        The torque at the hip that carries goes with the weight and with the distance to the CoM from it, half the
-        distance of the feet in the model. Motors have a tenth to spare, h1's at the hip's roll a sixth.
+        The carrying hip's torque grows with the weight and with its distance from the CoM. Motors have a tenth to spare
+        (h1's at the hip's roll a sixth).
         """
         return self._faded * self._rules.lean * self._tenths
 
@@ -156,7 +156,7 @@ class IdentifiedBody:
         return s * s * (3.0 - 2.0 * s)  # starts and ends without a jump in speed
 
     def summary(self) -> dict[str, Any]:
-        """What was identified in the stand, for a run's summary."""
+        """What was identified, for a run's summary."""
         return {
             "encoder_offsets_deg": np.round(np.degrees(self.encoder_offsets), 4).tolist(),
             "com_offset_m": np.round(self.com_offset, 5).tolist(),

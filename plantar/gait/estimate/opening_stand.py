@@ -1,4 +1,4 @@
-"""Means of what is sensed while the robot holds still at the start, before it is balanced or walks."""
+"""Means of the sensors while the robot holds still at the start."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class _Sole(Protocol):
 
 
 class Stood(NamedTuple):
-    """What the sensors said of a robot that stands still, on average.
+    """Mean readings of a standing robot.
 
     Attributes:
         joint_positions: Encoder readings (k,) in rad.
@@ -59,7 +59,7 @@ class OpeningStand:
         Args:
             joint_positions: Encoder readings (k,) in rad.
             accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
-            soles: What each sole carries.
+            soles: Load of each sole.
         """
         self._count += 1
         self._joints = joint_positions.copy() if self._count == 1 else self._joints + joint_positions
@@ -68,7 +68,7 @@ class OpeningStand:
             self._wrenches[side] = self._wrenches[side] + soles[side].wrench_in_sole
 
     def mean(self) -> Stood | None:
-        """The means so far; None of nothing."""
+        """The means so far; None before the first tick."""
         if self._count == 0:
             return None
         n = self._count

@@ -1,11 +1,10 @@
-"""The push on the body that the soles alone tell of: what ZMP and acceleration disagree on (K 9-12 turned round).
+"""A push on the body, from the disagreement of ZMP and acceleration (K 9-12 inverted).
 
-A pendulum that nothing but its soles touches has x'' = w^2 (x - p). What the IMU measures beyond that is F / m + w^2
-u_tau, the acceleration by a wrench on the body (K 12 with its moment): any robot with plantar skin feels a push, even
-where it has no skin. It takes 10 ms; without it the push is a velocity that the kinematics show 0.2 s later.
+A pendulum that only its soles touch has x'' = w^2 (x - p). What the IMU measures beyond that is F / m + w^2 u_tau, the
+acceleration by a wrench on the body (K 12 with its moment), so that a robot with plantar skin measures pushes on parts
+without skin, within 10 ms; kinematics show them 0.2 s later.
 
-Walking itself leaves some disagreement: a body is no point, and soles land. What stays below a share of the weight
-counts as none, so that nothing changes while nobody pushes.
+Walking leaves some disagreement, since a body is no point and soles land. What stays below a threshold counts as none.
 """
 
 from __future__ import annotations
@@ -25,10 +24,10 @@ class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("s
     """When a disagreement of ZMP and acceleration is a push.
 
     Attributes:
-        time_constant: Time constant in s of the low pass on it: two ticks, against the IMU's noise.
-        begins: Acceleration in m/s^2 above which it is one. (In five walks of h1 and hrp2kai on level ground the
-            largest that nobody pushed for was 0.117 g, for some ticks as a sole landed.)
-        ends: Acceleration in m/s^2 below which it is over.
+        time_constant: Time constant in s of its low pass: two ticks, against the IMU's noise.
+        begins: Acceleration in m/s^2 above which a push begins. (In five undisturbed walks of h1 and hrp2kai on level
+            ground the largest was 0.117 g, for some ticks at a landing.)
+        ends: Acceleration in m/s^2 below which it ends.
     """
 
     time_constant: float = share(0.0396, "beat", 0, 1)
@@ -37,10 +36,10 @@ class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("s
 
 
 class PushEstimate:
-    """Follows the acceleration of the CoM by a push.
+    """Estimates the acceleration of the CoM by a push.
 
     Args:
-        rules: When there is one.
+        rules: Thresholds.
         period: Control period in s.
 
     Example:
@@ -49,7 +48,7 @@ class PushEstimate:
         ...     found = push.update(np.array([0.0, 4.5]), np.array([0.0, -0.5]))
         >>> found.round(2).tolist()
         [0.0, 4.91]
-        >>> push.update(np.array([0.0, 0.2]), None).tolist()  # nothing carries: the soles say nothing
+        >>> push.update(np.array([0.0, 0.2]), None).tolist()  # no foot is loaded
         [0.0, 0.0]
     """
 
@@ -60,14 +59,14 @@ class PushEstimate:
         self.acts = False
 
     def update(self, measured: NDArray[np.float64], pendulum: NDArray[np.float64] | None) -> NDArray[np.float64]:
-        """One control tick.
+        """Advance by one control tick.
 
         Args:
             measured: Horizontal acceleration (2,) of the base in the world frame in m/s^2.
-            pendulum: w^2 (x - p), (2,) in m/s^2; None where no foot carries.
+            pendulum: w^2 (x - p), (2,) in m/s^2; None where no foot is loaded.
 
         Returns:
-            Acceleration (2,) by the push in m/s^2; zero where there is none.
+            Acceleration (2,) by the push in m/s^2; zero without one.
         """
         if pendulum is None:
             self._acceleration, self.acts = np.zeros(2), False

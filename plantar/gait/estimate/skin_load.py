@@ -1,7 +1,6 @@
-"""What a sole carries, from taxels with noise: a low-pass on each, and no bias from noise that is clipped at zero.
+"""Load of a sole from noisy taxels: a low pass on each, before noise is clipped at zero and becomes a bias.
 
-A threshold on each taxel would do against that bias, too, but it drops a foot that carries 60 N on 50 taxels
-altogether, and with it 10 mm of the ZMP between two feet.
+A threshold on each taxel would avoid the bias too, but loses 60 N spread over 50 taxels, and with it 10 mm of the ZMP.
 """
 
 from __future__ import annotations
@@ -23,8 +22,7 @@ __all__ = ["SkinLoad", "at_its_limit", "percept_to_its_limit"]
 def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
     """A reading whose saturated taxels count with the most that they can measure.
 
-    A taxel at the end of its range says nothing exact, but a foot that stands on one bump carries the body there:
-    leaving that taxel out would make it a foot in the air.
+    Leaving a saturated taxel out would make a foot on one bump a foot in the air.
 
     Args:
         reading: The sole's reading.
@@ -39,7 +37,7 @@ def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
 
 
 def percept_to_its_limit(reading: Reading, layout: SoleLayout) -> Percept:
-    """What a sole senses, saturated taxels as of `at_its_limit`, with its loads summed.
+    """Percept of a sole with saturated taxels as in `at_its_limit` and its loads summed.
 
     Args:
         reading: The sole's reading.
@@ -68,13 +66,13 @@ class SkinLoad:
         self._mean: NDArray[np.float64] | None = None
 
     def update(self, reading: Reading) -> SoleWrench:
-        """Take a reading in.
+        """Take in a reading.
 
         Args:
             reading: The sole's latest reading; dead taxels count as unloaded.
 
         Returns:
-            The wrench on the sole after the filter (T 4.23).
+            Filtered wrench on the sole (T 4.23).
         """
         force, sound = reading.force, np.isfinite(reading.force)
         whole = bool(sound.all())

@@ -1,11 +1,9 @@
-"""How one sole is turned against the other: by the legs' angles alone, and so more finely than attitude is known.
+"""Slope of one sole against the other, from the legs' angles alone, which is more precise than the attitude.
 
-A sole that lands a few milliradians off level rests on the edge of what is under it, and stays there: the stiffness of
-the leg holds its centre of pressure at that edge, and its taxels tell of one row of cells, on either side of which the
-ground may be. So a foot that comes down blindly turns parallel to the one that stands; and where it rests on an edge
-all the same, the ground is on the side to which it rises. Attitude in the world is estimated to half a milliradian, one
-sole against the other to 0.15 milliradians on a beam. Ground that is level under both feet is expected, as a blind foot
-expects it at one height.
+A sole that lands a few milliradians off level rests on the edge of the ground: the leg's stiffness holds its centre of
+pressure there, and one row of taxels cannot show on which side the ground is. So a blind foot comes down parallel to
+the standing one; where it rests on an edge all the same, the ground is on the side to which it rises. Attitude is
+estimated to half a milliradian, one sole against the other to 0.15. The ground is expected to be level under both feet.
 """
 
 from __future__ import annotations
@@ -21,13 +19,13 @@ __all__ = ["SoleSlope"]
 
 
 class SoleSlope:
-    """Rise of each sole against the ground that the other one stands on.
+    """Slope of each sole against the ground of the other one.
 
-    Encoders that are zeroed a little off show flat soles turned; what they show of that in the opening stand is taken
-    off. While the other foot is in the air, a sole's slope follows its attitude in the world.
+    Slopes in the opening stand, by encoder offsets, are subtracted. While the other foot is in the air, a sole's slope
+    follows its attitude in the world.
 
     Args:
-        least_load: Vertical force in N from which a foot stands and shows the ground.
+        least_load: Vertical force in N from which a foot shows the ground.
         smoothing: Share of a new tick in the mean over the opening stand.
     """
 
@@ -46,7 +44,7 @@ class SoleSlope:
         Args:
             rotations: Rotation (3, 3) from each sole to the world.
             loads: Vertical force on each foot in N.
-            standing: Whether this is the opening stand, in which both soles are flat.
+            standing: Whether this is the opening stand, with both soles flat.
         """
         between = rotations["right"].T @ rotations["left"]
         if standing:
@@ -63,5 +61,5 @@ class SoleSlope:
             self._slopes[side] = slope + (world - then)
 
     def slope(self, side: Side) -> NDArray[np.float64]:
-        """How a sole rises (2,) along its x and y axes in m/m; level before the first tick."""
+        """Rise of a sole (2,) along its x and y axes in m/m; zero before the first tick."""
         return self._slopes[side]

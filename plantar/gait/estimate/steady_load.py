@@ -1,10 +1,9 @@
-"""Which feet carry so that they stand still: those that carry nearly all, and those whose load stays as it is.
+"""Which loaded feet are still: those that carry nearly all, and those with a steady load.
 
-A sole that comes to carry turns on what it met first until it lies flat, and one that is about to lift off turns on its
-last edge: on h1, whose plant differs from its model as it may, by half a milliradian a step, always the same way, where
-one hip carries more than the other. That adds up to the heading's error. In single support it turns by a tenth of that.
-Both ends of it are cut where the load is the same, so that the body has swayed as far to the side at the one as at the
-other: what the legs err by their lean cancels.
+A landing sole turns until it lies flat, and one that lifts off turns on its last edge: on h1 with a random plant by
+half a milliradian a step, always the same way, which adds up in the heading; in single support by a tenth of that. Both
+ends of a stance are cut at the same load, so that the body has swayed equally far at both and the error by its lean
+cancels.
 """
 
 from __future__ import annotations
@@ -18,16 +17,16 @@ __all__ = ["SteadyLoad"]
 
 
 class SteadyLoad:
-    """Compares what each foot carries with what both do, and with its own running mean.
+    """Compares each foot's load with the total and with its own running mean.
 
     Attributes:
-        kernel: What computes it: the estimator calls it within its own.
+        kernel: The compiled part, which the estimator calls within its own.
 
     Args:
         period: Control period in s.
-        share: Share of what both feet carry from which one stands still; the other one then does not.
+        share: Share of the total load from which a foot is still; the other one then is not.
         time_constant: Time constant in s of the running mean.
-        band: Largest difference in N of load and mean of a foot that stands still beside the other one.
+        band: Largest difference in N of load and mean of a still foot.
 
     Example:
         >>> steady = SteadyLoad(0.005, 0.8, 0.25, 40.0)
@@ -43,13 +42,13 @@ class SteadyLoad:
         self.kernel = _Kernel(share, min(1.0, period / time_constant), band)
 
     def update(self, loads: Mapping[Side, float]) -> dict[Side, float]:
-        """One control tick.
+        """Advance by one control tick.
 
         Args:
-            loads: What each foot carries in N; 0 for one that does not count as loaded.
+            loads: Load of each foot in N; 0 for an unloaded one.
 
         Returns:
-            The same loads in N, 0 of a foot that may turn.
+            The loads in N, 0 for a foot that may turn.
         """
         kernel = self.kernel
         kernel.update(loads["left"], loads["right"])

@@ -1,9 +1,8 @@
-"""The push that is expected to last: a low pass of the VRP offset, and what it comes to until a step ends (K 18-19).
+"""The push that is expected to last: a low pass of the VRP offset, and its mean until a step ends (K 18-19).
 
-A force that has lasted counts for the future, one of an instant does not: the offset u_w of
-`plantar.mechanics.external_wrench` runs through a first-order low pass (K 19), and is expected to stay (K 18). Pushes
-end, though; with `lasts` the expected offset decays, u_w(s) = u_w e^(-s / lasts), and what enters the closed forms of a
-constant offset over a horizon T is the constant that moves the DCM as far in that time,
+The offset u_w of `plantar.mechanics.external_wrench` runs through a first-order low pass (K 19) and is expected to stay
+(K 18). With `lasts` the expected offset decays, u_w(s) = u_w e^(-s / lasts), and the closed forms of a constant offset
+over a horizon T use the constant that moves the DCM as far,
 
     mean(T) = u_w a (1 - e^(-a' T)) / (1 - e^(-w T)),    a' = w + 1 / lasts,  a = w / a'.
 """
@@ -32,8 +31,8 @@ class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estima
     """How a push is expected to go on.
 
     Attributes:
-        time_constant: Time constant in s of the low pass (K 19). The paper's alpha = dt is one of 1 s, with which a
-            push of 0.1 s counts for a tenth.
+        time_constant: Time constant in s of the low pass (K 19; the paper's alpha = dt is 1 s, with which a push of 0.1
+            s counts for a tenth).
         lasts: Time constant in s with which the expected push decays; 1e6 for one that stays (K 18).
     """
 
@@ -70,20 +69,19 @@ class WrenchFilter:
 
     @property
     def expected(self) -> NDArray[np.float64]:
-        """The offset (2,) in m that is expected now."""
+        """Expected offset (2,) in m."""
         return np.array((self._x, self._y))
 
     @property
     def acts(self) -> bool:
-        """Whether any push is expected; what follows from one may be left out where none is."""
+        """Whether any push is expected."""
         return self._x != 0.0 or self._y != 0.0
 
     def update(self, offset: ArrayLike) -> NDArray[np.float64]:
-        """One control tick (K 19).
+        """Advance by one control tick (K 19).
 
         Args:
-            offset: Offset u_w (2,) of the VRP by what is felt now in m; cut to `MOST_OFFSET`. One that is not finite
-                counts as none.
+            offset: Measured offset u_w (2,) of the VRP in m, cut to `MOST_OFFSET`; zero where not finite.
 
         Returns:
             The expected offset (2,) in m.
@@ -105,7 +103,7 @@ class WrenchFilter:
         return self.expected
 
     def mean(self, horizon: float) -> NDArray[np.float64]:
-        """The constant offset that moves the DCM over some time as far as the expected one (K 18 where it stays).
+        """The constant offset that moves the DCM over some time as far as the expected one.
 
         Args:
             horizon: Time in s, 0 or more.

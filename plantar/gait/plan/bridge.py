@@ -1,8 +1,7 @@
-"""Bridge a sudden move of the plan's DCM: a VRP that swings aside for a moment and pushes the CoM where it has to be.
+"""Bridge a sudden move of the plan's DCM by a temporary shift of the VRP.
 
-A foothold that carries only a part of the sole moves the VRP of its stance to the part's centroid, and with it the DCM
-that the plan should have now. The VRP of a window of time is moved by what makes up for that, as far as the support
-polygon allows (T 4.4.2).
+A partial foothold moves the VRP of its stance to the centroid of the part, and with it the desired DCM. The VRP of a
+window of time is shifted to make up for that, as far as the support polygon allows (T 4.4.2).
 """
 
 from __future__ import annotations
@@ -35,15 +34,14 @@ def bridged(
 
     Args:
         plan: The plan until now.
-        knots: Times in s and VRPs (2,) in m of the stances that are built anew.
+        knots: Times in s and VRPs (2,) in m of the stances that are built again.
         now: The time in s, and the plan at it.
-        window: Beginning and end in s of the bridge; None bridges nothing.
-        region: Convex polygon (k, 2) in the world in m in which the VRP may be in the bridge; empty does not limit it.
-        kept: Index of the first knot of the old plan that is kept after the new ones, by how much (2,) in m such knots
-            move, and by how much in s they come later.
+        window: Beginning and end in s of the bridge; None for no bridge.
+        region: Convex polygon (k, 2) in the world in m for the VRP in the bridge; empty does not limit it.
+        kept: Index of the first kept knot of the old plan, and the shift (2,) in m and delay in s of the kept knots.
 
     Returns:
-        The plan, and the DCM (2,) in m by which it jumps because the region does not let it be bridged.
+        The plan, and the DCM (2,) in m by which it jumps because the region limits the bridge.
     """
     (time, state), (first, shift, delay) = now, kept
     times, points, bridge = _with_bridge(knots, (time, state.vrp), window, plan.vrps[-1])
@@ -63,7 +61,7 @@ def bridged(
 def _with_bridge(
     knots: Knots, now: tuple[float, NDArray[np.float64]], window: tuple[float, float] | None, end: NDArray[np.float64]
 ) -> tuple[list[float], list[NDArray[np.float64]], list[int]]:
-    """Knots from now on with those of a bridge among them, and the indices of the two that may move."""
+    """Knots from now on including the bridge's, and the indices of the two that may move."""
     times, points = list(knots[0]), list(knots[1])
     head_times, head = [now[0]], [now[1]]
     bridge: list[int] = []
@@ -88,7 +86,7 @@ def _with_bridge(
 
 
 def _response(times: list[float], omega: float) -> float:
-    """DCM at the first of some knots by 1 m of VRP at the last two knots but one."""
+    """DCM at the first knot by 1 m of VRP at the last two knots but one."""
     dcm = 0.0
     vrp = [0.0] * (len(times) - 3) + [1.0, 1.0, 0.0]
     for i in range(len(times) - 2, -1, -1):

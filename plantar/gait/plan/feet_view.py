@@ -1,4 +1,4 @@
-"""Where the feet are commanded to be at one tick: what foot motion tells the others, as a value."""
+"""Commanded feet at one tick, as a value for the other parts."""
 
 from __future__ import annotations
 
@@ -25,10 +25,9 @@ class FeetView(Record, frozen=True):
         landed: Whether that foot has touched the ground.
         lift_off: Whether its swing begins at this tick.
         touchdown: Whether it touches the ground at this tick.
-        ahead: How far (2,) in m it still has to go horizontally, command frame.
-        surprise: How much higher in m than expected the ground is that it sees where it will land, or has met.
-        distance: Distance (n,) in m of its taxels from the ground as seen when it touched it; None where it does not
-            look.
+        ahead: Horizontal distance (2,) in m to its target, command frame.
+        surprise: Height in m of the ground that it sees or has met, less the expected one.
+        distance: Distance (n,) in m of its taxels from the ground at touchdown; None where none is measured.
     """
 
     footholds: Mapping[Side, tuple[NDArray[np.float64], float]]

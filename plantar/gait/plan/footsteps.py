@@ -61,8 +61,8 @@ def straight_plan(
 ) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
     """A straight walk: forward, backward, sideways or in place.
 
-    Every step puts its foot one step length ahead of the other foot; the last step closes, so that the feet end side
-    by side. In a sideways walk the leading foot opens by `sideways` and the other one closes up to it.
+    Every step puts its foot one step length ahead of the other foot; the last step closes. In a sideways walk the
+    leading foot opens by `sideways` and the other one follows.
 
     Args:
         steps: Number of steps, 0 or more; the last one closes.
@@ -71,7 +71,7 @@ def straight_plan(
         width: Distance in m of the sole frames' origins when the feet stand side by side.
         first: The foot that moves first; a sideways walk starts with the foot it moves towards.
         start: Pose (x, y, yaw) in m, m, rad of the midpoint between the feet at the start.
-        height: Height of the ground that the feet stand on in m.
+        height: Height of the ground in m.
 
     Returns:
         The standing feet at the start, and the steps in order.

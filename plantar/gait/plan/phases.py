@@ -1,4 +1,4 @@
-"""Walking state machine: which foot carries, which one swings, and when (T 4.16). Pure: no clock, no sensors inside."""
+"""Walking state machine: which foot carries, which one swings, and when (T 4.16)."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Phase:
         start: Time in s at which the phase begins.
         end: Time in s at which it ends (inf for the final standing).
         swing: The swing foot in single support, else None.
-        wait: Time in s, at the end of a single support, for which the foot has to be down already.
+        wait: Time in s before the end of a single support by which the foot has to be down.
     """
 
     kind: PhaseKind
@@ -69,13 +69,13 @@ class Phase:
 
     @property
     def touchdown(self) -> float:
-        """Time in s at which the swing foot of a single support is planned to touch the ground."""
+        """Time in s of the planned touchdown in a single support."""
         return self.end - self.wait if self.wait else self.end
 
 
 @dataclass(frozen=True)
 class WalkSchedule:
-    """Phases of a walk over time, one after another without gaps. A value: a change makes another schedule.
+    """Phases of a walk without gaps; a value: a change makes another schedule.
 
     Attributes:
         phases: The phases in order; the last one is the standing at the end.
@@ -137,12 +137,12 @@ class WalkSchedule:
         return self.phases[min(self.phases.index(phase) + 1, len(self.phases) - 1)]
 
     def delayed(self, phase: Phase, by: float, wait: float | None = None) -> WalkSchedule:
-        """A phase that ends later, or sooner, and all after it with it.
+        """Move the end of a phase, and all after it.
 
         Args:
             phase: One of `phases`.
-            by: How much later in s; negative: sooner.
-            wait: Time in s at its end for which the foot of a single support has to be down; as before where None.
+            by: Delay in s; negative: sooner.
+            wait: Time in s before its end by which the foot has to be down; unchanged where None.
 
         Returns:
             The schedule.
@@ -155,10 +155,10 @@ class WalkSchedule:
         return replace(self, phases=(*self.phases[:i], longer, *later))
 
     def followed_by(self, step: int, sides: Sequence[Side], time: float) -> WalkSchedule:
-        """Other steps after one, or none: then the walk ends with it.
+        """Replace the steps after one; with none the walk ends with it.
 
         A double support that has begun keeps its length; one that ended the walk is shortened or, once it has begun,
-        gives the weight time to come back; a robot that stands shifts its weight first, as at the beginning of a walk.
+        gives the weight time to return; a standing robot shifts its weight first.
 
         Args:
             step: Index of the last step that stays; -1 where none does.
@@ -188,12 +188,12 @@ class WalkSchedule:
         return replace(self, phases=(*self.phases[:i], *_walked(sides, first, phase.start, timing, length)))
 
     def since(self, time: float) -> WalkSchedule:
-        """The same without the phases that ended before a time in s."""
+        """The schedule without the phases that ended before a time in s."""
         return replace(self, phases=self.phases[self.index(time) :])
 
 
 def _walked(sides: Sequence[Side], step: int, time: float, timing: Timing, first: float) -> list[Phase]:
-    """Phases of some steps, from the double support before them on, and of the standing after them."""
+    """Phases of some steps, with the double support before them and the standing after them."""
     phases = []
     for k, side in enumerate(sides, step):
         length = first if k == step else timing.double_support
@@ -205,7 +205,7 @@ def _walked(sides: Sequence[Side], step: int, time: float, timing: Timing, first
 
 
 def _ending(steps: int, time: float, timing: Timing) -> list[Phase]:
-    """The last phases of a walk of some steps: the weight comes back between the feet, and the robot stands."""
+    """The last phases of a walk: the weight returns between the feet, and the robot stands."""
     phases = []
     if steps:
         phases.append(Phase(PhaseKind.DOUBLE_SUPPORT, steps, time, time + timing.end))

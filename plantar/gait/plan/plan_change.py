@@ -1,7 +1,7 @@
-"""What somebody wants of the plan of a walk, and what was made of it.
+"""Proposed and applied changes of a plan, as values.
 
-Whoever has a reason to change the plan returns a `PlanChange`; one place decides (`plantar.gait.propose.decide`) and
-the plan's owner applies it (`plantar.gait.plan.walk_plan`) and keeps a record. All of these are values.
+A proposer returns a `PlanChange`; `plantar.gait.propose.decide` selects one, and the plan's owner
+(`plantar.gait.plan.walk_plan`) applies and records it.
 """
 
 from __future__ import annotations
@@ -18,22 +18,20 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class PlanChange:
-    """A change of footsteps, timing and VRPs that somebody proposes. What is None stays as it is.
+    """A proposed change of footsteps, timing and VRPs. What is None stays.
 
     Attributes:
-        reason: Why, in a few words: it stands in the record, and the decision goes by it.
-        step: Index of the footstep that it is about.
-        foothold: Where that one comes to be.
-        vrp: VRP over it in m; its place in the sole where None and the foothold moves.
-        shift: By how much the footsteps after it move in m.
-        vrp_shift: By how much the VRPs over those move in m; as the footsteps where None.
-        following: The footsteps after it from now on; none ends the walk with it.
-        longer: By how much in s the current single support ends later (negative: sooner).
-        wait: For how long in s the foot is down by then; as before where None. A foot whose touchdown moves in time is
-            swung on accordingly.
-        resets: Whether the reference goes over to the changed plan at once, since the body is nearer to that, and not
-            by a bridge.
-        because: Reason in the record for the footsteps after it, where theirs is another one.
+        reason: Why, in a few words; recorded, and used by the decision.
+        step: Index of the footstep concerned.
+        foothold: Its new place.
+        vrp: VRP over it in m; at its place in the sole where None and the foothold moves.
+        shift: Move of the footsteps after it in m.
+        vrp_shift: Move of the VRPs over those in m; as the footsteps where None.
+        following: New footsteps after it; an empty tuple ends the walk with it.
+        longer: Delay in s of the end of the current single support (negative: sooner).
+        wait: Time in s before that end by which the foot has to be down; unchanged where None. The swing is retimed.
+        resets: Whether the reference jumps to the changed plan, which is nearer to the body, without a bridge.
+        because: Reason recorded for the footsteps after it, where it differs.
     """
 
     reason: str
@@ -51,15 +49,15 @@ class PlanChange:
 
 @dataclass(frozen=True)
 class MovedStep:
-    """A footstep that was planned anew at another place.
+    """A moved footstep.
 
     Attributes:
         step: Its index.
-        x: Where its sole's origin comes to be, forward, in m.
+        x: New place of its sole's origin, forward, in m.
         y: The same, left, in m.
         yaw: Heading in rad.
         reason: Why it was moved.
-        before: Where it was planned before; None for a new footstep.
+        before: Its place before; None for a new footstep.
     """
 
     step: int
@@ -72,14 +70,14 @@ class MovedStep:
 
 @dataclass(frozen=True)
 class AppliedChange:
-    """A change that the plan has taken over.
+    """A change that the plan has applied.
 
     Attributes:
         time: When in s.
         change: The change.
-        moved: The footsteps that it moved or added, with their old and new places.
-        gap: DCM in m by which the reference jumps, because the support polygon does not let it be bridged.
-        delay: By how much in s the next double support became longer, to bridge the rest.
+        moved: The footsteps that it moved or added.
+        gap: DCM in m by which the reference jumps, because the support polygon limits the bridge.
+        delay: Time in s by which the next double support became longer for the bridge.
     """
 
     time: float

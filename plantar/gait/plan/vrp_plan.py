@@ -1,18 +1,16 @@
-"""VRP plan: piecewise linear virtual repellent points, and the DCM and CoM that follow from them (T 4.9-4.16).
+"""VRP plan: piecewise linear virtual repellent points, and the resulting DCM and CoM (T 4.9-4.16).
 
-Between two knots the VRP p moves linearly (it stays during single support and moves to the next foot during double
-support). On such a segment of duration T the pendulum x'' = w^2 (x - p) and the DCM xi' = w (xi - p) have the closed
-solutions
+Between two knots the VRP p moves linearly. On a segment of duration T the pendulum x'' = w^2 (x - p) and the DCM xi' =
+w (xi - p) have the closed solutions
 
     xi(t) = p(t) + p'/w + A e^(w t)              x(t) = p(t) + A/2 e^(w t) + B e^(-w t)
 
-The DCM is unstable forward in time, so its waypoints run backward from the last knot (T 4.14 corrected:
-xi_i = r + e^(-w T) (xi_(i+1) - r) for a constant VRP), and each segment is evaluated from its END: A e^(w (t - T))
-never grows, whatever the length of the plan. The CoM is stable forward in time and runs forward, as far as it is asked
-for.
+The DCM is unstable forward in time, so its waypoints are computed backward from the last knot (T 4.14 corrected: xi_i =
+r + e^(-w T) (xi_(i+1) - r) for a constant VRP), and each segment is evaluated from its end: A e^(w (t - T)) never
+grows. The CoM is stable forward in time and computed forward, as far as requested.
 
-What a segment keeps, A e^(w T), depends on what comes after it only through the difference of waypoint and VRP. So a
-plan whose later knots move together, or are delayed, keeps it: `replanned` solves the new knots and no others.
+A segment's A e^(w T) depends on later knots only through the difference of waypoint and VRP. So a plan whose later
+knots move together, or are delayed, keeps it: `replanned` solves only the new knots.
 """
 
 from __future__ import annotations
@@ -102,7 +100,7 @@ class VrpPlan:
         self._end_offset = end_offset  # A e^(w T) of each segment
 
     def _solve(self, segments: int) -> None:
-        """Backward: rates, offsets and DCM waypoints of the first segments, from the waypoint at their end."""
+        """Backward pass: rates, offsets and DCM waypoints of the first segments, from the waypoint at their end."""
         omega, times = self.omega, self.times
         x, y = self.dcm_waypoints[segments].tolist()
         points = self.vrps[: segments + 1].tolist()
@@ -125,7 +123,7 @@ class VrpPlan:
         self._next_com = com  # at the start of the first segment that was not
 
     def _offset_of_com(self, segment: int) -> NDArray[np.float64]:
-        """Forward: B of a segment."""
+        """Forward pass: B of a segment."""
         while len(self._com_offset) <= segment:
             i = len(self._com_offset)
             decay = math.exp(-self.omega * (self.times[i + 1] - self.times[i]))
@@ -143,17 +141,17 @@ class VrpPlan:
         shift: ArrayLike = (0.0, 0.0),
         delay: float = 0.0,
     ) -> VrpPlan:
-        """A plan that goes on from this one over other knots.
+        """The plan continued over other knots; kept knots are not solved again.
 
         Args:
             times: Times (m,) of the new knots in s, strictly increasing; the first is now.
             vrps: VRP (m, 2) at each in m.
-            first: Index of the first knot of this plan that is kept after them; the number of knots keeps none.
-            shift: By how much (2,) in m the kept knots move.
-            delay: By how much in s they are delayed.
+            first: Index of the first kept knot of this plan; the number of knots keeps none.
+            shift: Move (2,) in m of the kept knots.
+            delay: Their delay in s.
 
         Returns:
-            The plan; its CoM starts where this plan's CoM is now. The kept knots cost nothing to solve.
+            The plan; its CoM starts at this plan's CoM now.
 
         Raises:
             InputError: If the knots are not finite, not increasing or of other shapes.

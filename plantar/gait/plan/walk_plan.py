@@ -1,11 +1,10 @@
 """The plan of a walk and its one owner: footsteps, timing and VRPs (T 4.1.3, steps 2 and 3; T 4.4.2).
 
-A VRP stands still over the stance foot in single support and moves on to the next foot in double support. Whoever wants
-the plan to be another one returns a `PlanChange`; `WalkPlan.apply` is the only thing that changes anything, and keeps a
-record of it. What the plan hands out are values: nobody else can move a footstep.
+The VRP stays over the stance foot in single support and moves to the next foot in double support. Proposers return a
+`PlanChange`; only `WalkPlan.apply` changes the plan, and records it. Everything handed out is a value.
 
-The plan goes on from where its DCM and CoM are: a sudden move of the DCM waypoint is bridged
-(`plantar.gait.plan.bridge`). Where the support polygon does not allow that, the double support is made longer.
+The plan continues from its present DCM and CoM: a sudden move of the DCM waypoint is bridged
+(`plantar.gait.plan.bridge`). Where the support polygon does not allow that, the double support becomes longer.
 """
 
 from __future__ import annotations
@@ -59,7 +58,7 @@ class PlannedStep:
     """A footstep with the VRP over it.
 
     Attributes:
-        foothold: Where the sole is planned to stand.
+        foothold: Planned pose of the sole.
         vrp: VRP (2,) over it in the world in m, read-only.
     """
 
@@ -72,13 +71,13 @@ class PlannedStep:
 
 @dataclass(frozen=True)
 class PlanView:
-    """The plan as it stands: a value that later changes leave alone.
+    """The plan now, as a value.
 
     Attributes:
-        first: Index of the first step that is kept; 0 but for a walk without an end.
+        first: Index of the first kept step; above 0 only in a walk without an end.
         steps: The steps from that one on.
         schedule: The phases.
-        standing: VRP (2,) over each foot in m before the first step that is kept.
+        standing: VRP (2,) over each foot in m before the first kept step.
         last: The change that was applied last.
     """
 
@@ -90,11 +89,11 @@ class PlanView:
 
     @property
     def count(self) -> int:
-        """Number of steps of the walk from its beginning to its end as planned."""
+        """Number of steps of the whole walk."""
         return self.first + len(self.steps)
 
     def foothold(self, step: int) -> Footstep:
-        """Where a step puts its foot."""
+        """Planned pose of a step's foot."""
         return self.steps[step - self.first].foothold
 
     def vrp(self, step: int) -> NDArray[np.float64]:
@@ -102,7 +101,7 @@ class PlanView:
         return self.steps[step - self.first].vrp
 
     def vrp_before(self, step: int, side: Side) -> NDArray[np.float64]:
-        """VRP over a foot before a step is taken.
+        """VRP over a foot before a step.
 
         Args:
             step: Index of the step.
@@ -117,11 +116,11 @@ class PlanView:
         return self.standing[side]
 
     def stance_vrp(self, step: int) -> NDArray[np.float64]:
-        """VRP (2,) in m over the foot that carries while a step is taken."""
+        """VRP (2,) in m over the carrying foot of a step."""
         return self.vrp_before(step, other_side(self.foothold(step).side))
 
     def middle(self, step: int) -> NDArray[np.float64]:
-        """Point (2,) in m between the feet's VRPs before a step is taken."""
+        """Midpoint (2,) in m of the feet's VRPs before a step."""
         return np.asarray(0.5 * (self.vrp_before(step, "left") + self.vrp_before(step, "right")))
 
     def knots(self, time: float, last: int) -> tuple[list[float], list[NDArray[np.float64]]]:
@@ -155,7 +154,7 @@ class WalkPlan:
     """Footsteps, timing and VRPs of a walk.
 
     Args:
-        feet: Where the feet stand at the start.
+        feet: Poses of the feet at the start.
         steps: The footsteps in order.
         timing: The durations.
         vrp_in_sole: VRP (2,) in each sole's frame in m, usually the sole's centroid.
@@ -192,12 +191,12 @@ class WalkPlan:
 
     @property
     def view(self) -> PlanView:
-        """The plan as it stands."""
+        """The plan now, as a value."""
         return self._view
 
     @property
     def schedule(self) -> WalkSchedule:
-        """The phases as they stand."""
+        """The phases."""
         return self._view.schedule
 
     @property
@@ -207,7 +206,7 @@ class WalkPlan:
 
     @property
     def record(self) -> tuple[AppliedChange, ...]:
-        """The changes that were applied, the last thousand of them."""
+        """The last thousand applied changes."""
         return tuple(self._record)
 
     def at(self, time: float) -> LipReference:
@@ -219,7 +218,7 @@ class WalkPlan:
         return reference
 
     def dcm_after(self, phase: Phase) -> NDArray[np.float64]:
-        """Where the plan has the DCM (2,) in m at the end of one of its phases."""
+        """Planned DCM (2,) in m at the end of one of its phases."""
         end, vrps, dcm = self._next
         if end != phase.end or vrps is not self._vrps:  # asked at each tick of the phase
             dcm = self._vrps.at(phase.end).dcm
@@ -228,24 +227,23 @@ class WalkPlan:
 
     @property
     def end(self) -> NDArray[np.float64]:
-        """Where the CoM comes to rest (2,) in m."""
+        """Final CoM (2,) in m."""
         return np.asarray(self._vrps.vrps[-1])
 
     def apply(self, change: PlanChange, time: float, region: NDArray[np.float64]) -> AppliedChange:
         """Change the plan from now on.
 
         Args:
-            change: What shall change.
+            change: The change.
             time: Now in s.
-            region: Convex polygon (k, 2) in the world in m in which the VRP may be while it bridges: in what is left of
-                the single support where that is enough, else in the double support that follows; counter-clockwise,
-                empty does not limit it.
+            region: Convex polygon (k, 2) in the world in m, counter-clockwise, for the VRP in a bridge: in the rest of
+                the single support where that is enough, else in the double support after it; empty does not limit it.
 
         Returns:
-            What it did, as it stands in the record.
+            What it did, as recorded.
 
         Raises:
-            InputError: If the change is about a step that the plan does not have, or ends a phase before it begins.
+            InputError: If the change concerns a step that the plan does not have, or ends a phase before it begins.
         """
         before = self._view
         if not before.first <= change.step < max(before.count, 1) and change.following is None:
@@ -266,7 +264,7 @@ class WalkPlan:
         return PlannedStep(step, vrp_of_step(step, self._vrp_in_sole[step.side]))
 
     def _changed(self, change: PlanChange, time: float) -> PlanView:
-        """The plan's footsteps, VRPs and phases with a change."""
+        """Footsteps, VRPs and phases after a change."""
         view = self._view
         steps, schedule, k = list(view.steps), view.schedule, change.step - view.first
         if change.following is not None:
@@ -295,8 +293,7 @@ class WalkPlan:
         region: NDArray[np.float64],
         shift: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], float]:
-        """Solve the VRPs anew, bridged; the DCM (2,) in m that stays unbridged, and how much longer a double support
-        becomes for it in s."""
+        """Solve the bridged VRPs; the DCM (2,) in m that stays unbridged, and the extension of a double support in s."""
         step, phase, beat = change.step, self.schedule.at(time), self._body.beat
         anew = change.following is not None
         if change.longer is not None or anew:
@@ -319,7 +316,7 @@ class WalkPlan:
         region: NDArray[np.float64],
         shift: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], float]:
-        """Bridge in a double support, which becomes longer where the region leaves no room."""
+        """Bridge in a double support, which is extended where the region leaves no room."""
         window, delay, old = (max(time, phase.start), phase.end), 0.0, self._vrps
         while True:
             self._vrps = old
@@ -363,7 +360,7 @@ class WalkPlan:
         return gap
 
     def _forget(self, time: float) -> None:
-        """Forget what lies far behind, in a walk without an end."""
+        """Drop what lies far behind, in a walk without an end."""
         view = self._view
         first = max(view.first, min(view.schedule.at(time).step - _REMEMBERED, view.count))
         gone = view.steps[: first - view.first]
