@@ -293,7 +293,7 @@ class WalkPlan:
         region: NDArray[np.float64],
         shift: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], float]:
-        """Solve the bridged VRPs; the DCM (2,) in m that stays unbridged, and the extension of a double support in s."""
+        """Solve the bridged VRPs; the DCM (2,) in m left unbridged, and the extension of a double support in s."""
         step, phase, beat = change.step, self.schedule.at(time), self._body.beat
         anew = change.following is not None
         if change.longer is not None or anew:
