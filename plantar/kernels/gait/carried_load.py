@@ -1,7 +1,4 @@
-"""Kernel of what the taxels of a foot have carried since it touched down.
-
-Plain Python that also compiles ahead of time (`carried_load.pxd` gives the C types).
-"""
+"""Kernel of the loads that the taxels of a foot have carried since touchdown (C types: `carried_load.pxd`)."""
 
 from __future__ import annotations
 
@@ -11,14 +8,14 @@ _INFINITE = float("inf")
 
 
 def take_in(force, forgetting, share, total, mean):
-    """Take a reading into the running sum and mean; a dead taxel is one without load. Exactly the formulas.
+    """Add a reading (n,) in N to the running `total` and `mean` (n,), in place; values that are not finite count as 0.
 
     Args:
-        force: Normal forces (n,) in N; what is not finite counts as 0.
-        forgetting: Share of the old in the running sum.
-        share: Share of the new in the running mean.
-        total: The running sum (n,) in N, which is changed.
-        mean: The running mean (n,) in N, which is changed.
+        force: Normal forces (n,) in N.
+        forgetting: Share of the old value in the running sum.
+        share: Share of the new value in the running mean.
+        total: The running sum (n,) in N.
+        mean: The running mean (n,) in N.
     """
     for i in range(force.shape[0]):
         new = force[i] if -_INFINITE < force[i] < _INFINITE else 0.0
@@ -31,10 +28,10 @@ def mark_carried(mean, near, least, beside, carried):
 
     Args:
         mean: Running means (n,) in N.
-        near: Numbers (n, k) of each taxel's neighbours, -1 where it has fewer.
+        near: Indices (n, k) of each taxel's neighbours, -1 where it has fewer.
         least: The force in N.
         beside: The share.
-        carried: Mask (n,) of the taxels that have carried, to which those are added.
+        carried: Mask (n,) of marked taxels, updated in place.
     """
     for i in range(mean.shape[0]):
         around = 0.0

@@ -1,7 +1,6 @@
-"""Kernel of the DCM feedback: where the desired ZMP lies, and how the CoM reference yields to the ZMP's error.
+"""Kernel of the DCM feedback: desired ZMP, and admittance of the CoM reference (C types: `dcm_feedback.pxd`).
 
-Plain Python that also compiles ahead of time (`dcm_feedback.pxd` gives the C types). `plantar.gait.balance` says where
-each equation comes from, and which law has which part.
+`plantar.gait.balance` gives the equations' sources.
 """
 
 from __future__ import annotations
@@ -20,14 +19,14 @@ class ComAdmittance:
     """Offset of the CoM reference from the plan (T 4.29).
 
     Args:
-        zmp_gain: k_f in 1/s: how fast the CoM reference yields to a ZMP error.
-        com_gain: k_x in 1/s: how fast it returns to the plan.
-        zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
+        zmp_gain: k_f in 1/s: rate at which the CoM reference yields to a ZMP error.
+        com_gain: k_x in 1/s: rate at which it returns to the plan.
+        zmp_filter: Time constant in s of the low-pass on the ZMP error.
         period: Control period in s.
-        largest: Length in m that the offset does not exceed, however large gains and errors are.
+        largest: Largest length of the offset in m.
 
     Attributes:
-        x: Offset of the CoM reference from the plan along x in m.
+        x: Offset along x in m.
         y: The same along y.
         rate_x: Its rate along x in m/s.
         rate_y: The same along y.
@@ -44,19 +43,15 @@ class ComAdmittance:
 
     @property
     def offset(self):
-        """Offset (2,) of the CoM reference from the plan in m."""
+        """The offset (2,) in m."""
         return vectors.vector2(self.x, self.y)
 
     def update(self, error):
-        """One control tick.
-
-        Args:
-            error: Measured less desired ZMP (2,) in m; zeros where no foot carries load.
-        """
+        """Advance by a tick with a ZMP error (2,) in m, measured less desired; zeros where no foot is loaded."""
         self.follow(error[0], error[1])
 
     def follow(self, x, y):
-        """The same with plain numbers."""
+        """As `update`, with plain numbers."""
         # Keeps the noise of the taxels out of the CoM's reference.
         self.error_x += self.share * (x - self.error_x)
         self.error_y += self.share * (y - self.error_y)
@@ -71,17 +66,17 @@ class ComAdmittance:
 
 
 class DcmFeedback:
-    """Decides on ZMP and CoM at each tick.
+    """Desired ZMP and CoM reference at each tick.
 
     Args:
         omega: Pendulum frequency in rad/s.
         gain: k_xi of T 4.28 in 1/s.
-        integral: Gain in 1/s of the integral of the DCM error, rate in 1/s at which it forgets, and its largest part in
-            m in the desired ZMP.
+        integral: Gain in 1/s of the integral of the DCM error, its decay rate in 1/s, and its largest contribution in
+            m.
         period: Control period in s.
         admittance: Offset of the CoM reference.
         yields: Whether the offset follows the ZMP's error.
-        after: Whether the CoM is to be accelerated from where the offset has it after this tick, or before.
+        after: Whether the acceleration uses the offset after this tick, or before.
     """
 
     def __init__(self, omega, gain, integral, period, admittance, yields, after):
@@ -95,14 +90,14 @@ class DcmFeedback:
         self.integral_x = self.integral_y = 0.0
 
     def desired(self, vrp, planned, dcm, region):
-        """Desired ZMP p_d = p_r + (1 + k_xi / w) (xi - xi_r) (T 4.28), with the integral, kept in a region
-        (T Algorithm 1).
+        """Desired ZMP p_d = p_r + (1 + k_xi / w) (xi - xi_r) (T 4.28), with the integral, kept in a region (T Algorithm
+        1).
 
         Args:
             vrp: Planned VRP p_r (2,) in m.
             planned: Planned DCM xi_r (2,) in m.
             dcm: Measured DCM xi (2,) in m.
-            region: Convex polygon (k, 2) in m; empty leaves it free.
+            region: Convex polygon (k, 2) in m; empty does not limit it.
 
         Returns:
             The desired ZMP (2,) in m.
@@ -111,20 +106,19 @@ class DcmFeedback:
         return vectors.vector2(x, y)
 
     def decide(self, vrp, planned, com, com_velocity, dcm, zmp, region):
-        """One control tick.
+        """Advance by one control tick.
 
         Args:
             vrp: Planned VRP (2,) in m.
             planned: Planned DCM (2,) in m.
             com: Planned CoM (2,) in m.
-            com_velocity: Planned velocity (2,) of the CoM in m/s.
+            com_velocity: Its velocity (2,) in m/s.
             dcm: Measured DCM (2,) in m.
-            zmp: Measured ZMP (2,) in m; None where no foot carries load.
-            region: Where the desired ZMP has to lie, as of `desired`.
+            zmp: Measured ZMP (2,) in m; None where no foot is loaded.
+            region: As in `desired`.
 
         Returns:
-            Desired ZMP (2,) in m; reference of the CoM (2,) in m, its velocity in m/s; and the acceleration in m/s^2
-            that the desired ZMP asks for.
+            Desired ZMP (2,) in m; CoM reference (2,) in m, its velocity in m/s and acceleration in m/s^2.
         """
         offset, at, velocity = self.admittance, memory.values(com), memory.values(com_velocity)
         x, y = self._desired(memory.values(vrp), memory.values(planned), memory.values(dcm), region, True)
@@ -162,6 +156,6 @@ class DcmFeedback:
         return px, py
 
     def _integrated(self, integral, error):
-        """One coordinate of the integral after a tick with an error of the DCM in m; it forgets, and is limited."""
+        """One coordinate of the decaying, limited integral after a tick with a DCM error in m."""
         moved = integral + self.period * (self.integral_gain * error - self.forgetting * integral)
         return min(max(moved, -self.largest), self.largest)

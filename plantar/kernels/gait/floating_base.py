@@ -1,8 +1,6 @@
-"""The kernel of a floating base that is estimated from leg kinematics, IMU and what the soles carry.
+"""Kernel of the floating base: from leg kinematics, IMU and the soles' loads (C types: `floating_base.pxd`).
 
-Plain Python that also compiles ahead of time (`floating_base.pxd` gives the C types).
-`plantar.gait.estimate.estimator` is the public face: it says where each equation comes from. Feet are numbered in the
-order of `plantar.sides.SIDES`.
+`plantar.gait.estimate.estimator` gives the equations. Feet are numbered in the order of `plantar.sides.SIDES`.
 """
 
 from __future__ import annotations
@@ -22,23 +20,22 @@ _NONE = float("nan")
 
 
 class FloatingBase:
-    """A base that turns with the gyro, moves as the feet that carry say, and the velocity of its CoM.
+    """A base that turns with the gyro and moves with the carrying feet, and the velocity of its CoM.
 
-    The arrays of its state belong to the caller, who reads them after each tick; this object keeps them and writes
-    them.
+    The state's arrays belong to the caller; this object writes them.
 
     Args:
         omega: Pendulum frequency in rad/s.
         period: Control period in s.
         gravity: Acceleration of gravity in m/s^2.
         gains: Averaging in s, correction of tilt and of heading in 1/s, bandwidth of the observer in rad/s, and least
-            load in N, as of `EstimatorGains`.
-        state: Arrays that receive the rotation (3, 3) from the base frame to the world, the base position (3,) in m,
-            the CoM (3,) in m, its velocity (3,) in m/s, the origin of each sole frame (2, 3) in the world in m, the
-            rotation (2, 3, 3) from each sole frame to the world, the composite ZMP (2,) in m, NaN without load, and
-            the angle (3,) in the base frame in rad by which soles that stand still say the base has turned.
-        bias: `gyro_bias.GyroBias` that identifies the gyro's bias; None takes the gyro at its word.
-        steady: `SteadyLoad` that tells which feet stand still for that; None takes all that are loaded.
+            load in N (`EstimatorGains`).
+        state: Arrays for the rotation (3, 3) from base to world, base position (3,) in m, CoM (3,) in m and its
+            velocity (3,) in m/s, origin of each sole frame (2, 3) in the world in m, rotation (2, 3, 3) from each sole
+            to the world, composite ZMP (2,) in m (NaN without load), and turn (3,) of the base in rad by the still
+            soles.
+        bias: `gyro_bias.GyroBias`; None disables bias correction.
+        steady: `SteadyLoad` that selects the feet for it; None takes all loaded ones.
     """
 
     def __init__(self, omega, period, gravity, gains, state, bias=None, steady=None):
@@ -59,7 +56,7 @@ class FloatingBase:
         self.watch(*np.zeros((3, 3)), *np.zeros((2, 3, 3)))
 
     def watch(self, com, left, right, turn_left, turn_right):
-        """Keep the arrays of a posture: `take` reads them at each tick, whoever writes them.
+        """Keep the arrays of a posture, which `take` reads at each tick.
 
         Args:
             com: CoM (3,) in the base frame in m.
@@ -72,7 +69,7 @@ class FloatingBase:
         self.turn_left_now, self.turn_right_now = turn_left, turn_right
 
     def take(self):
-        """Take in the posture of this tick; that of the tick before is kept beside it."""
+        """Read the posture of this tick; the one before is kept."""
         com, left, right = self.com_now, self.left_now, self.right_now
         turn_left, turn_right = self.turn_left_now, self.turn_right_now
         places, turns = self.places_in_base, self.turns_in_base
@@ -87,13 +84,8 @@ class FloatingBase:
                 turns[0, 0, i, j], turns[0, 1, i, j] = turn_left[i, j], turn_right[i, j]
 
     def stand(self, rotation, position, heading_left, heading_right):
-        """Stand somewhere with the posture that was taken in last.
-
-        Args:
-            rotation: Rotation (3, 3) from the base frame to the world.
-            position: Base position (3,) in m.
-            heading_left: Heading of the left foot in rad.
-            heading_right: The same of the right one.
+        """Place the base, with the last posture: rotation (3, 3) to the world, position (3,) in m, headings of the feet
+        in rad.
         """
         for i in range(3):
             self.position[i] = position[i]
@@ -105,12 +97,12 @@ class FloatingBase:
         self.headings[0], self.headings[1] = heading_left, heading_right
 
     def rest(self):
-        """The robot has not moved: its velocity is nothing, and its heading is right."""
+        """Zero velocity, correct heading: the robot has not moved."""
         self.velocity[0] = self.velocity[1] = self.velocity[2] = 0.0
         self.astray = 0.0
 
     def carry(self, side, load, pressed, x, y):
-        """Take in what a foot carries at this tick, which all that follows goes by.
+        """Set the load of a foot at this tick.
 
         Args:
             side: The foot.
@@ -123,17 +115,17 @@ class FloatingBase:
         self.cops[side, 0], self.cops[side, 1] = x, y
 
     def follow(self, gyro_x, gyro_y, gyro_z, specific_x, specific_y, specific_z, planned_x, planned_y):
-        """Take in the posture of this tick, and turn and move the base by the tick.
+        """Read the posture of this tick, and turn and move the base.
 
         Args:
-            gyro_x: Angular velocity about the base's x in rad/s, as measured.
-            gyro_y: The same about y.
-            gyro_z: The same about z.
-            specific_x: Specific force along the base's x in m/s^2.
-            specific_y: The same along y.
-            specific_z: The same along z.
-            planned_x: Acceleration of the CoM along the world's x in m/s^2 that the plan asks for.
-            planned_y: The same along y.
+            gyro_x: Angular velocity about the base's x in rad/s, as measured; likewise `gyro_y`, `gyro_z`.
+            gyro_y: See `gyro_x`.
+            gyro_z: See `gyro_x`.
+            specific_x: Specific force along the base's x in m/s^2; likewise `specific_y`, `specific_z`.
+            specific_y: See `specific_x`.
+            specific_z: See `specific_x`.
+            planned_x: Planned acceleration of the CoM along the world's x in m/s^2; likewise `planned_y`.
+            planned_y: See `planned_x`.
 
         Returns:
             The ZMP, as `place`.
@@ -154,7 +146,7 @@ class FloatingBase:
         return self.place()
 
     def _identify(self, gyro_x, gyro_y, gyro_z):
-        """Hold the gyro against the feet that stand still."""
+        """Compare the gyro with the still feet."""
         left = max(0.0, self.loads[0] - self.minimum_load)
         right = max(0.0, self.loads[1] - self.minimum_load)
         steady, stood = self.steady, self.stood
@@ -166,14 +158,10 @@ class FloatingBase:
         self.bias.update(gyro_x, gyro_y, gyro_z, stands, stood[0], stood[1], stood[2], both)
 
     def stand_still(self, weight_left, weight_right):
-        """How soles that stand still say the base has turned in this tick: sin a of R_s(k-1) R_s(k)^T, weighted.
-
-        Args:
-            weight_left: Weight of the left foot; 0 or less for one that does not stand still.
-            weight_right: The same of the right one.
+        """Turn of the base in this tick by still soles: sin a of R_s(k-1) R_s(k)^T, weighted (0 or less: not still).
 
         Returns:
-            Whether one does; the angle is zero where none does.
+            Whether a foot is still; else the angle is zero.
         """
         turns, stood = self.turns_in_base, self.stood
         total = sx = sy = sz = 0.0
@@ -202,9 +190,9 @@ class FloatingBase:
         Args:
             rate: Angular velocity (3,) in the base frame in rad/s, less the gyro's bias.
             accelerometer: Specific force (3,) in the base frame in m/s^2.
-            planned: Horizontal acceleration (2,) of the CoM in m/s^2 that the plan asks for; None for none.
-            by_legs: Whether the heading goes by `missed`, as where the gyro's bias is identified; else by the feet.
-            missed: Angle (3,) in the base frame in rad by which the legs turned more than the gyro said; None for none.
+            planned: Planned horizontal acceleration (2,) of the CoM in m/s^2; None for none.
+            by_legs: Whether the heading is corrected by `missed` (with an identified bias) or by the feet.
+            missed: Angle (3,) in the base frame in rad by which the legs turned more than the gyro; None for none.
         """
         rotation, specific, vector, before = self.rotation, self.other, self.vector, self.before
         rx, ry, rz = rate[0], rate[1], rate[2]
@@ -248,7 +236,7 @@ class FloatingBase:
         rotations.orthonormalise(self.matrix, self.work, rotation)
 
     def _heading_error(self):
-        """How far in rad the heading is ahead of that which each foot had when it came to carry."""
+        """Heading in rad ahead of that which each foot had at touchdown."""
         rotation, headings, turns = self.rotation, self.headings, self.turns_in_base
         total = error = 0.0
         for side in range(2):
@@ -271,7 +259,7 @@ class FloatingBase:
         return error / total if total > 0.0 else 0.0
 
     def move(self):
-        """Move the base by one tick, as the feet that carry say."""
+        """Move the base by one tick with the carrying feet."""
         sx = sy = sz = total = 0.0
         before, now, vector, other, cops = self.before, self.rotation, self.vector, self.other, self.cops
         for side in range(2):
@@ -307,13 +295,13 @@ class FloatingBase:
             out[i] = places[past, side, i] + turns[past, side, i, 0] * x + turns[past, side, i, 1] * y
 
     def place(self):
-        """Where the soles are in the world, and the ZMP of what they carry.
+        """Compute the soles' poses in the world and the ZMP of their loads.
 
         Returns:
-            The ZMP in a new array (2,) in m; None where they carry nothing.
+            The ZMP (2,) in m, a new array; None without load.
 
         Raises:
-            InputError: If what they carry, or where, is not finite.
+            InputError: If a load or its place is not finite.
         """
         loads, cops = self.loads, self.cops
         rotation, position, places, turns = self.rotation, self.position, self.places, self.turns
@@ -339,12 +327,11 @@ class FloatingBase:
         return vectors.vector2(x, y)
 
     def snapshot(self):
-        """The state in new arrays, which stay as they are.
+        """Copies of the state.
 
         Returns:
-            Rotation (3, 3) from the base frame to the world, base position (3,) in m, CoM (3,) in m, its velocity (3,)
-            in m/s, origin (3,) of the left sole frame and of the right one in the world in m, rotation (3, 3) from the
-            left sole frame to the world and from the right one.
+            Rotation (3, 3) from base to world, base position (3,) in m, CoM (3,) in m, its velocity (3,) in m/s,
+            origins (3,) of the left and right sole frames in the world in m, and their rotations (3, 3) to the world.
         """
         places, turns = self.places, self.turns
         return (
@@ -359,7 +346,7 @@ class FloatingBase:
         )
 
     def observe(self, push_x, push_y):
-        """Observe CoM and its velocity for one tick, with the acceleration in m/s^2 that a push gives."""
+        """Observe CoM and its velocity for one tick, with the acceleration in m/s^2 by a push."""
         com, velocity, zmp, period = self.com, self.velocity, self.zmp, self.period
         # Gains 2 b and b^2: with the pendulum's own fall the observer's poles lie at -b +- omega.
         near = min(1.0, 2.0 * self.bandwidth * period)

@@ -1,7 +1,6 @@
-"""Kernel of a gyro's bias by feet that stand still, and of which feet do.
+"""Kernel of `plantar.gait.estimate.gyro_bias` and `plantar.gait.estimate.steady_load`.
 
-`plantar.gait.estimate.gyro_bias` and `plantar.gait.estimate.steady_load` are the public faces: they say what is
-compared, and why. Feet are numbered in the order of `plantar.sides.SIDES`.
+Feet are numbered in the order of `plantar.sides.SIDES`.
 """
 
 from __future__ import annotations
@@ -12,15 +11,15 @@ _INFINITE = float("inf")
 
 
 class SteadyLoad:
-    """Compares what each of two feet carries with what both do, and with its own running mean.
+    """Compares each foot's load with the total and with its own running mean.
 
     Args:
-        share: Share of what both feet carry from which one stands still; the other one then does not.
+        share: Share of the total load from which a foot is still; the other one then is not.
         follow: Share of a new load in the running mean.
-        band: Largest difference in N of load and mean of a foot that stands still beside the other one.
+        band: Largest difference in N of load and mean of a still foot.
 
     Attributes:
-        left: What the left foot carries in N, 0 where it may turn.
+        left: Load of the left foot in N, 0 where it may turn.
         right: The same of the right one.
     """
 
@@ -30,12 +29,7 @@ class SteadyLoad:
         self.mean_left = self.mean_right = self.left = self.right = 0.0
 
     def update(self, left, right):
-        """One control tick.
-
-        Args:
-            left: What the left foot carries in N; 0 where it does not count as loaded.
-            right: The same of the right one.
-        """
+        """Advance by a tick with the loads of both feet in N, 0 for an unloaded one."""
         if not self.begun:
             self.begun = True
             self.mean_left, self.mean_right = left, right
@@ -51,24 +45,24 @@ class SteadyLoad:
 
 
 class GyroBias:
-    """Mean of what a gyro measures beyond the turn of the legs, piece by piece.
+    """Mean difference of a gyro and the turn of the legs, piece by piece.
 
-    The arrays of its results belong to the caller; this object keeps them and writes them.
+    The results' arrays belong to the caller; this object writes them.
 
     Args:
         period: Control period in s.
-        least: What a tick weighs at least in the mean, of everything that it knows.
+        least: Least weight of a tick in the mean.
         largest: Largest bias of an axis in rad/s.
         most_ticks: Ticks of a piece.
-        slip: Angle in rad about z that noise leaves at most in a piece.
-        one_foot: What a tick counts in which one foot stands still, of one in which both do.
-        known: Worth of what has been gathered from which a slip can be told from a bias.
+        slip: Largest angle in rad about z by which noise differs in a piece.
+        one_foot: Weight of a tick with one still foot, relative to one with two.
+        known: Gathered weight from which a slip can be told from a bias.
         value: Receives the bias (3,) in the base frame in rad/s.
-        missed: Receives the angle (3,) in the base frame in rad by which the legs turned more than the gyro says, less
-            its bias, in the piece that has ended.
+        missed: Receives the angle (3,) in the base frame in rad by which the legs turned more than the corrected gyro,
+            in the piece that has ended.
 
     Attributes:
-        concluded: Whether a piece has ended at the last tick.
+        concluded: Whether a piece ended at the last tick.
     """
 
     def __init__(self, period, least, largest, most_ticks, slip, one_foot, known, value, missed):
@@ -80,22 +74,22 @@ class GyroBias:
         self._begin()
 
     def _begin(self):
-        """A piece begins."""
+        """Begin a piece."""
         self.x = self.y = self.z = self.worth = 0.0  # how far the gyro turned beyond the legs in rad
         self.ticks = 0
 
     def update(self, gyro_x, gyro_y, gyro_z, stands, turn_x, turn_y, turn_z, both):
-        """One control tick.
+        """Advance by one control tick.
 
         Args:
-            gyro_x: Angular velocity of the base about its own x in rad/s, as measured.
-            gyro_y: The same about y.
-            gyro_z: The same about z.
-            stands: Whether a foot stands still.
-            turn_x: Angle about the base's x in rad by which feet that stand still say it has turned in the tick.
-            turn_y: The same about y.
-            turn_z: The same about z.
-            both: Whether both feet stand still.
+            gyro_x: Measured angular velocity of the base about its own x in rad/s; likewise `gyro_y`, `gyro_z`.
+            gyro_y: See `gyro_x`.
+            gyro_z: See `gyro_x`.
+            stands: Whether a foot is still.
+            turn_x: Turn of the base about its x in rad by the still feet; likewise `turn_y`, `turn_z`.
+            turn_y: See `turn_x`.
+            turn_z: See `turn_x`.
+            both: Whether both feet are still.
         """
         self.concluded = False
         if stands:
@@ -108,7 +102,7 @@ class GyroBias:
             self._conclude()
 
     def _conclude(self):
-        """A piece has ended: take it in."""
+        """Take in a piece that has ended."""
         duration = self.ticks * self.period
         first = self.gathered < self.known
         self.gathered += self.worth

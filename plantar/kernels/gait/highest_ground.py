@@ -1,7 +1,4 @@
-"""Kernel of the plane through the highest ground under a swinging sole.
-
-Plain Python that also compiles ahead of time (`highest_ground.pxd` gives the C types).
-"""
+"""Kernel of the plane through the highest ground under a swinging sole (C types: `highest_ground.pxd`)."""
 
 from __future__ import annotations
 
@@ -22,21 +19,20 @@ _IN_A_ROW = 0.02  # share of the product of the variances below which the points
 def highest_plane(x, y, distance, readings, noise, least, used, plane):
     """Fit the plane z = -level + sx x + sy y through the highest ground that the taxels of a sole see.
 
-    Least squares, each point with as much weight as it has readings behind it. While the plane leaves out ground that
-    is higher than it by more than the noise explains, the fit is repeated with the points above it, and then without
-    those that lie below it by more. What is left is few, and of its noise the upper part: so the plane that is found is
-    fitted again to all points that the noise may have moved off it, as long as that leaves none out above. Reference:
-    the same in numpy, with its least-squares solver; the error is below 1e-12 of the largest distance.
+    Least squares, weighted by readings. While ground is higher than the plane by more than noise explains, the fit is
+    repeated with the points above it, then without those far below it. The plane that is found is fitted again to all
+    points within the noise, as long as none is left out above. Error against the same in numpy: below 1e-12 of the
+    largest distance.
 
     Args:
         x: Taxels (n,) in the sole frame in m.
         y: The same.
-        distance: Distances (n,) of the ground from them in m; inf or NaN where nothing is seen.
-        readings: Number of readings (n,) that each is the mean of, 1 or more.
+        distance: Distances (n,) of the ground from them in m; inf or NaN where none is seen.
+        readings: Number of readings (n,) behind each, 1 or more.
         noise: Standard deviation of a reading in m.
-        least: Points that the cuts have to leave for the plane to be fitted again: on a few of a small block a plane
-            would find more on the ground beside it.
-        used: Receives 1 for the points (n,) on the plane, or, where there is none, for those that were left; else 0.
+        least: Least number of remaining points for the second fit: on a few points of a small block it would include
+            the ground next to it.
+        used: Receives 1 for the points (n,) on the plane or, without one, for the remaining points; else 0.
         plane: Receives level in m, sx and sy (3,).
 
     Returns:
@@ -84,7 +80,7 @@ def highest_plane(x, y, distance, readings, noise, least, used, plane):
 
 
 def _above(x, y, distance, plane, i):
-    """How much higher in m than the plane the ground is under a taxel."""
+    """Height in m of the ground under a taxel above the plane."""
     return plane[0] - plane[1] * x[i] - plane[2] * y[i] - distance[i]
 
 
@@ -94,7 +90,7 @@ def _explained(noise, readings):
 
 
 def _fit(x, y, distance, readings, used, plane):
-    """Weighted least squares; the plane stays as it is where there is none, and the result is False."""
+    """Weighted least squares; False, with the plane unchanged, where there is none."""
     count = 0
     whole = mx = my = md = 0.0
     for i in range(x.shape[0]):

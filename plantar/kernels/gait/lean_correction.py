@@ -1,8 +1,4 @@
-"""The kernel that keeps a swing foot where it is wanted in the world while the body leans.
-
-Plain Python that also compiles ahead of time (`lean_correction.pxd` gives the C types).
-`plantar.gait.feet.posture_compensation` is the public face, with the equation.
-"""
+"""Kernel of `plantar.gait.feet.posture_compensation`: keeps a swing foot in place while the body leans."""
 
 from __future__ import annotations
 
@@ -15,15 +11,7 @@ __all__ = ["correct", "headed", "turned"]
 
 
 def headed(rotation, yaw):
-    """A rotation with another heading: turned about the vertical until its x axis points there, seen from above.
-
-    Args:
-        rotation: Rotation (3, 3) to the world.
-        yaw: The heading in rad.
-
-    Returns:
-        A new rotation (3, 3), its product with the turn summed as BLAS does (`fused`).
-    """
+    """A rotation (3, 3) to the world, turned about the vertical to a heading in rad (summed as BLAS does, `fused`)."""
     r, made = memory.values(rotation), memory.new_matrix(3, 3)
     out = memory.room(made)
     angle = yaw - math.atan2(r[3], r[0])
@@ -37,15 +25,7 @@ def headed(rotation, yaw):
 
 
 def turned(turn, rotation):
-    """A rotation after a turn.
-
-    Args:
-        turn: Rotation vector (3,) in rad.
-        rotation: Rotation (3, 3) to the frame of the turn.
-
-    Returns:
-        A new rotation (3, 3), summed likewise.
-    """
+    """A rotation (3, 3) after a turn by a rotation vector (3,) in rad, summed likewise."""
     t, r, made = memory.values(turn), memory.values(rotation), memory.new_matrix(3, 3)
     out = memory.room(made)
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations._exponential(t[0], t[1], t[2])
@@ -64,19 +44,19 @@ def correct(
     """One control tick of the correction's low pass.
 
     Args:
-        position: Wanted sole position (3,) in the command frame in m.
+        position: Desired sole position (3,) in the command frame in m.
         place: The same point in the world frame in m.
         com_command: CoM reference (3,) in the command frame in m.
         com_estimated: Estimated CoM (3,) in the world frame in m.
         command: Commanded torso orientation (3, 3).
-        estimated: Estimated torso orientation (3, 3), heading as commanded.
-        kept: What the foot was commanded farther (3,) in m.
+        estimated: Estimated torso orientation (3, 3), with the commanded heading.
+        kept: Additional commanded displacement (3,) of the foot in m.
         largest_shift: Largest correction of the position in m.
         largest_turn: Largest correction of the orientation in rad.
-        weight: How much of the correction counts, 0 to 1.
+        weight: Weight of the correction, 0 to 1.
         share: Share of a new correction in the low pass.
-        shift: Correction of the position (3,) in m, moved on by one tick.
-        turn: Correction of the orientation (3,) in rad, moved on by one tick.
+        shift: Correction of the position (3,) in m, updated in place.
+        turn: Correction of the orientation (3,) in rad, updated in place.
     """
     p, q, c, e = memory.values(position), memory.values(place), memory.values(com_command), memory.values(com_estimated)
     k, by, turned = memory.values(kept), memory.room(shift), memory.room(turn)

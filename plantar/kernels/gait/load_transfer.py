@@ -1,8 +1,4 @@
-"""Kernel of the load transfer: a force on the body, shared between two feet.
-
-Plain Python that also compiles ahead of time (`load_transfer.pxd` gives the C types).
-`plantar.gait.balance.load_transfer` is the public face: it says how, and why.
-"""
+"""Kernel of `plantar.gait.balance.load_transfer`."""
 
 from __future__ import annotations
 
@@ -21,13 +17,13 @@ def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
         acceleration: Acceleration (2,) of the CoM in m/s^2.
         mass: Mass m in kg.
         gravity: Acceleration of gravity g in m/s^2.
-        left: The left foot: the `position` (3,) of its sole frame in m, that frame's `rotation` (3, 3), and the point
-            in it, `center` (2,) in m, at which the foot is to be loaded.
+        left: The left foot: `position` (3,) of its sole frame in m, `rotation` (3, 3) and the point `center` (2,) in it
+            in m at which it should be loaded.
         right: The right one.
-        stance: The only foot that carries: 1 for the left one, 2 for the right one, 0 for none.
+        stance: The only carrying foot: 1 left, 2 right, 0 for none.
 
     Returns:
-        Force (3,) on the left foot in N, where it acts (2,) in m, and the same of the right one: new arrays.
+        Force (3,) on the left foot in N, where it acts (2,) in m, and the same of the right one.
     """
     goal, rate = memory.values(zmp), memory.values(acceleration)
     lx, ly = _loaded(left)
@@ -53,7 +49,7 @@ def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
 
 
 def _loaded(foot):
-    """Point (x, y) at which a foot is to be loaded, where its position is given."""
+    """Point (x, y) at which a foot should be loaded."""
     place, turn, middle = memory.values(foot.position), memory.values(foot.rotation), memory.values(foot.center)
     x, y = middle[0], middle[1]
     return place[0] + (turn[0] * x + turn[1] * y), place[1] + (turn[3] * x + turn[4] * y)

@@ -1,8 +1,4 @@
-"""Kernel of foot damping: one sole that yields until it carries what it shall.
-
-Plain Python that also compiles ahead of time (`sole_admittance.pxd` gives the C types).
-`plantar.gait.balance.foot_admittance` is the public face: it says why, and lets two feet share a load.
-"""
+"""Kernel of `plantar.gait.balance.foot_admittance` for one sole."""
 
 from __future__ import annotations
 
@@ -19,14 +15,14 @@ class SoleAdmittance:
     Args:
         period: Control period in s.
         share: Share of a new measurement in its low pass.
-        turn_gain: Turning rate in rad/s for each N m of moment error.
-        back: Rate in 1/s at which the correction returns to zero while the foot stands.
-        release: Rate in 1/s at which it does in the air.
+        turn_gain: Turning rate in rad/s per N m of moment error.
+        back: Rate in 1/s at which the correction returns to zero while the foot stands; may change from tick to tick.
+        release: The same in the air.
         largest_turn: Largest turn about an axis in rad.
         largest_lift: Largest shift in m.
 
     Attributes:
-        back: The rate at which it returns while the foot stands, which may change from tick to tick.
+        back: See above.
         roll: Turn about the sole's x axis in rad.
         pitch: Turn about its y axis in rad.
         shift: Shift upwards in m.
@@ -54,11 +50,11 @@ class SoleAdmittance:
             self.roll = self.pitch = self.shift = 0.0
 
     def turn(self, measured, wanted):
-        """Turn by one tick under load, until the sole feels the moments that it shall.
+        """Turn by one tick under load towards the desired moments.
 
         Args:
             measured: Wrench (6,) on the sole in its frame in N and N m.
-            wanted: What it shall be (6,).
+            wanted: The desired one (6,).
 
         Returns:
             Error in N of the normal force.
@@ -82,7 +78,7 @@ class SoleAdmittance:
         self.shift = self._moved(self.shift, rate, self.largest_lift)
 
     def _moved(self, value, rate, largest):
-        """A correction after one tick at a rate, drawn back to zero and limited."""
+        """A correction after one tick at a rate, with return to zero and limit."""
         value += self.period * (rate - self.back * value)
         if not value > -largest:
             value = -largest

@@ -1,8 +1,4 @@
-"""Kernel of what a sole is commanded: how it is turned and shifted, and the force that it shall feel, and where.
-
-Plain Python that also compiles ahead of time (`sole_targets.pxd` gives the C types). Products are summed as BLAS sums
-them with fused multiply-adds (`fused`).
-"""
+"""Kernel of a sole's command: its pose and the desired force (products are summed as BLAS does, `fused`)."""
 
 from __future__ import annotations
 
@@ -13,16 +9,7 @@ __all__ = ["pressed", "risen", "turned"]
 
 
 def turned(level, x, y):
-    """Rotation of a sole that is turned about its own axes.
-
-    Args:
-        level: Rotation (3, 3) before it is turned.
-        x: Axis times angle in rad; likewise y.
-        y: The same.
-
-    Returns:
-        A new rotation (3, 3).
-    """
+    """Rotation (3, 3) of a sole turned by `x`, `y` (axis times angle in rad) about its own axes from `level` (3, 3)."""
     before = memory.values(level)
     xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations._exponential(x, y, 0.0)
     made = memory.new_matrix(3, 3)
@@ -36,7 +23,7 @@ def turned(level, x, y):
 
 
 def risen(position, center, roll, pitch, shift):
-    """Position of a sole that is turned and shifted: its centre rises by the shift, to first order.
+    """Position (3,) in m of a turned and shifted sole: its centre rises by the shift, to first order.
 
     Args:
         position: Origin (3,) of its frame in m.
@@ -44,9 +31,6 @@ def risen(position, center, roll, pitch, shift):
         roll: Turn about its x axis in rad.
         pitch: Turn about its y axis in rad.
         shift: Shift upwards in m.
-
-    Returns:
-        A new position (3,) in m.
     """
     place, middle = memory.values(position), memory.values(center)
     rise = shift + pitch * middle[0] - roll * middle[1]
@@ -60,7 +44,7 @@ def pressed(wrench, level, position, center):
         wrench: Wrench (6,) in the sole frame about its origin in N and N m.
         level: Rotation (3, 3) from the sole.
         position: Origin (3,) of its frame in m.
-        center: Point (2,) in the sole frame in m at which a force acts that does not press.
+        center: Point of attack (2,) in the sole frame in m of a force without pressure.
 
     Returns:
         The force (3,) in N, and the point (2,) in m, seen from above, at which it acts.

@@ -1,8 +1,4 @@
-"""The kernel of a swing foot's fitted path (K 13-16): ridge regression of three axes through both ends of the path.
-
-Plain Python that also compiles ahead of time (`swing_fit.pxd` gives the C types). `plantar.gait.feet.swing_fit` is the
-public face, with units and an example.
-"""
+"""Kernel of `plantar.gait.feet.swing_fit` (K 13-16): ridge regression of three axes through both ends of the path."""
 
 from __future__ import annotations
 
@@ -14,20 +10,19 @@ __all__ = ["fit"]
 def fit(order, now, before, earlier, conditions, same, high, pull, way, work, out):
     """Path at one moment, with its derivatives: y = y_i + s^n way + sum a_k (s^k - s^n), which keeps both ends.
 
-    Conditions are on the position, first and second derivative at the share `before`, and on the position at the share
-    `earlier`.
+    Conditions: position, first and second derivative at the share `before`, and position at the share `earlier`.
 
     Args:
         order: Order n of the polynomial.
-        now: Share s of the swing at which it is wanted.
+        now: Share s of the swing.
         before: Share of the tick before.
         earlier: Share of the tick before that.
         conditions: Weight and value, less the start, of each condition (4, 1 + 3).
-        same: Matrix (m, m) and, in column m, the pull of the way, (m, m + 1), that all axes have, m = n - 1.
-        high: What the third axis has beside it (m, m + 2): a matrix, and how a height and the way pull.
+        same: Matrix (m, m) and, in column m, the pull of the way, (m, m + 1), of all axes, m = n - 1.
+        high: Additional terms of the third axis (m, m + 2): a matrix, and the pulls of height and way.
         pull: That height.
         way: End less start (3,).
-        work: Room (7 + 2 m, n + 1).
+        work: Scratch (7 + 2 m, n + 1).
         out: Receives the path less its start, and its derivatives by the share (3, 3).
     """
     n, m = order, order - 1

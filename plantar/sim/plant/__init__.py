@@ -1,1 +1,1 @@
-"""In what the true robot, its sensors and the ground differ from what the controller takes them for."""
+"""Differences of the true robot, its sensors and the ground from the controller's model."""

@@ -1,7 +1,6 @@
-"""The true robot in the simulator: its mass and where that is, stiffness of its servos, friction of its joints.
+"""The true robot in the simulator: mass and CoM, stiffness of servos, friction of joints.
 
-What is changed is the compiled model of the world. The controller has a model of its own
-(`plantar.robots.kinematics.leg_model`), which stays the nominal one.
+Only the world's compiled model is changed; the controller's own (`plantar.robots.kinematics.leg_model`) stays nominal.
 """
 
 from __future__ import annotations
@@ -28,15 +27,15 @@ def make_true(
     touching: Sequence[str],
     body: BodyScale,
 ) -> None:
-    """Change a compiled model into that of the true plant.
+    """Change a compiled model of the world into that of the true plant.
 
     Args:
-        model: The MjModel of the world, which is changed.
+        model: The MjModel, changed in place.
         plant: The true plant.
         torso: Body id of the torso.
         servos: Indices of the legs' actuators.
         touching: Names of the geoms of soles and ground.
-        body: How large the robot is, by its file.
+        body: Size of the robot, by its file.
     """
     _scale_mass(model, plant.mass_ratio, torso)
     _move_com(model, plant.com_offset, torso)
@@ -54,7 +53,7 @@ def _scale_mass(model: Any, ratio: float, torso: int) -> None:
 
 
 def _move_com(model: Any, offset: NDArray[np.float64], torso: int) -> None:
-    """Move the centres of mass of all bodies that are fixed to the torso, and with them that of the whole."""
+    """Move the centres of mass of all bodies fixed to the torso, and with them the whole robot's."""
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     moved = data.xmat[torso].reshape(3, 3) @ offset

@@ -1,4 +1,4 @@
-"""Colours of the true ground: what is darker than a proximity sensor was calibrated on seems farther away to it."""
+"""Colours of the true ground: darker ground than a proximity sensor was calibrated on appears farther away."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _TILES = 64  # patches after which the colours repeat: 3.2 m
 
 
 class GroundColours:
-    """Square patches of the world's plane, each as light as chance has it.
+    """Square patches of random reflectance on the world's plane.
 
-    An optical sensor gets back an intensity in proportion to the reflectance rho, and to 1 / d^2 by the inverse-square
-    law; one that takes it for that of reflectance 1 finds d / sqrt(rho).
+    An optical sensor receives an intensity proportional to the reflectance rho and to 1 / d^2; one calibrated at
+    reflectance 1 measures d / sqrt(rho).
 
     Args:
         plant: The true plant.
@@ -30,13 +30,13 @@ class GroundColours:
         self._stretch = 1.0 / np.sqrt(lightness)
 
     def stretch(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """How many times as far away the ground seems.
+        """Measured distance over the true one (n,) at points (n, 3) of the ground in the world in m.
 
         Args:
-            points: Where it is seen (n, 3) in the world in m.
+            points: The points.
 
         Returns:
-            Measured distance over the true one (n,).
+            The ratios.
         """
         tiles = np.floor(points[:, :2] / PATCH).astype(np.int64) % _TILES
         return np.asarray(self._stretch[tiles[:, 0], tiles[:, 1]])

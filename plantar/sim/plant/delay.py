@@ -1,4 +1,4 @@
-"""What arrives later than it was sent."""
+"""A line that delays what is sent through it."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ T = TypeVar("T")
 
 
 class Delay(Generic[T]):
-    """Hands on the newest item that is old enough.
+    """Returns the newest item that is old enough.
 
     Args:
-        delay: Time in s from when an item is sent until it arrives.
+        delay: Time in s from sending to arrival.
 
     Example:
         >>> line = Delay(0.01)
@@ -29,14 +29,14 @@ class Delay(Generic[T]):
         self._sent: deque[tuple[float, T]] = deque()
 
     def passed(self, time: float, item: T) -> T:
-        """Send an item and take what arrives.
+        """Send an item and receive the one that arrives.
 
         Args:
-            time: Time in s, which never goes back.
-            item: What is sent.
+            time: Time in s, never decreasing.
+            item: The item.
 
         Returns:
-            The newest item that was sent at least the delay ago; the first one until that has arrived.
+            The newest item sent at least the delay ago; before that the first one.
         """
         self._sent.append((time, item))
         while len(self._sent) > 1 and self._sent[1][0] <= time - self._delay + SAME_TIME:

@@ -1,4 +1,4 @@
-"""The true plant of a run: what a `[plant]` table states, and what the seed draws of the rest."""
+"""The true plant of a run: values of a `[plant]` table, and those that the seed draws."""
 
 from __future__ import annotations
 
@@ -45,17 +45,17 @@ def _up_to(chance: np.random.Generator, limit: float) -> float:
 
 
 def _whole(chance: np.random.Generator, limit: float) -> float:
-    """Not less than the limit: a spread, whose members are drawn, or what is hardest at its limit."""
+    """The limit itself or more: a spread, whose members are drawn, or an item that is hardest at its limit."""
     return limit
 
 
 class Range(NamedTuple):
-    """What an item is drawn from.
+    """Range that an item is drawn from.
 
     Attributes:
-        limit: How far it is from nominal at level 2, at most; in proportion at other levels.
+        limit: Largest difference from nominal at level 2; proportional at other levels.
         unit: Unit of the limit; one of the body's grows with the robot.
-        draw: Gives it for a source of chance and the limit in SI.
+        draw: Draws it from a generator and the limit in SI.
     """
 
     limit: float
@@ -91,30 +91,30 @@ every robot the same; a length of the robot has one that grows with it."""
 
 @dataclass(frozen=True)
 class TruePlant:
-    """What a run's true plant differs in, in SI.
+    """Differences of a run's true plant, in SI.
 
     Attributes:
-        gyro_bias: What the gyro reads too much (3,) in rad/s, in the IMU's frame.
-        com_offset: By how much the upper body's centre of mass is elsewhere (3,) in m, in the torso's frame.
+        gyro_bias: Offset (3,) of the gyro in rad/s, in the IMU's frame.
+        com_offset: Offset (3,) of the upper body's centre of mass in m, in the torso's frame.
         mass_ratio: True mass over the model's.
-        encoder_offsets: What the encoder of each leg joint (k,) reads too much in rad.
+        encoder_offsets: Offset of each leg joint's encoder (k,) in rad.
         stiffness_ratio: True stiffness of the servos over the model's.
         friction_ratio: True friction of the ground over the scene's.
         softness: Time constant in s with which the ground yields.
-        taxel_gains: What each taxel (n,) of each sole reads of its force.
+        taxel_gains: Gain of each taxel (n,) of each sole.
         crosstalk: Share of each taxel's force that its neighbours read instead.
         sensor_delay: Time in s from a reading until the controller has it.
         actuation_delay: Time in s from a set-point until its servo follows it.
         joint_friction: Dry friction of each leg joint in N m, added to the model's.
         backlash: Play of each leg joint's gear in rad.
-        torque_ripple: Share by which a servo's torque swings as its joint turns.
-        hysteresis: Share by which a taxel reads too little under a load that comes on, too much under one that goes.
-        taxel_drifts: Where each taxel's (n,) zero wanders off to as it becomes warm, in N.
+        torque_ripple: Share by which a servo's torque varies as its joint turns.
+        hysteresis: Share by which a taxel reads too little under rising load, too much under falling load.
+        taxel_drifts: Final drift of each taxel's (n,) zero as it warms up, in N.
         dropout: Share of the time for which each connector of the soles has no contact.
-        rubber: Thickness of the layer of foam that each sole ends in, in m.
-        patchiness: Share by which friction and softness may be less from one piece of ground to the next.
+        rubber: Thickness of the layer of foam under each sole in m.
+        patchiness: Share by which friction and softness may be lower from one piece of ground to the next.
         reflectance: Share by which patches of the ground may be lighter or darker.
-        seed: Of what each piece of ground is like, and of what happens by chance while the run goes on.
+        seed: Seed of the pieces of ground and of random events during the run.
     """
 
     gyro_bias: NDArray[np.float64]
@@ -140,7 +140,7 @@ class TruePlant:
     seed: int
 
     def summary(self) -> dict[str, Any]:
-        """What differs, for a run's summary: nothing of what is nominal."""
+        """The differences that are not nominal, for a run's summary."""
         gains, drifts = (
             np.concatenate([of_soles[side] for side in SIDES]) for of_soles in (self.taxel_gains, self.taxel_drifts)
         )
@@ -176,13 +176,12 @@ def drawn_plant(
 ) -> TruePlant | None:
     """The true plant of a run.
 
-    Each item is drawn from a stream of its own: alone it is what it is together with all others, and at another level
-    as much more or less of the same.
+    Each item has a random stream of its own: its value does not depend on the other items, and scales with the level.
 
     Args:
-        plant: What the scene states of it.
-        seed: Draws the rest.
-        body: How large the robot is.
+        plant: Settings of the scene.
+        seed: Seed of the rest.
+        body: Size of the robot.
         joints: Number of leg joints.
         layouts: The soles.
 
@@ -206,7 +205,7 @@ def drawn_plant(
 
 
 def _value(plant: Plant, name: str, seed: int) -> Any:
-    """One item by its setting: stated, or drawn."""
+    """One item: stated, or drawn."""
     stated = getattr(plant, name)
     if stated != RANDOM:
         return np.array(plant.vector(name)) if isinstance(stated, tuple) else stated
@@ -221,14 +220,14 @@ def _of_each_taxel(chance: np.random.Generator, layouts: Mapping[Side, SoleLayou
 
 
 def stream(seed: int, name: str) -> np.random.Generator:
-    """The source of chance of one item.
+    """The random generator of one item.
 
     Args:
         seed: Seed of the run.
-        name: Name of what is drawn.
+        name: Name of the item.
 
     Returns:
-        The source; another one for every name.
+        The generator, different for every name.
     """
     return np.random.default_rng([seed, 0x91, zlib.crc32(name.encode())])
 

@@ -1,4 +1,4 @@
-"""What the true drives make of a set-point: encoders whose zero is off, set-points that come late, gears with play."""
+"""True drives: encoders with zero errors, delayed set-points, gears with play."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ RIPPLES = 200.0
 
 
 class TrueDrives:
-    """The drives of the leg joints: set-points with which the simulator's ideal servos behave as those.
+    """Converts set-points so that the simulator's ideal servos behave as the true drives.
 
     A servo computes torque = kp (u - q) - kv q'. A gear with the play b passes no torque while the shaft moves between
-    its flanks, and winds up from there: kp times what exceeds b / 2 of u - q, either way. A gear whose torque swings
-    passes (1 + r sin(n q)) times the torque. Both are another u.
+    its flanks, then kp times the excess of u - q over b / 2. A gear with torque ripple passes (1 + r sin(n q)) times
+    the torque. Both are expressed by another u.
 
     Args:
         plant: The true plant.
@@ -37,17 +37,16 @@ class TrueDrives:
     def followed(
         self, time: float, setpoint: NDArray[np.float64], joints: NDArray[np.float64], speeds: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """The joint angles that the simulator's servos have to go to.
+        """Set-points for the simulator's servos.
 
         Args:
-            time: Time in s, which never goes back.
+            time: Time in s, never decreasing.
             setpoint: Set-points (k,) in rad.
             joints: True joint angles (k,) in rad.
             speeds: True joint speeds (k,) in rad/s.
 
         Returns:
-            Angles (k,) in rad: the set-points that have arrived, less what the encoders read too much, since a servo
-            goes by its encoder; then what the gear makes of them.
+            Angles (k,) in rad: the set-points that have arrived, less encoder offsets, after the gear.
         """
         arrived = setpoint if self._line is None else self._line.passed(time, setpoint)
         wanted = arrived - self._offsets

@@ -1,4 +1,4 @@
-"""The true ground in the simulator, and the foam under the soles: friction, softness, and how both differ by place."""
+"""The true ground in the simulator, and the foam under the soles: friction and softness by place."""
 
 from __future__ import annotations
 
@@ -19,14 +19,15 @@ FOAM_MODULUS = 3e5
 
 
 def foam_time(thickness: float, body: BodyScale) -> float:
-    """Time constant with which a layer of foam under one sole yields to the body.
+    """Time constant sqrt(m / k) in s of the body on a layer of foam under one sole, k = E A / thickness, A a whole
+    sole.
 
     Args:
         thickness: Its thickness in m.
-        body: How large the robot is.
+        body: Size of the robot.
 
     Returns:
-        sqrt(m / k) in s with the layer's stiffness k = E A / thickness, A a whole sole.
+        The time constant in s.
     """
     return math.sqrt(body.mass * thickness / (FOAM_MODULUS * body.sole * body.sole_width))
 
@@ -34,14 +35,14 @@ def foam_time(thickness: float, body: BodyScale) -> float:
 def make_ground_true(model: Any, plant: TruePlant, touching: Sequence[int], body: BodyScale) -> None:
     """Change friction and softness of contacts into those of the true plant.
 
-    Springs in a row yield one after the other, so squares of their time constants add up. MuJoCo takes the larger
-    friction of two geoms and the mean of their time constants; where pieces of ground differ, the piece's own count.
+    Springs in series add their time constants in squares. MuJoCo takes the larger friction of two geoms and the mean of
+    their time constants; where pieces of ground differ, the piece's own apply.
 
     Args:
-        model: The MjModel of the world, which is changed.
+        model: The MjModel of the world, changed in place.
         plant: The true plant.
         touching: Geom ids of soles and ground.
-        body: How large the robot is, by its file.
+        body: Size of the robot, by its file.
     """
     foam = foam_time(plant.rubber, body)
     before = model.geom_solref[touching, 0]

@@ -1,4 +1,4 @@
-"""In what the true plant differs from the controller's model, as a scene's `[plant]` table gives it."""
+"""Differences of the true plant from the controller's model, as a scene's `[plant]` table gives them."""
 
 from __future__ import annotations
 
@@ -26,46 +26,44 @@ _LARGEST = {"gyro_bias": ("rad/s", 1.0), "com_offset": ("m", 0.5)}
 
 
 class Plant(Settings):
-    """In what the true plant differs from the model that the controller has of it; by default not at all.
+    """Differences of the true plant from the controller's model; none by default.
 
     Each may be a number, or "random": then the seed draws it from a range that grows with `level`
-    (`plantar.sim.plant.draw.RANGES`). Robot, sensors and ground are made so; the controller gets none of it.
+    (`plantar.sim.plant.draw.RANGES`). They apply to robot, sensors and ground; the controller does not receive them.
 
     Attributes:
-        draw: With "random" what a robot has that was built and calibrated with care is drawn, as far as the table does
-            not state it (all down to `actuation_delay`): `plant = "random"` in a scene, `--set plant=random`. With
-            "everything" all items are, those of wear and of poor ground, too. It stands for "random" at each of these,
-            and settings that are made of it say so there.
-        level: How much what is drawn may differ, in proportion: 2 is a robot that was built and calibrated with
-            ordinary care, 1 half of that, 3 half more; 0 is nominal.
-        gyro_bias: What the gyro reads too much about each of its axes, [x, y, z] in rad/s.
-        com_offset: By how much the centre of mass of the upper body (all that is fixed to the torso) is elsewhere,
-            [forward, left, up] in the torso's frame in m.
-        mass_ratio: True mass over the model's, of each link; inertias go with it.
-        encoder_offset: Error of the joints' zeros: each joint's is drawn up to this, either way. Its servo goes by the
+        draw: "random" draws what a carefully built and calibrated robot has (all down to `actuation_delay`), as far as
+            the table does not state it: `plant = "random"` in a scene, `--set plant=random`. "everything" also draws
+            wear and poor ground.
+        level: Size of what is drawn, in proportion: 2 is a robot built and calibrated with ordinary care, 1 half of
+            that; 0 is nominal.
+        gyro_bias: Offset of the gyro about each of its axes, [x, y, z] in rad/s.
+        com_offset: Offset of the upper body's centre of mass (all that is fixed to the torso), [forward, left, up] in
+            the torso's frame in m.
+        mass_ratio: True mass over the model's, of each link; inertias scale with it.
+        encoder_offset: Error of the joints' zeros: each joint's is drawn up to this, either way. Its servo follows the
             same encoder.
         stiffness_ratio: True stiffness of the servos over the model's; their damping is the model's.
         friction_ratio: True coefficient of friction of the ground over the scene's.
         softness: Time constant in s with which the ground yields, in series with that of the contact.
-        taxel_gain: Standard deviation of the taxels' gains about 1; each one's is drawn, at most 0.9 either way.
-        crosstalk: Share of each taxel's force that its neighbours read instead, each as much; the sum stays.
-        sensor_delay: Time in s from when encoders, IMU, ankles and soles are read until the controller has it, up to
-            the next control tick; it comes on top of `sensing.delay_periods`.
-        actuation_delay: Time in s from a set-point until its servo follows it, to the next physics step.
+        taxel_gain: Standard deviation of the taxels' gains about 1, drawn for each, at most 0.9 either way.
+        crosstalk: Share of each taxel's force that its neighbours read instead, in equal parts; the sum stays.
+        sensor_delay: Time in s from a reading of encoders, IMU, ankles and soles until the controller has it, rounded
+            up to a control tick; added to `sensing.delay_periods`.
+        actuation_delay: Time in s from a set-point until its servo follows it, rounded up to a physics step.
         joint_friction: Dry friction of each leg joint in N m, added to the model's.
-        backlash: Play of each leg joint's gear: so far it moves from one flank to the other while no torque passes.
-        torque_ripple: Share by which a servo's torque swings as its joint turns, with the teeth of its gear.
-        hysteresis: Share by which a taxel reads too little while its load comes on, and too much while it goes off.
-        taxel_drift: Standard deviation in N of what the taxels' zeros wander off to as they become warm, within
-            minutes; each one's is drawn.
+        backlash: Play of each leg joint's gear, in which it passes no torque.
+        torque_ripple: Share by which a servo's torque varies as its joint turns, with the teeth of its gear.
+        hysteresis: Share by which a taxel reads too little under rising load, and too much under falling load.
+        taxel_drift: Standard deviation in N of the taxels' drifts as they warm up, within minutes; drawn for each.
         dropout: Share of the time for which each connector of the soles has no contact, a tenth of a second at a time:
             its taxels are silent.
-        rubber: Thickness in m of a layer of foam that each sole ends in, within the height that it has: it yields, and
-            what presses on an edge or a point spreads over that much more.
-        patchiness: Share by which friction and softness of the ground may be less from one of its pieces (floor, stone,
-            beam) to the next; each one's is drawn.
-        reflectance: Share by which patches of the ground may be lighter or darker than what the proximity sensors were
-            calibrated on; each one's is drawn. What is dark seems farther away.
+        rubber: Thickness in m of a layer of foam at the bottom of each sole, within its height: it yields, and spreads
+            the pressure at edges and points by as much.
+        patchiness: Share by which friction and softness of the ground may be lower from one of its pieces (floor,
+            stone, beam) to the next; drawn for each.
+        reflectance: Share by which patches of the ground may be lighter or darker than in the proximity sensors'
+            calibration; drawn for each. Dark ground appears farther away.
     """
 
     draw: str = choice("nominal", RANDOM, EVERYTHING)
@@ -102,25 +100,25 @@ class Plant(Settings):
 
     @classmethod
     def _drawn_by(cls, draw: Any) -> tuple[str, ...]:
-        """Names of what a value of `draw` draws."""
+        """Names of the items that a value of `draw` draws."""
         if draw == EVERYTHING:
             return cls.items()
         return cls.items()[: cls.items().index(_LAST_OF_CARE) + 1] if draw == RANDOM else ()
 
     @classmethod
     def items(cls) -> tuple[str, ...]:
-        """Names of what may differ."""
+        """Names of the items."""
         return cls.names()[2:]
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Make the settings from a table; where `draw` draws the rest, what it states stays as stated, also if nominal.
+        """Make the settings from a table; stated values stay as stated, also if nominal, where `draw` draws the rest.
 
         Args:
             table: Values by name.
             where: Name of the table, for messages.
-            error: What is raised.
-            note: On what it depends which keys are allowed, for messages.
+            error: Error class to raise.
+            note: What decides on the allowed keys, for messages.
 
         Returns:
             The settings.
@@ -133,13 +131,13 @@ class Plant(Settings):
         return super().from_table(table, where, error, note)
 
     def vector(self, name: str) -> tuple[float, ...]:
-        """A list of three numbers in SI for the body that the settings count for.
+        """Three numbers in SI for the body that the settings apply to.
 
         Args:
             name: Name of the setting, which is not "random".
 
         Returns:
-            The numbers; zeros where none are given, and where the seed draws them.
+            The numbers; zeros where none are given, or the seed draws them.
 
         Raises:
             InputError: If there are not three of them, or one is not a number in its range.

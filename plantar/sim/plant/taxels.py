@@ -1,4 +1,4 @@
-"""What true taxels make of the forces on them: crosstalk, hysteresis, gains and zeros that differ, loose connectors."""
+"""True taxels: crosstalk, hysteresis, gains, zeros and loose connectors."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ WARMING = 60.0
 
 
 class TaxelErrors:
-    """The errors of one sole's taxels, in the order in which a force meets them: the cover spreads it (crosstalk), the
-    taxel's elastic layer rubs (hysteresis), and its electronics have a gain, a zero and a connector.
+    """Errors of one sole's taxels in physical order: the cover spreads a force (crosstalk), the elastic layer rubs
+    (hysteresis), and the electronics have a gain, a zero and a connector.
 
-    Hysteresis is the play of a reading between (1 - h) and (1 + h) times the force: it stays as it is until one of both
-    takes it along. Independent of the rate, as that of rubber is at the rates of steps.
+    Hysteresis is play: the reading stays between (1 - h) and (1 + h) times the force until either bound moves it;
+    independent of the rate, as that of rubber is at the rates of steps.
 
     Args:
         layout: The sole.
@@ -49,14 +49,14 @@ class TaxelErrors:
         self._looked: float | None = None
 
     def felt(self, force: NDArray[np.float64], time: float) -> NDArray[np.float64]:
-        """What the taxels read.
+        """Readings of the taxels.
 
         Args:
             force: Force (n,) on each taxel in N.
-            time: Time in s, which never goes back.
+            time: Time in s, never decreasing.
 
         Returns:
-            What each reads (n,) in N.
+            Reading of each (n,) in N.
         """
         spread = self._spread.dot(force)
         self._read = np.minimum(np.maximum(self._read, self._low * spread), self._high * spread)
@@ -64,14 +64,14 @@ class TaxelErrors:
         return np.asarray(self._gains * self._read + warm * self._drifts)
 
     def silence(self, time: float, *readings: NDArray[np.float64] | None) -> None:
-        """Take out of readings what hangs on connectors that have no contact now.
+        """Set readings of taxels without contact to NaN.
 
-        A contact is lost and found again at constant rates, so that both states last for exponentially distributed
-        times: 0.1 s without contact, and as long with it that the share of both is the plant's.
+        A connector loses and finds contact at constant rates, so both states last for exponentially distributed times:
+        0.1 s without contact, and with it as long as gives the plant's share.
 
         Args:
-            time: Time in s, which never goes back.
-            readings: Readings (n,), in which silent taxels become NaN; None for none.
+            time: Time in s, never decreasing.
+            readings: Readings (n,), changed in place; None for none.
         """
         if not self._loses:
             return
@@ -86,7 +86,7 @@ class TaxelErrors:
 
 
 def _spread(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64]:
-    """What each taxel (n, n) reads of each one's force; a taxel without neighbours keeps its own."""
+    """Weight (n, n) of each taxel's force in each reading; a taxel without neighbours keeps its own."""
     spread = np.eye(len(layout))
     for i, near in enumerate(layout.neighbours):
         if near:

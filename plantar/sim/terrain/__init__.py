@@ -1,4 +1,4 @@
-"""Terrain: the ground that the robot walks on and that the controller never sees. A kind of ground is one file."""
+"""Terrain: the ground that the controller does not know. A kind of ground is one file."""
 
 from plantar.sim.terrain.beam import Beam
 from plantar.sim.terrain.block import Block

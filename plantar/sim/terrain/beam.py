@@ -22,13 +22,13 @@ class Beam(Terrain):
     Attributes:
         width: Width of the beam in m.
         length: Distance in m between the platforms.
-        start: Distance in m from the middle of the standing feet to the beam; where a foot would stand on the beam from
-            the start on, as of a robot whose steps are shares of a short leg, the beam begins where that foot ends.
+        start: Distance in m from the middle of the standing feet to the beam; it begins later where a standing foot
+            would be on it, as of a robot with short steps.
         offset: Distance in m of the beam's middle line from the soles' centres, across the walk: positive to the left
-            of the walking direction, which in side steps to the left is backward.
-        offset_range: The seed adds an offset of up to this much in m, either way.
-        yaw: Angle in degrees by which the beam is turned against the walk, about its near end.
-        depth: How deep in m the floor lies below.
+            of the walking direction.
+        offset_range: Largest offset in m that the seed adds, either way.
+        yaw: Angle in degrees of the beam to the walk, about its near end.
+        depth: Depth of the floor below in m.
     """
 
     width: float = share(0.52, "sole", 0.005, 2)
@@ -74,6 +74,6 @@ class Beam(Terrain):
 
 
 def _foremost(feet: PlannedFeet, begin: np.ndarray, along: np.ndarray) -> float:
-    """How far in m the standing soles reach from a point (2,) along a direction (2,)."""
+    """Largest distance in m of the standing soles from a point (2,) along a direction (2,)."""
     corners = [foot.place(a * foot.half[0], b * foot.half[1]) for foot in feet.standing.values() for a, b in _CORNERS]
     return float(max((corner - begin) @ along for corner in corners))

@@ -1,4 +1,4 @@
-"""Something that lies on level ground where a foot is planned to land: a slab, a wedge, a small block, pebbles."""
+"""An obstacle on level ground where a foot is planned to land: a slab, a wedge, a small block, pebbles."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["Block"]
 
 
 class Block(Terrain):
-    """Something that lies on level ground under one step.
+    """An obstacle on level ground under one step.
 
     Attributes:
         step: The step (from 0) under which it lies.
@@ -27,11 +27,11 @@ class Block(Terrain):
         pitch: Slope in degrees along the foot; positive falls to the front.
         roll: Slope in degrees across the foot; positive rises to the left.
         shape: "box", or "spheres": three spheres in a triangle of that length and width.
-        at: What `along` and `across` are measured from: the sole's "center" or the "ankle".
-        clear: Room in m that a box keeps along the foot to where the same foot stands before and after, by being
-            shorter: for robots whose soles are long for their steps; 0 lays it as long as it is.
-        slide: Distance in m from outside, from which it slides in during the swing; 0 lies there from the start.
-        height_range: The seed adds up to this much in m to `top`, either way.
+        at: Origin of `along` and `across`: the sole's "center" or the "ankle".
+        clear: Distance in m along the foot that a box keeps from the same foot's previous and next footholds, by being
+            shorter (for soles that are long for their steps); 0 does not shorten it.
+        slide: Distance in m from outside, from which it slides in during the swing; 0 for a fixed one.
+        height_range: Largest height in m that the seed adds to `top`, either way.
     """
 
     step: int = whole(2, "step", 0, 100000)
@@ -63,7 +63,7 @@ class Block(Terrain):
         return place + (foot.ankle - foot.center if self.at == "ankle" else 0.0)
 
     def _room(self, foot: Footprint, feet: PlannedFeet) -> float:
-        """Length in m of a box that keeps clear of where the same foot stands before and after."""
+        """Length in m of a box that keeps clear of the same foot's previous and next footholds."""
         if self.clear == 0.0:
             return self.length
         forward = np.array([math.cos(foot.yaw), math.sin(foot.yaw)])

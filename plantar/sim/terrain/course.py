@@ -1,4 +1,4 @@
-"""A course that a scene spells out, solid by solid."""
+"""A course of solids listed in the scene."""
 
 from __future__ import annotations
 

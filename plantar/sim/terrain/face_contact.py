@@ -1,8 +1,8 @@
 """Continuous contacts of a box, such as a sole, on marked boxes and cylinders, in MuJoCo.
 
-MuJoCo's own contacts of two boxes change with a nanometre of motion: one instead of four for single steps where both
-are nearly parallel. Its table of collision functions is public; a marked geom gets `FaceContacts`, any other keeps what
-it had. Rays, distances and pictures still see boxes and cylinders.
+MuJoCo's own contacts of two nearly parallel boxes change with a nanometre of motion: one instead of four for single
+steps. A marked geom uses `FaceContacts` through MuJoCo's public table of collision functions; others keep MuJoCo's.
+Rays, distances and pictures still see boxes and cylinders.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def install_face_contacts() -> None:
 
 
 class _Addresses:
-    """Where MuJoCo's structures hold the addresses of the arrays that contacts are made from: offsets in bytes."""
+    """Offsets in bytes, in MuJoCo's structures, of the addresses of the arrays that contacts are made from."""
 
     def __init__(self) -> None:
         model, data = _spheres()
@@ -71,15 +71,14 @@ def _offset(structure: Any, array: Any) -> int:
 
 
 def _stride() -> int:
-    """Bytes from one contact to the next in what collision functions fill."""
+    """Bytes from one contact to the next in a collision function's output."""
     if hasattr(mujoco, "MjPreContact"):  # since MuJoCo 4: gap, position, normal and tangent alone
         return 10 * ctypes.sizeof(ctypes.c_double)
     return int(_spheres()[1].contact.dist.strides[0])
 
 
 def _spheres() -> tuple[Any, Any]:
-    """Model and data of two spheres that touch, with as little as possible of which MuJoCo keeps empty arrays: those
-    have the address of the next array."""
+    """The smallest model and data of two touching spheres; MuJoCo's empty arrays have the address of the next array."""
     sphere = "<geom size='1'/>"
     model = mujoco.MjModel.from_xml_string(
         f"<mujoco><worldbody>{sphere}<body><freejoint/>{sphere}</body></worldbody></mujoco>"
@@ -90,7 +89,7 @@ def _spheres() -> tuple[Any, Any]:
 
 
 def _library() -> ctypes.CDLL:
-    """MuJoCo's own library, which its package has loaded."""
+    """MuJoCo's own library, as loaded by its package."""
     for path in Path(mujoco.__file__).parent.glob("*mujoco*"):
         if path.suffix in (".dylib", ".dll") or ".so" in path.suffixes:
             return ctypes.CDLL(str(path))

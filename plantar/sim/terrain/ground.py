@@ -1,7 +1,7 @@
-"""What all kinds of ground share: solids, how they move, and the footprints that they are placed by.
+"""Common to all kinds of ground: solids, their motion, and the planned footprints.
 
-A kind of ground is a frozen dataclass of a scene's `[terrain]` table. It turns the planned footprints and a source of
-chance into a `Ground`, which is plain geometry; only `Ground.add_to` knows the simulator.
+A kind of ground is a frozen dataclass of a scene's `[terrain]` table. It turns planned footprints and a random
+generator into a `Ground`, which is plain geometry; only `Ground.add_to` knows the simulator.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ GROUND_GROUP = 2
 
 @dataclass(frozen=True)
 class Footprint:
-    """Where a sole is planned to be put down.
+    """Planned place of a sole.
 
     Attributes:
         side: Which foot.
@@ -62,7 +62,7 @@ class Footprint:
 
 @dataclass(frozen=True)
 class PlannedFeet:
-    """The plan that a ground is laid out by.
+    """The planned footprints.
 
     Attributes:
         standing: Footprint of each foot at the start.
@@ -90,12 +90,12 @@ class PlannedFeet:
 
 @dataclass(frozen=True)
 class Motion:
-    """A move of a solid to another place, at even speed.
+    """A move of a solid to another place, at constant speed.
 
     Attributes:
         start: Time in s at which it begins.
-        duration: How long it takes in s; 0 jumps.
-        position: Where the solid's centre is at the end (3,) in m.
+        duration: Its duration in s; 0 jumps.
+        position: The solid's centre at the end (3,) in m.
     """
 
     start: float
@@ -112,7 +112,7 @@ class Solid:
         size: Half sizes (3,) in m; a sphere's radius; a cylinder's radius and half height first.
         position: Centre (3,) in the world in m.
         rotation: Rotation (3, 3) to the world.
-        motions: How it moves, in order of time; a solid without motions does not move.
+        motions: Its motions in order of time.
     """
 
     shape: str
@@ -122,14 +122,7 @@ class Solid:
     motions: tuple[Motion, ...] = ()
 
     def at(self, time: float) -> NDArray[np.float64]:
-        """Where it is.
-
-        Args:
-            time: Time in s.
-
-        Returns:
-            Its centre (3,) in the world in m.
-        """
+        """Its centre (3,) in the world in m at a time in s."""
         position = self.position
         for motion in self.motions:
             if time < motion.start:
@@ -160,9 +153,9 @@ class Ground:
 
     Attributes:
         solids: Its pieces.
-        floor: Height in m of the endless plane under them.
+        floor: Height in m of the infinite plane under them.
         friction: Sliding friction coefficient of sole on ground.
-        facts: What chance chose, for the summary.
+        facts: Random choices, for the summary.
     """
 
     solids: tuple[Solid, ...]
@@ -171,7 +164,7 @@ class Ground:
     facts: Mapping[str, float] = field(default_factory=dict)
 
     def seen_from_above(self) -> list[list[list[float]]]:
-        """Outlines of the faces that the solids turn upwards, for figures.
+        """Outlines of the solids' upper faces, for figures.
 
         Returns:
             For each solid its corners [[x, y], ...] in the world in m; a round one as a 16-gon.
@@ -248,12 +241,12 @@ class Ground:
 
 
 class Terrain(Settings):
-    """What every kind of ground has.
+    """Common settings of all kinds of ground.
 
     Attributes:
         kind: Name of the kind.
         friction: Sliding friction coefficient of sole on ground.
-        height: Height in m of the ground that the robot stands on at the start, and that the plan expects.
+        height: Height in m of the ground at the start, which the plan expects.
     """
 
     kind: str = text("flat")
@@ -261,11 +254,11 @@ class Terrain(Settings):
     height: float = number(0.0, "m", -10, 10)
 
     def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Lay the ground out.
+        """Make the ground.
 
         Args:
             feet: The planned footprints.
-            rng: Source of what the scene leaves to chance.
+            rng: Generator of the scene's random choices.
 
         Returns:
             The ground.

@@ -15,7 +15,7 @@ __all__ = ["terrain_kinds"]
 
 @cache
 def terrain_kinds() -> dict[str, type[Terrain]]:
-    """Kinds of ground by the name that a scene's `[terrain] kind` gives: their class's, in lower case.
+    """Kinds of ground by the name in a scene's `[terrain] kind`: their class's, in lower case.
 
     A new kind is a `Terrain` in a module of its own, here or in another package that names it as an entry point.
 

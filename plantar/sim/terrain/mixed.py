@@ -1,4 +1,4 @@
-"""A course of everything: under each step a piece of ground whose kind the seed draws."""
+"""A mixed course: under each step a piece of ground whose kind the seed draws."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ class Mixed(Terrain):
 
     Attributes:
         share_min: Smallest share of the sole's rectangle that a partial stone carries.
-        height_range: Largest difference in m of a stone to the ground that the plan expects.
+        height_range: Largest difference in m of a stone from the expected ground.
         slope_range: Largest slope in degrees, in any direction.
         slab: Height in m of a slab.
         beam_width: Width in m of a piece of a beam, along the foot.
         beam_offset: Largest distance in m of its middle from the sole's, either way.
-        depth: How deep in m the floor lies below.
+        depth: Depth of the floor below in m.
     """
 
     share_min: float = number(0.5, "1", 0.02, 1)

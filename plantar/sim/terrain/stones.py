@@ -1,4 +1,4 @@
-"""Ground made of stones, one under each planned footprint: partial, uneven or bumpy footholds."""
+"""Stones, one under each planned footprint: partial, uneven or bumpy footholds."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Partial(Terrain):
         share: Share of the sole's rectangle that it carries.
         part: Which part of the sole it carries.
         rise: Height in m of that foothold above the others.
-        depth: How deep in m the floor lies below.
+        depth: Depth of the floor below in m.
     """
 
     step: int = whole(2, "step", 0, 100000)
@@ -57,7 +57,7 @@ class Stones(Terrain):
     Attributes:
         share_min: Smallest share of the sole's rectangle that a stone carries.
         share_max: Largest share.
-        depth: How deep in m the floor lies below.
+        depth: Depth of the floor below in m.
     """
 
     share_min: float = number(0.3, "1", 0.02, 1)
@@ -80,16 +80,17 @@ class Stones(Terrain):
 
 
 class Uneven(Terrain):
-    """Stones whose height under each step is up to chance; where steps are taken in place, the stone moves in the air.
+    """Stones of random height under each step; where steps are taken in place, the stone moves while the foot is in the
+    air.
 
     A footprint that overlaps the last one of the same foot, as those of the first and the last step do, has its height.
 
     Attributes:
-        height_range: Largest difference in m to the ground that the plan expects.
+        height_range: Largest difference in m from the expected ground.
         slope_range: Largest slope in degrees, in any direction; only where the stones do not move.
-        gap: Width in m that is free between the stones of the two feet: dead reckoning drifts to the side in a long
-            walk, and a foot that is off must not stand on two heights.
-        depth: How deep in m the floor lies below.
+        gap: Free width in m between the stones of the two feet: dead reckoning drifts sideways in a long walk, and a
+            foot must not stand on two heights.
+        depth: Depth of the floor below in m.
     """
 
     height_range: float = share_of_body(0.025, "leg", 0, 0.1)
@@ -122,9 +123,8 @@ class Uneven(Terrain):
 
 
 class Pebbles(Terrain):
-    """Sloping stones with bumps on them; the standing feet and the last two steps have level ones.
-
-    So does a step whose stone overlaps with one of those: a slope or a bump would reach under the other footprint.
+    """Sloping stones with bumps; the standing feet, the last two steps, and steps whose stone overlaps with those have
+    level ones.
 
     Attributes:
         bump_min: Smallest height in m of a bump.
@@ -132,7 +132,7 @@ class Pebbles(Terrain):
         bump_radius: Radius in m of the sphere that a bump is a cap of.
         bumps: Number of bumps on a stone.
         slope_range: Largest slope in degrees, in any direction.
-        depth: How deep in m the floor lies below.
+        depth: Depth of the floor below in m.
     """
 
     bump_min: float = share_of_body(1 / 120, "leg", 0, 0.05)
@@ -176,7 +176,7 @@ class Pebbles(Terrain):
 
 
 def drawn_slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
-    """Pitch and roll of a slope in a random direction.
+    """Pitch and roll in rad of a slope of at most `largest` degrees in a random direction.
 
     Args:
         rng: The random numbers.
@@ -190,14 +190,14 @@ def drawn_slope(rng: np.random.Generator, largest: float) -> tuple[float, float]
 
 
 def same_place(foot: Footprint, other: Footprint) -> bool:
-    """Whether two footprints are of the same foot at the same place.
+    """Whether two footprints are of the same foot at the same place, to a millimetre.
 
     Args:
         foot: One footprint.
         other: The other one.
 
     Returns:
-        True where side and center agree, the latter to a millimetre.
+        True where they are.
     """
     return foot.side == other.side and bool(np.hypot(*(foot.center - other.center)) < 1e-3)
 
@@ -218,7 +218,7 @@ def overlapping(foot: Footprint, other: Footprint) -> bool:
 
 
 def _distinct(feet: PlannedFeet) -> list[Footprint]:
-    """Standing and stepped footprints, places that are used again only once."""
+    """Standing and stepped footprints, each place once."""
     found: list[Footprint] = []
     for foot in [*feet.standing.values(), *feet.steps]:
         if not any(same_place(foot, other) for other in found):
@@ -256,14 +256,14 @@ def stone_under(
 
     Args:
         foot: The footprint.
-        feet: All footprints, beside which the box leaves room.
+        feet: All footprints, which the box keeps clear of.
         height: Height of the upper face in m.
         depth: Depth of the box in m.
         share: Share of the footprint that is carried.
         part: Which part that is: "rear", "front", "inner" or "outer".
         pitch: Slope of the upper face along the foot in rad.
         roll: Slope across it in rad.
-        gap: Room between the boxes of both feet in m.
+        gap: Distance between the boxes of both feet in m.
 
     Returns:
         The box.
