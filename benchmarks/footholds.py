@@ -5,28 +5,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from statistics import median
-from typing import Any
 
 import numpy as np
-from resumable import HEADS, Benchmark, Case, counted, latest, of_now, origin, rows_of, write_table
+from resumable import FOLDER, HEADS, Benchmark, Case, counted, latest, of_now, origin, rows_of, values, write_table
 
-FOLDER = Path(__file__).parent
-COLUMNS = (
-    "fell",
-    "steps_planned",
-    "steps_taken",
-    "sim_time_s",
-    "tilt_max_deg",
-    "zmp_margin_min_m",
-    "com_error_max_m",
-    "control_p99_us",
-    "replans",
-    "foothold_error_p95_m",
-    "area_ratios",
-    "zmp_margins_mm",
-)
 ROBOTS = ("h1", "hrp2kai")
 BLIND = {"pebbles": "conform=false"}
 """What switches the soles' part in a walk off, where it is not `footholds=off`."""
@@ -62,41 +45,40 @@ DISTURBANCES: list[tuple[str, tuple[str, ...]]] = [
 MAP_SEEDS = 2
 
 
-def cases(lines: bool = True, grid: bool = True) -> list[Case]:
+def cases() -> list[Case]:
     """Everything there is to run."""
     found: list[Case] = []
-    if lines:
-        for name, scene, settings, seeds in LINES:
-            off = BLIND.get(scene, "footholds=off")
-            for robot in ROBOTS:
-                found.append(Case(name, scene, robot, settings, seeds))
-                found.append(Case(f"{name}, blind", scene, robot, (*settings, off), seeds, aside=True))
-    if grid:
-        for width in WIDTHS:
-            for name, settings in DISTURBANCES:
-                # The same share of the offsets that leave something of each beam under the sole.
-                place = (f"width={width}", f"offset_range={0.08 * (width / 0.12):.3f}")
-                found.append(Case(f"map {width} {name}", "beam", "h1", (*place, *settings), MAP_SEEDS, aside=True))
+    for name, scene, settings, seeds in LINES:
+        off = BLIND.get(scene, "footholds=off")
+        for robot in ROBOTS:
+            found.append(Case(name, scene, robot, settings, seeds))
+            found.append(Case(f"{name}, blind", scene, robot, (*settings, off), seeds, aside=True))
+    for width in WIDTHS:
+        for name, settings in DISTURBANCES:
+            # The same share of the offsets that leave something of each beam under the sole.
+            place = (f"width={width}", f"offset_range={0.08 * (width / 0.12):.3f}")
+            found.append(Case(f"map {width} {name}", "beam", "h1", (*place, *settings), MAP_SEEDS, aside=True))
     return found
 
 
-def figures(simulation: Any, summary: dict[str, Any]) -> dict[str, Any]:
-    """The columns of one run."""
-    return {
-        **{name: summary[name] for name in COLUMNS if name in summary},
-        "com_error_max_m": max(summary["estimate"]["com_error_max_m"]),
-        "control_p99_us": summary["control_us"]["p99"],
-        "foothold_error_p95_m": summary.get("footholds", {}).get("centroid_error_m", {}).get("p95", ""),
-        "area_ratios": " ".join(f"{v:g}" for v in summary["contact_area_ratio"]),
-        "zmp_margins_mm": " ".join("-" if v is None else f"{1e3 * v:.1f}" for v in summary["zmp_margins_m"]),
-    }
+COLUMNS = {
+    **{n: n for n in ("fell", "steps_planned", "steps_taken", "sim_time_s", "tilt_max_deg", "zmp_margin_min_m")},
+    "com_error_max_m": lambda simulation, out: max(out["estimate"]["com_error_max_m"]),
+    "control_p99_us": "control_us.p99",
+    "replans": "replans",
+    "foothold_error_p95_m": "footholds.centroid_error_m.p95",
+    "area_ratios": lambda simulation, out: " ".join(f"{v:g}" for v in out["contact_area_ratio"]),
+    "zmp_margins_mm": lambda simulation, out: " ".join(
+        "-" if v is None else f"{1e3 * v:.1f}" for v in out["zmp_margins_m"]
+    ),
+}
 
 
 def report() -> None:
     """Write the table between its markers, and draw the map."""
     rows = latest(rows_of(BENCHMARK.path))
     lines = [
-        f"| scene | robot | soles' view | {HEADS} | smallest true share of the sole "
+        f"| scene | robot | soles' view | {' | '.join(HEADS)} | smallest true share of the sole "
         "| true ZMP margin of a step, median [mm] | centroid error, 95 % of a run [mm] |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
@@ -111,16 +93,16 @@ def report() -> None:
             good = [r for r in mine if r["completed"] == "True"]
             shares = [min(map(float, r["area_ratios"].split())) for r in good if r["area_ratios"]]
             margins = [float(v) for r in good for v in r["zmp_margins_mm"].split() if v != "-"]
-            errors = [1e3 * float(r["foothold_error_p95_m"]) for r in mine if r["foothold_error_p95_m"]]
+            errors = values(mine, "foothold_error_p95_m", 1e3)
             cells = (
                 "used",
-                seen,
+                *seen,
                 f"{min(shares):.2f}" if shares else "",
                 f"{round(median(margins))}" if margins else "",
                 f"{median(errors):.1f}" if errors else "",
             )
             lines.append(f"| {name} | {robot} | " + " | ".join(cells) + " |")
-            lines.append(f"| {name} | {robot} | off | {counted(blind)} | | | |")
+            lines.append(f"| {name} | {robot} | off | {' | '.join(counted(blind))} | | | |")
     write_table(FOLDER / "footholds.md", [*lines, "", origin(BENCHMARK)])
     _draw_map(rows)
 
@@ -152,4 +134,4 @@ def _draw_map(rows: list[dict[str, str]]) -> None:
     save_figure(figure, FOLDER / "footholds_map.png")
 
 
-BENCHMARK = Benchmark(FOLDER / "footholds.csv", COLUMNS, cases(), figures)
+BENCHMARK = Benchmark("footholds", COLUMNS, cases())

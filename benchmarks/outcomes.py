@@ -124,7 +124,7 @@ def main(arguments: Sequence[str]) -> None:
     if first != "report":
         run(scripts, float(first))
     for script in scripts:
-        script.report()
+        getattr(script, "report", script.BENCHMARK.report)()
 
 
 if __name__ == "__main__":

@@ -11,12 +11,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from resumable import FEW, HEADS, Benchmark, Case, counted, latest, origin, rows_of, write_table
+from resumable import FEW, FOLDER, HEADS, Benchmark, Case, counted, latest, origin, rows_of, write_table
 
 from plantar.sim.plant.draw import RANGES
 from plantar.sim.plant.settings import RANDOM, Plant
 
-FOLDER = Path(__file__).parent
 ROBOTS = ("h1", "hrp2kai")
 LEVELS = (0.2, 0.5, 1.0, 2.0, 3.0)
 FRESH_SEEDS = {3.0: 2 * FEW, 2.0: 2 * FEW, 1.0: FEW, 0.5: FEW, 0.2: FEW}
@@ -25,10 +24,12 @@ ALONE = {"flat": (), "beam": (), "uneven": ("steps=20",)}
 """Walks in which each item is tried alone, with their settings."""
 TOGETHER = ("flat", "push", "beam", "beam-forward", "beam-yaw", "uneven", "tilt", "obstacle", "partial-front")
 TOGETHER += ("partial-inner", "partial-outer", "partial-rear", "partial-third", "stones", "turn", "s-curve", "stop")
-COLUMNS = ("fell", "steps_taken", "tilt_max_deg", "zmp_margin_min_m", "position_error_m", "heading_error_deg")
-COLUMNS += ("com_error_max_m",)
-CARE = tuple(n for n in Plant.items() if getattr(Plant(draw=RANDOM), n) == RANDOM)
-"""What `plant = "random"` draws."""
+COLUMNS = {
+    **{name: name for name in ("fell", "steps_taken", "tilt_max_deg", "zmp_margin_min_m")},
+    "position_error_m": "final.position_error_m",
+    "heading_error_deg": "final.heading_error_deg",
+    "com_error_max_m": lambda simulation, out: max(out["estimate"]["com_error_max_m"]),
+}
 
 
 def _alone(item: str, level: float, scene: str) -> str:
@@ -61,16 +62,6 @@ def _cases() -> list[Case]:
     ]
 
 
-def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
-    """The columns of one run."""
-    return {
-        **{name: out[name] for name in COLUMNS if name in out},
-        "position_error_m": out["final"]["position_error_m"],
-        "heading_error_deg": out["final"]["heading_error_deg"],
-        "com_error_max_m": max(out["estimate"]["com_error_max_m"]),
-    }
-
-
 def outcome(rows: Sequence[dict[str, str]], name: str, robot: str) -> tuple[int, int]:
     """How many runs of a case were completed, and how many there are."""
     mine = [r["completed"] == "True" for r in rows if r["case"] == name and r["robot"] == robot]
@@ -100,14 +91,14 @@ def table_alone(rows: Sequence[dict[str, str]]) -> list[str]:
 def table_together(rows: Sequence[dict[str, str]]) -> list[str]:
     """Completed runs with everything drawn together, by walk and robot; only what was run."""
     lines = [
-        f"| walk | robot | {HEADS.replace('older ground, exact', 'older ground, drawn')} |",
+        f"| walk | robot | {' | '.join(HEADS).replace('older ground, exact', 'older ground, drawn')} |",
         "|---|---|---|---|---|",
     ]
     for scene in TOGETHER:
         for robot in ROBOTS:
             mine = [r for r in rows if r["case"] == _together(scene) and r["robot"] == robot]
             if mine:
-                lines.append(f"| `{scene}` | {robot} | {counted(mine)} |")
+                lines.append(f"| `{scene}` | {robot} | {' | '.join(counted(mine))} |")
     return lines
 
 
@@ -157,4 +148,4 @@ def report() -> None:
         draw(rows, FOLDER / "plant.png")
 
 
-BENCHMARK = Benchmark(FOLDER / "plant.csv", COLUMNS, _cases(), figures)
+BENCHMARK = Benchmark("plant", COLUMNS, _cases())

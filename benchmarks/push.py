@@ -5,15 +5,21 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from statistics import median
-from typing import Any
 
-from resumable import HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
+from resumable import FOLDER, HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
 
-FOLDER = Path(__file__).parent
-COLUMNS = ("fell", "direction", "step", "steps_taken", "tilt_max_deg", "zmp_margin_min_m", "impact_median_N")
-COLUMNS += ("impact_max_N", "position_error_m", "heading_error_deg", "com_error_max_m")
+COLUMNS = {
+    "fell": "fell",
+    "direction": "push.direction",
+    "step": "push.step",
+    **{name: name for name in ("steps_taken", "tilt_max_deg", "zmp_margin_min_m")},
+    "impact_median_N": lambda simulation, out: median(out["impacts_N"] or [0.0]),
+    "impact_max_N": lambda simulation, out: max(out["impacts_N"], default=0.0),
+    "position_error_m": "final.position_error_m",
+    "heading_error_deg": "final.heading_error_deg",
+    "com_error_max_m": lambda simulation, out: max(out["estimate"]["com_error_max_m"]),
+}
 
 # robot and impulse in N s
 LINES = (("h1", 20), ("h1", 25), ("h1", 30), ("h1", 40), ("hrp2kai", 20), ("hrp2kai", 25))
@@ -43,20 +49,6 @@ def _cases() -> list[Case]:
     ]
 
 
-def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
-    """The columns of one run."""
-    return {
-        **{name: out[name] for name in COLUMNS if name in out},
-        "direction": out["push"]["direction"],
-        "step": out["push"]["step"],
-        "impact_median_N": median(out["impacts_N"] or [0.0]),
-        "impact_max_N": max(out["impacts_N"], default=0.0),
-        "position_error_m": out["final"]["position_error_m"],
-        "heading_error_deg": out["final"]["heading_error_deg"],
-        "com_error_max_m": max(out["estimate"]["com_error_max_m"]),
-    }
-
-
 def report() -> None:
     """Write the table between its markers in push.md, and the bars."""
     from plantar.plotting import COLOURS, new_figure, save_figure
@@ -67,14 +59,14 @@ def report() -> None:
         if not r.get("plant") and way in _OLDER:
             r["case"] = f"{impulse}, {_OLDER[way]}"
     ways = dict.fromkeys([*WAYS, *_OLDER.values()])
-    lines = [f"| robot | impulse | what balances | {HEADS} |", "|---|---|---|---|---|---|"]
+    lines = [f"| robot | impulse | what balances | {' | '.join(HEADS)} |", "|---|---|---|---|---|---|"]
     bars: list[tuple[str, list[float]]] = []
     for robot, impulse in LINES:
         shares = []
         for way in ways:
             mine = [r for r in rows if r["robot"] == robot and r["case"] == _name(impulse, way)]
             if mine:
-                lines.append(f"| {robot} | {impulse} N s | {way} | {counted(mine)} |")
+                lines.append(f"| {robot} | {impulse} N s | {way} | {' | '.join(counted(mine))} |")
             now = of_now(mine)
             shares.append(100.0 * sum(r["completed"] == "True" for r in now) / max(len(now), 1))
         bars.append((f"{robot}\n{impulse} N s", shares))
@@ -90,4 +82,4 @@ def report() -> None:
     save_figure(figure, FOLDER / "push.png")
 
 
-BENCHMARK = Benchmark(FOLDER / "push.csv", COLUMNS, _cases(), figures)
+BENCHMARK = Benchmark("push", COLUMNS, _cases())

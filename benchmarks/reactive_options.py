@@ -1,4 +1,4 @@
-"""Compare what a scene may choose of the reactive layer: `python benchmarks/outcomes.py MINUTES reactive_options`.
+"""What a scene may choose of the reactive layer: `python benchmarks/outcomes.py MINUTES reactive_options`.
 
 The path of the swing foot (`control.swing_shape`) and the estimate of the CoM's velocity (`control.dcm_estimate`), on
 the same scenes and seeds, against the true motion.
@@ -7,83 +7,75 @@ the same scenes and seeds, against the true motion.
 from __future__ import annotations
 
 import math
-from pathlib import Path
-from statistics import mean, median
+from statistics import median
 from typing import Any
 
 import numpy as np
-from resumable import HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
+from resumable import Benchmark, Case, shown
 
 from plantar.recordings.recording import read_mcap
 
-FOLDER = Path(__file__).parent
-COLUMNS = (
-    *("velocity_rms_mm_s", "velocity_most_mm_s", "dcm_rms_mm", "dcm_most_mm"),
-    *("impact_N", "largest_impact_N", "tilt_deg", "slip_mm", "torque_share", "steps_off_m"),
-)
-SEEDS = 2
 SCENES = {"flat": (), "uneven": ("walk.steps=20",), "push-step": ()}
 OPTIONS = {
     "as it is": (),
     "swing fitted": ("control.swing_shape=fit",),
     "Kalman filter": ("control.dcm_estimate=kalman",),
 }
-CASES = [
-    Case(f"{scene}, {option}", scene, "h1", (*settings, *chosen), SEEDS)
-    for scene, settings in SCENES.items()
-    for option, chosen in OPTIONS.items()
-]
 STANDS = 2.0  # s until the estimator has averaged gravity and the first weight shift begins
 
 
-def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
-    """The columns of one run: errors of the estimate beside the truth, how feet landed, and what the body did."""
+def errors(simulation: Any, out: dict[str, Any]) -> dict[str, float]:
+    """Errors of the estimated velocity and DCM against the true motion."""
     run = read_mcap(out["recording"])
     estimate, truth = run.topics["/estimate"], run.topics["/truth/body"]
-    com = truth.fields["com"][:, :2]
-    walks = truth.time > STANDS
+    com, walks = truth.fields["com"][:, :2], truth.time > STANDS
     velocity = np.gradient(com, truth.time, axis=0)
     off = np.linalg.norm(estimate.fields["com_velocity"][:, :2] - velocity, axis=1)[walks]
     missed = np.linalg.norm(estimate.fields["dcm"] - com - velocity / simulation.controller.omega, axis=1)[walks]
-    push = out.get("push", {})
-    return {
-        "velocity_rms_mm_s": 1e3 * math.sqrt(float(np.mean(off * off))),
-        "velocity_most_mm_s": 1e3 * float(off.max()),
-        "dcm_rms_mm": 1e3 * math.sqrt(float(np.mean(missed * missed))),
-        "dcm_most_mm": 1e3 * float(missed.max()),
-        "impact_N": median(out["impacts_N"]),
-        "largest_impact_N": max(out["impacts_N"]),
-        "tilt_deg": out["tilt_max_deg"],
-        "slip_mm": 1e3 * out["slip_max_m"],
-        "torque_share": out["torque_limit"]["share_of_time"],
-        "steps_off_m": max(push.get("step_changes_m", []), default=out["final"]["position_error_m"]),
-    }
+    found = {}
+    for name, unit, error in (("velocity", "mm_s", off), ("dcm", "mm", missed)):
+        found[f"{name}_rms_{unit}"] = 1e3 * math.sqrt(float(np.mean(error * error)))
+        found[f"{name}_most_{unit}"] = 1e3 * float(error.max())
+    return found
 
 
-BENCHMARK = Benchmark(FOLDER / "reactive_options.csv", COLUMNS, CASES, figures, recorded=True)
+def farthest(simulation: Any, out: dict[str, Any]) -> float:
+    """How far the largest change of a step went, or the end is off, in m."""
+    return float(max(out.get("push", {}).get("step_changes_m", []), default=out["final"]["position_error_m"]))
 
 
-def report() -> None:
-    """Write the table between its markers in reactive_options.md."""
-    rows = rows_of(BENCHMARK.path)
-    lines = [
-        f"| what | robot | {HEADS} | CoM velocity off, rms, most [mm/s] | DCM off, rms, most [mm] | "
-        "impact, median, most [N] | tilt [deg] | slip [mm] | torque at its limit [%] | farthest step or end [m] |",
-        "|---|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
-    for case in CASES:
-        mine = [r for r in rows if r["case"] == case.name]
-        if not mine:
-            continue
-        cells, mine = counted(mine), of_now(mine)
+def _error(name: str) -> Any:
+    return lambda simulation, out: errors(simulation, out)[name]
 
-        def of(name: str, pick: Any = mean, scale: float = 1.0, mine: list[dict[str, str]] = mine) -> str:
-            return f"{scale * pick(float(r[name]) for r in mine):.3g}"
 
-        lines.append(
-            f"| {case.name} | {case.robot} | {cells} | {of('velocity_rms_mm_s')}, {of('velocity_most_mm_s', max)} | "
-            f"{of('dcm_rms_mm')}, {of('dcm_most_mm', max)} | {of('impact_N')}, {of('largest_impact_N', max)} | "
-            f"{of('tilt_deg', max)} | {of('slip_mm', max)} | {of('torque_share', mean, 100.0)} | {of('steps_off_m')} |"
-        )
-    lines += ["", f'Means over seeds; "most", tilt and slip are the largest. {origin(BENCHMARK)}']
-    write_table(FOLDER / "reactive_options.md", lines)
+BENCHMARK = Benchmark(
+    "reactive_options",
+    {
+        **{n: _error(n) for n in ("velocity_rms_mm_s", "velocity_most_mm_s", "dcm_rms_mm", "dcm_most_mm")},
+        "impact_N": lambda simulation, out: median(out["impacts_N"]),
+        "largest_impact_N": lambda simulation, out: max(out["impacts_N"]),
+        "tilt_deg": "tilt_max_deg",
+        "slip_mm": lambda simulation, out: 1e3 * out["slip_max_m"],
+        "torque_share": "torque_limit.share_of_time",
+        "steps_off_m": farthest,
+    },
+    [
+        Case(f"{scene}, {option}", scene, "h1", (*settings, *chosen), 2)
+        for scene, settings in SCENES.items()
+        for option, chosen in OPTIONS.items()
+    ],
+    {
+        "CoM velocity off, RMS [mm/s]": shown("velocity_rms_mm_s", "{mean:.3g}"),
+        "most": shown("velocity_most_mm_s", "{most:.3g}"),
+        "DCM off, RMS [mm]": shown("dcm_rms_mm", "{mean:.3g}"),
+        "most [mm]": shown("dcm_most_mm", "{most:.3g}"),
+        "impact, median [N]": shown("impact_N", "{mean:.3g}"),
+        "most [N]": shown("largest_impact_N", "{most:.3g}"),
+        "tilt [deg]": shown("tilt_deg", "{most:.3g}"),
+        "slip [mm]": shown("slip_mm", "{most:.3g}"),
+        "torque at its limit [%]": shown("torque_share", "{mean:.3g}", 100.0),
+        "farthest step or end [m]": shown("steps_off_m", "{mean:.3g}"),
+    },
+    'Means over seeds; "most", tilt and slip are the largest.',
+    recorded=True,
+)

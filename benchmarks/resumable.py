@@ -13,32 +13,17 @@ import csv
 import hashlib
 import os
 import subprocess
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import mean, median
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from plantar.sim.sweep.intervals import wilson_interval
 
-__all__ = [
-    "FEW",
-    "HEADS",
-    "PLANTS",
-    "Benchmark",
-    "Case",
-    "add_row",
-    "commit",
-    "counted",
-    "differences",
-    "drawn_seeds",
-    "latest",
-    "of_now",
-    "origin",
-    "rows_of",
-    "run_row",
-    "wanted",
-    "write_table",
-]
+FOLDER = Path(__file__).parent
 
 FEW = 4
 """So many seeds of each case come first."""
@@ -46,8 +31,8 @@ FEW = 4
 PLANTS: dict[str, tuple[str, ...]] = {"drawn": ("plant=random", "plant.level=1"), "exact": (), "own": ()}
 """Settings of each plant that a case is counted on; "own" is for cases that are about the plant."""
 
-HEADS = "plant drawn | exact plant | older ground, exact plant"
-"""Heads of the columns that `counted` fills."""
+HEADS = ("plant drawn", "exact plant", "older ground, exact plant")
+"""Heads of the cells that `counted` gives."""
 
 
 class Case(NamedTuple):
@@ -74,32 +59,109 @@ class Case(NamedTuple):
     plants: tuple[str, ...] = ("drawn", "exact")
 
 
-class Benchmark(NamedTuple):
-    """What one script counts.
+Row = dict[str, str]
+"""A run, as text by column."""
+
+Figure = str | Callable[[Any, dict[str, Any]], Any]
+"""Where a column's value is in a run's summary ("final.tilt_deg"), or what computes it from simulation and summary."""
+
+Cell = Callable[[list[Row]], str]
+"""What makes a table's cell from the rows of a case."""
+
+
+@dataclass(frozen=True)
+class Benchmark:
+    """What one script counts, and how its table shows it.
 
     Attributes:
-        path: The CSV file; its first columns are case, robot, seed, completed, failed and commit.
+        name: Name of its .csv and .md file; the CSV's first columns are case, robot, plant, seed, completed, failed and
+            commit.
         columns: Its columns after those.
         cases: What to run.
-        figures: Values of those columns from a simulation that has run, and its summary.
-        recorded: Whether `figures` wants the run's recording, whose path is then the summary's "recording".
+        shown: Cells of a case's line after the counts, by their heads.
+        note: Sentence under the table.
+        recorded: Whether the run's recording is wanted, whose path is then the summary's "recording".
     """
 
-    path: Path
-    columns: tuple[str, ...]
+    name: str
+    columns: Mapping[str, Figure]
     cases: Sequence[Case]
-    figures: Callable[[Any, dict[str, Any]], dict[str, Any]]
+    shown: Mapping[str, Cell] = field(default_factory=dict)
+    note: str = ""
     recorded: bool = False
+    folder: Path = FOLDER
+
+    @property
+    def path(self) -> Path:
+        """Its CSV file."""
+        return self.folder / f"{self.name}.csv"
+
+    def report(self) -> None:
+        """Write the table between its markers in the page: a line a case that was run."""
+        rows = rows_of(self.path)
+        heads = ("case", "robot", *HEADS, *self.shown)
+        lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
+        for case in self.cases:
+            mine = [r for r in rows if (r["case"], r["robot"]) == (case.name, case.robot)]
+            if mine:
+                cells = [cell(of_now(mine)) for cell in self.shown.values()]
+                lines.append(f"| {' | '.join((case.name, case.robot, *counted(mine), *cells))} |")
+        write_table(self.folder / f"{self.name}.md", [*lines, "", f"{self.note} {origin(self)}".strip()])
+
+
+def figures(benchmark: Benchmark, simulation: Any, summary: dict[str, Any]) -> dict[str, Any]:
+    """The values of a run in a benchmark's own columns; what the summary lacks is empty."""
+    found = {}
+    for name, figure in benchmark.columns.items():
+        value: Any = summary
+        if callable(figure):
+            value = figure(simulation, summary)
+        else:
+            for part in figure.split("."):
+                value = value.get(part, "") if isinstance(value, dict) else ""
+        found[name] = "" if value is None else value
+    return found
+
+
+def values(rows: Sequence[Row], column: str, scale: float = 1.0) -> list[float]:
+    """The numbers of a column, without runs that have none."""
+    return [scale * float(r[column]) for r in rows if r.get(column) not in (None, "", "None", "nan")]
+
+
+def shown(column: str, form: str = "{median:.3g}", scale: float = 1.0, completed: bool = False) -> Cell:
+    """A cell with `median`, `least`, `most` and `mean` of a column over the runs, or over the completed ones alone."""
+
+    def cell(rows: list[Row]) -> str:
+        kept = [r for r in rows if r["completed"] == "True" or not completed]
+        found = values(kept, column, scale)
+        if not found:
+            return "-"
+        return form.format(median=median(found), least=min(found), most=max(found), mean=mean(found))
+
+    return cell
+
+
+SPREAD = "{median:.3g} ({least:.3g} to {most:.3g})"
+
+
+def failed(rows: list[Row]) -> str:
+    """The criteria that runs failed by, the most frequent first."""
+    found = Counter(" ".join(r["failed"] for r in rows).split()).most_common()
+    return ", ".join(f"{name} {n}" for name, n in found) or "-"
+
+
+def fallen(rows: list[Row]) -> str:
+    """How many runs fell."""
+    return str(sum(r["fell"] in ("True", "1") for r in rows))
 
 
 def commit() -> str:
     """Short name of the commit that is checked out."""
-    folder = Path(__file__).parent
-    found = subprocess.run(["git", "rev-parse", "--short=7", "HEAD"], cwd=folder, capture_output=True, text=True)
+    found = subprocess.run(["git", "rev-parse", "--short=7", "HEAD"], cwd=FOLDER, capture_output=True, text=True)
     return found.stdout.strip() or "unknown"
 
 
-def rows_of(path: Path) -> list[dict[str, str]]:
+def rows_of(path: Path) -> list[Row]:
     """All rows, in the order in which they were made."""
     if not path.exists():
         return []
@@ -107,7 +169,7 @@ def rows_of(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def latest(rows: Iterable[dict[str, str]]) -> list[dict[str, str]]:
+def latest(rows: Iterable[Row]) -> list[Row]:
     """The row that counts of each run."""
     return list({(r["case"], r["robot"], r.get("plant", ""), r["seed"]): r for r in rows}.values())
 
@@ -165,7 +227,7 @@ def run_row(benchmark: Benchmark, case: Case, run: tuple[str, int], made: str) -
     with TemporaryDirectory() as folder:
         recording = Path(folder, "run.mcap") if benchmark.recorded else None
         summary = simulation.run(record=recording)
-        found = benchmark.figures(simulation, {**summary, "recording": recording})
+        found = figures(benchmark, simulation, {**summary, "recording": recording})
     return {
         "case": case.name,
         "robot": case.robot,
@@ -199,7 +261,7 @@ def add_row(benchmark: Benchmark, case: Case, run: tuple[str, int], made: str) -
     return row
 
 
-def differences(row: dict[str, str], again: dict[str, Any]) -> list[str]:
+def differences(row: Row, again: dict[str, Any]) -> list[str]:
     """Columns in which a row and what it comes to when it is run again are not the same text; times of a machine, and
     the commit, are left out."""
     timed = ("_us", "real_time_factor", "commit")
@@ -207,18 +269,17 @@ def differences(row: dict[str, str], again: dict[str, Any]) -> list[str]:
     return [k for k in row if row[k] != texts[k] and not k.endswith(timed)]
 
 
-def counted(rows: Sequence[dict[str, str]]) -> str:
-    """Completed runs on a drawn plant, on an exact one, and of older rows, for the columns `HEADS` of a table; with
-    Wilson's interval at 95 %, in percent."""
+def counted(rows: Sequence[Row]) -> list[str]:
+    """Completed runs on a drawn plant, an exact one, and of older rows, with Wilson's interval at 95 % in percent."""
     cells = []
     for plants in (("drawn", "own"), ("exact",), ("",)):
         mine = [r["completed"] == "True" for r in latest(rows) if r.get("plant", "") in plants]
         low, high = wilson_interval(sum(mine), len(mine))
         cells.append(f"{sum(mine)}/{len(mine)} ({100 * low:.0f}-{100 * high:.0f})" if mine else "-")
-    return " | ".join(cells)
+    return cells
 
 
-def of_now(rows: Sequence[dict[str, str]]) -> list[dict[str, str]]:
+def of_now(rows: Sequence[Row]) -> list[Row]:
     """The rows that a table's other columns sum up: those on drawn plants; where there are none, the older ones."""
     mine = latest(rows)
     return [r for r in mine if r.get("plant", "") in ("drawn", "own")] or mine

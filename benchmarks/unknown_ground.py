@@ -7,17 +7,13 @@ bars; `python benchmarks/unknown_ground.py` draws the forces on the slab.
 from __future__ import annotations
 
 from pathlib import Path
-from statistics import median
 from typing import Any
 
 import numpy as np
-from resumable import HEADS, Benchmark, Case, counted, of_now, origin, rows_of, write_table
+from resumable import FOLDER, SPREAD, Benchmark, Case, Row, of_now, rows_of, shown, values
 
 from plantar.mechanics.lip import GRAVITY
 
-FOLDER = Path(__file__).parent
-COLUMNS = ("fell", "steps", "impact_mean", "impact_max", "here", "angle_deg", "feasible", "area_ratio")
-COLUMNS += ("moment_Nm", "tilt_deg", "time_s", "rays_skipped")
 IN_PLACE = "walk.length=0"
 ROBOTS = ("h1", "hrp2kai")
 
@@ -58,76 +54,81 @@ CASES = [
 ]
 
 
-def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
-    """The columns of one run."""
-    weight = simulation.legs.mass * GRAVITY
-    impact = np.array(out["impacts_N"] or [np.nan]) / weight
+def impacts(simulation: Any, out: dict[str, Any]) -> Any:
+    """Impacts (n,) of a run in body weights."""
+    return np.array(out["impacts_N"] or [np.nan]) / (simulation.legs.mass * GRAVITY)
+
+
+def fifth(simulation: Any, out: dict[str, Any]) -> int | None:
+    """The landing of the fifth step, the one on what the scene is about; None where there was none."""
     swings = [p for p in simulation.controller.schedule.phases if p.swing is not None]
-    here = None
-    if len(swings) > 4:  # the landing of the fifth step: the one on what the scene is about
-        times = np.array(out["landings_s"])
-        near = np.flatnonzero(np.abs(times - swings[4].end) < 0.45)
-        here = int(near[0]) if len(near) else None
-    checks = out.get("feasibility") or [{}]
-    return {
-        "fell": int(out["fell"]),
-        "steps": out["steps_taken"],
-        "impact_mean": round(float(impact.mean()), 4),
-        "impact_max": round(float(impact.max()), 4),
-        "here": "" if here is None else round(float(impact[here]), 4),
-        "angle_deg": "" if here is None else out["sole_angles_deg"][here],
-        "feasible": checks[0].get("feasible", ""),
-        "area_ratio": checks[0].get("area_ratio", ""),
-        "moment_Nm": checks[0].get("ankle_moment_Nm", ""),
-        "tilt_deg": out["tilt_max_deg"],
-        "time_s": out["sim_time_s"],
-        "rays_skipped": out["skipped"].get("proximity_rays", ""),
-    }
+    if len(swings) <= 4:
+        return None
+    near = np.flatnonzero(np.abs(np.array(out["landings_s"]) - swings[4].end) < 0.45)
+    return int(near[0]) if len(near) else None
+
+
+def _at_fifth(values: Any) -> Any:
+    return lambda s, out: "" if (k := fifth(s, out)) is None else round(float(values(s, out)[k]), 4)
+
+
+def _checked(name: str) -> Any:
+    return lambda simulation, out: (out.get("feasibility") or [{}])[0].get(name, "")
+
+
+def stepped_on(rows: list[Row]) -> str:
+    """How many of the places that were checked the robot stepped on."""
+    checked = [r["feasible"] == "True" for r in rows if r["feasible"]]
+    return f"{sum(checked)}/{len(checked)}" if checked else ""
+
+
+BENCHMARK = Benchmark(
+    "unknown_ground",
+    {
+        "fell": lambda simulation, out: int(out["fell"]),
+        "steps": "steps_taken",
+        "impact_mean": lambda simulation, out: round(float(impacts(simulation, out).mean()), 4),
+        "impact_max": lambda simulation, out: round(float(impacts(simulation, out).max()), 4),
+        "here": _at_fifth(impacts),
+        "angle_deg": _at_fifth(lambda simulation, out: out["sole_angles_deg"]),
+        "feasible": _checked("feasible"),
+        "area_ratio": _checked("area_ratio"),
+        "moment_Nm": _checked("ankle_moment_Nm"),
+        "tilt_deg": "tilt_max_deg",
+        "time_s": "sim_time_s",
+        "rays_skipped": "skipped.proximity_rays",
+    },
+    CASES,
+    {
+        "mean impact [BW]": shown("impact_mean", SPREAD),
+        "largest impact [BW]": shown("impact_max", SPREAD),
+        "fifth landing [BW]": shown("here", SPREAD),
+        "angle [deg]": shown("angle_deg", SPREAD),
+        "stepped on": stepped_on,
+    },
+)
 
 
 def report() -> None:
     """Write the table between its markers in unknown_ground.md, and the bars."""
     from plantar.plotting import COLOURS, new_figure, save_figure
 
+    BENCHMARK.report()
     rows = rows_of(BENCHMARK.path)
-    lines = [
-        f"| case | robot | {HEADS} | mean impact [BW] | largest impact [BW] | fifth landing [BW] "
-        "| angle [deg] | stepped on |",
-        "|---|---|---|---|---|---|---|---|---|---|",
-    ]
-    bars: dict[str, tuple[float, float, float]] = {}
-    for case in CASES:
-        mine = [r for r in rows if r["case"] == case.name and r["robot"] == case.robot]
-        if not mine:
-            continue
-        cells, mine = counted(mine), of_now(mine)
-        mean, top = ([float(r[k]) for r in mine] for k in ("impact_mean", "impact_max"))
-        here = [float(r["here"]) for r in mine if r["here"]]
-        angle = [float(r["angle_deg"]) for r in mine if r["angle_deg"]]
-        stepped = [r["feasible"] == "True" for r in mine if r["feasible"]]
-        checked = f"{sum(stepped)}/{len(stepped)}" if stepped else ""
-        bars[f"{case.name}, {case.robot}"] = (min(mean), float(np.mean(mean)), max(top))
-        lines.append(
-            f"| {case.name} | {case.robot} | {cells} | {_range(mean)} "
-            f"| {_range(top)} | {_range(here)} | {_range(angle)} | {checked} |"
-        )
-    write_table(FOLDER / "unknown_ground.md", [*lines, "", origin(BENCHMARK)])
     figure, axis = new_figure(8.5, 3.6)
-    shown = [n for n in bars if n.startswith(("uneven", "obstacle 3"))]
-    for i, name in enumerate(shown):
-        low, mean, high = bars[name]
-        colour = COLOURS["left"] if ", on" in name else COLOURS["right"]
-        axis.bar(i, high - low, bottom=low, color=colour, alpha=0.35)
-        axis.plot([i - 0.4, i + 0.4], [mean, mean], color=colour, lw=2.5)
-    axis.set_xticks(range(len(shown)), [n.replace(", ", "\n").replace(" ", "\n", 1) for n in shown], fontsize=8)
+    names = [(c.name, c.robot) for c in CASES if c.name.startswith(("uneven", "obstacle 3"))]
+    for i, case in enumerate(names):
+        mine = of_now([r for r in rows if (r["case"], r["robot"]) == case])
+        mean, top = values(mine, "impact_mean"), values(mine, "impact_max")
+        colour = COLOURS["left"] if ", on" in case[0] else COLOURS["right"]
+        axis.bar(i, max(top) - min(mean), bottom=min(mean), color=colour, alpha=0.35)
+        axis.plot([i - 0.4, i + 0.4], [np.mean(mean)] * 2, color=colour, lw=2.5)
+    labels = [", ".join(case).replace(", ", "\n").replace(" ", "\n", 1) for case in names]
+    axis.set_xticks(range(len(names)), labels, fontsize=8)
     axis.set_ylabel("impact [body weights]")
     axis.set_yscale("log")
     axis.grid(axis="y", alpha=0.3)
     save_figure(figure, FOLDER / "unknown_ground.png")
-
-
-def _range(values: list[float]) -> str:
-    return f"{median(values):.3g} ({min(values):.3g} to {max(values):.3g})" if values else ""
 
 
 def forces() -> None:
@@ -153,8 +154,6 @@ def forces() -> None:
     axes[1].set_xlabel("time [s]")
     save_figure(figure, FOLDER / "unknown_ground_force.png")
 
-
-BENCHMARK = Benchmark(FOLDER / "unknown_ground.csv", COLUMNS, CASES, figures)
 
 if __name__ == "__main__":
     forces()

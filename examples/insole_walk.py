@@ -22,7 +22,7 @@ def insole_pressure(phase: float) -> np.ndarray:
     along = np.arange(CELLS) / (CELLS - 1)
     roll = np.exp(-(((along - progress) / 0.25) ** 2))
     load = np.sin(np.pi * np.clip(progress, 0.04, 0.96)) ** 0.4
-    return np.round(180.0 * load * roll / 2.5) * 2.5  # a sensor resolves 2.5 kPa
+    return np.round(110.0 * load * roll / 2.5) * 2.5  # a sensor resolves 2.5 kPa
 
 
 def main() -> None:

@@ -74,9 +74,9 @@ QUICK = {
     ),
     "record_formats": Example(r"pedar.*2 feet, 50 Hz, peak (\d+) N.*table.*peak (\d+) N", holds=lambda a, b: a == b),
     "record_makers": Example(
-        r"emed: .* peak (\d+) N.*tekscan: 72 .* peak (\d+) N.*footscan: .* peak (\d+) N.*xsensor: 72 .* peak (\d+) N"
+        r"emed: .* peak (\d+) N.*tekscan: 736 .* peak (\d+) N.*footscan: .* peak (\d+) N.*xsensor: 736 .* peak (\d+) N"
         r".*moticon: 16 ",
-        holds=lambda emed, *spacing: emed == 160 and spacing == (165, 248, 165),  # 40 cells of 160 kPa, by their areas
+        holds=lambda emed, *spacing: emed == 693 and spacing == (715, 739, 715),  # 616 cells of 45 kPa, by their areas
     ),
     "record_own_metric": Example(r"left: (\d+) steps, forefoot loaded (\S+) ", holds=lambda n, t: n == 10 and t > 0.2),
     "shoe_from_any_foot": Example(
@@ -104,7 +104,9 @@ LONG = {
         r"without it: steps at 0.20, 0.40, 0.60.*completed: True.*with it: steps at 0.20, 0.40, 0.64.*completed: True"
     ),
     "walk_own_terrain": Example(r"pfc=true: completed, 6 steps.*pfc=false: .*fall"),
-    "walk_own_gains": Example(r"dcm_gain 0: .*dcm_gain 3: completed.*dcm_gain 8: .*\[balance\] dcm_gain = \d"),
+    "walk_own_gains": Example(
+        r"dcm_gain 0: .*dcm_gain 3: completed 3 of 3.*dcm_gain 8: .*gains differ by \S+ degrees, seeds by \S+: \w+"
+    ),
     "walk_sweep": Example(r"'false'}: (\d) of 2 completed.*'true'}: 2 of 2.*finds 4 of its 4", holds=lambda n: n == 0),
 }
 

@@ -17,6 +17,10 @@ from plantar.errors import InputError
 __all__ = ["COMMAND", "AnalysisOrder", "FileOrder", "analyze"]
 
 
+_NOTES = 3
+"""Warnings that are printed of each recording; the files hold all."""
+
+
 def _option(default: Any, text: str, *names: str, metavar: str | None = None) -> Any:
     return field(default=default, metadata={"help": text, "metavar": metavar, "names": names})
 
@@ -225,8 +229,11 @@ def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())
     end_command(result, as_json, text + file_lines(result["files"]))
     for name, metrics in () if as_json else parts.items():
-        for warning in metrics["warnings"]:
-            print_note(f"note{f' of {name}' if name else ''}: {warning}")
+        warnings, about = metrics["warnings"], f" of {name}" if name else ""
+        for warning in warnings[:_NOTES]:
+            print_note(f"note{about}: {warning}")
+        if len(warnings) > _NOTES:
+            print_note(f"note{about}: {len(warnings) - _NOTES} more in metrics.json and report.html")
 
 
 def _analyze_study(

@@ -36,7 +36,7 @@ def benchmark(resumable: Any, path: Path, rows: list[dict[str, Any]], aside: boo
         writer.writeheader()
         writer.writerows(rows)
     case = resumable.Case("a", "flat", "h1", (), 6, aside)
-    return resumable.Benchmark(path, (), [case], lambda *_: {})
+    return resumable.Benchmark(path.stem, {}, [case], folder=path.parent)
 
 
 def test_seeds_are_drawn_from_the_commit_the_same_for_all_cases(resumable: Any) -> None:
@@ -71,8 +71,8 @@ def test_comparisons_come_later_a_few_of_each_first(resumable: Any, tmp_path: Pa
 def test_completed_runs_are_counted_by_plant_with_their_interval(resumable: Any, tmp_path: Path) -> None:
     rows = [row(0, True), row(1, True), row(1, False, commit="new"), row(1, True, "exact"), row(7, True, "")]
     told = [{k: str(v) for k, v in r.items()} for r in rows]
-    assert resumable.counted(told) == "1/2 (9-91) | 1/1 (21-100) | 1/1 (21-100)"
-    assert resumable.counted(told[:2]) == "2/2 (34-100) | - | -"
+    assert resumable.counted(told) == ["1/2 (9-91)", "1/1 (21-100)", "1/1 (21-100)"]
+    assert resumable.counted(told[:2]) == ["2/2 (34-100)", "-", "-"]
     assert {r["seed"] for r in resumable.of_now(told)} == {"0", "1"}
     assert resumable.of_now(told[4:]) == told[4:]
     assert "1 of made (older ground)" in resumable.origin(benchmark(resumable, tmp_path / "a.csv", rows))
@@ -83,7 +83,7 @@ def test_a_row_is_added_to_a_file_of_older_rows(resumable: Any, tmp_path: Path, 
     path.write_text("case,robot,seed,completed,failed,commit\na,h1,3,True,,old\n")
     monkeypatch.setattr(resumable, "run_row", lambda *_: row(5, False))
     case = resumable.Case("a", "flat", "h1", (), 6)
-    resumable.add_row(resumable.Benchmark(path, (), [case], lambda *_: {}), case, ("drawn", 5), "made")
+    resumable.add_row(resumable.Benchmark("a", {}, [case], folder=tmp_path), case, ("drawn", 5), "made")
     older, newer = resumable.rows_of(path)
     assert (older["plant"], older["seed"], older["commit"]) == ("", "3", "old")
     assert (newer["plant"], newer["seed"], newer["completed"]) == ("drawn", "5", "False")
