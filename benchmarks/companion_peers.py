@@ -1,4 +1,4 @@
-r"""One tick of the companion beside mink (velocities) and tsid on pinocchio (accelerations and torques).
+r"""One tick of whole-body control compared with mink (velocities) and tsid on pinocchio (accelerations and torques).
 
 The same robot, state and tasks for each: two strict levels, since the peers have no more. Above, what has to be met
 (hand, centre of mass, feet where it stands on them), below a posture. First what comes out is compared, then the time.
@@ -285,10 +285,10 @@ def against_tsid(case, tsid, pin):
         case.robot.update(case.qpos, case.qvel, 0.0)
         return stack.step(case.robot)
 
-    beside = alternating(case.tick, lambda: peer.tick(q, v))
+    plain = alternating(case.tick, lambda: peer.tick(q, v))
     limited = alternating(lambda: with_limits(qp), lambda: with_limits(held))
     assert hold.limited
-    return worst, (*beside, *limited)
+    return worst, (*plain, *limited)
 
 
 def wide_limits(case):
@@ -369,7 +369,7 @@ def main():
     if mink:
         lines += velocity_table(cases, mink)
     lines += [_READING]
-    text = "\n".join(["# A tick of the companion beside its peers", "", *lines])
+    text = "\n".join(["# A tick of whole-body control compared with tsid and mink", "", *lines])
     print(text)
     if tsid and mink:
         write_text(Path(__file__).with_suffix(".md"), text + "\n")
@@ -381,7 +381,7 @@ def named(case):
 
 
 def torque_table(cases, tsid, pin):
-    """Lines of the table beside tsid."""
+    """Lines of the table of tsid."""
     version = f"tsid {importlib.metadata.version('tsid')}, pinocchio {pin.__version__}"
     head = "| robot | accelerations differ by | torques by | tick | tsid | with limits, none acts | one acts |"
     lines = [f"## Torques: {version}", "", head, "|---|---|---|---|---|---|---|"]
@@ -395,7 +395,7 @@ def torque_table(cases, tsid, pin):
 
 
 def velocity_table(cases, mink):
-    """Lines of the table beside mink."""
+    """Lines of the table of mink."""
     head = "| robot | velocities differ by | tick | mink |"
     lines = [
         f"## Velocities: mink {importlib.metadata.version('mink')}, compared by quadprog, timed with daqp",

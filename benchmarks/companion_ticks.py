@@ -67,7 +67,7 @@ def main() -> None:
     names = list(MultiContact.instances)
     table = []
     for count in range(len(names) + 1):
-        told = reading(skin, names[:count])
+        touched = reading(skin, names[:count])
         took: dict[str, list[float]] = {"skipping": [], "not": []}
         jacobians = {}
         for _ in range(ROUNDS):
@@ -75,7 +75,7 @@ def main() -> None:
                 before = robot.jacobians
                 began = perf_counter()
                 robot.update(*state, 0.0)
-                controller.step(robot, told)
+                controller.step(robot, touched)
                 took[kind].append(1e6 * (perf_counter() - began))
                 jacobians[kind] = robot.jacobians - before
         table.append((count, median(took["skipping"]), median(took["not"]), jacobians["skipping"], jacobians["not"]))

@@ -5,7 +5,7 @@ left shoe of each foot in so many rotations (the first is none), and writes the 
 `... difficult_feet.py 0` writes the table. The feet are those of tests/shoes/foot_family.py, and each shoe that passes
 its own checks is looked at by tests/shoes/shoe_witness.py, which shares no code with what makes it.
 
-An outcome is `holds`; `refused`, the foot told to be none; `told`, a shoe whose checks do not hold (exit code 1);
+An outcome is `holds`; `refused`, not a foot; `told`, a shoe whose checks do not hold (exit code 1);
 `hidden`, one whose checks hold and the witness finds a fault; or `crashed`, any other exception.
 """
 

@@ -1,4 +1,4 @@
-"""Our measures beside those that the R package pressuRe (0.2.4) defines, on recordings of several vendors.
+"""Measures compared with those that the R package pressuRe (0.2.4) defines, on recordings of several vendors.
 
     python benchmarks/pressure_definitions.py RECORDINGS [-o benchmarks/pressure_definitions.md]
 
@@ -152,11 +152,11 @@ def main() -> None:
         except PlantarError:
             continue  # a licence, or a report without frames
     lines = [
-        "# Our measures beside pressuRe's definitions",
+        "# Measures compared with pressuRe's definitions",
         "",
         "`python benchmarks/pressure_definitions.py RECORDINGS` computes the definitions of the R package pressuRe",
         "(0.2.4) from the frames of each recording; the package is not run. Means over the steps that both have.",
-        "Beside every difference above 1 % stands what cutting the steps at our events makes of it, and what the rest",
+        "For every difference above 1 %, the value with steps cut at our events is listed, and what the rest",
         "comes from.",
         "",
         "| recording | foot | steps | measure | pressuRe's | between our events | ours | difference | why |",

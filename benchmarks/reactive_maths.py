@@ -1,4 +1,4 @@
-"""The closed forms and optima of force-reactive walking: run time, KKT residuals, and beside the paper's solver.
+"""The closed forms and optima of force-reactive walking: run time, KKT residuals, the paper's solver.
 
 python benchmarks/reactive_maths.py        (writes benchmarks/reactive_maths.md)
 """
@@ -157,7 +157,7 @@ def dsp_cost(p: DspProblem):
     return cost, [(max(0.5 * p.nominal, p.elapsed + 1e-6), 5.0 * p.nominal)]
 
 
-def beside_lbfgs(problems, solve, cost_of, start_of, place_of, gradient):
+def compared_with_lbfgs(problems, solve, cost_of, start_of, place_of, gradient):
     """Rows of the table: ours and L-BFGS-B, with time, and how much more it costs than the least that was found."""
     prepared = [(cost_of(p), start_of(p)) for p in problems]
     ours = [solve(p) for p in problems]
@@ -245,7 +245,7 @@ def layer(rng):
 
 
 def closed_form_errors(rng, count=200) -> tuple[float, float]:
-    """Largest difference of the closed forms in single and double support to integration, beside the largest value."""
+    """Largest difference of the closed forms in single and double support to integration, over the largest value."""
     single = double = 0.0
     for _ in range(count):
         dcm, start, end, offset = rng.uniform(-0.3, 0.3, (4, 2))
@@ -305,7 +305,7 @@ def main() -> None:
     tables = [
         (
             "SSP-Opt (K 31-33)",
-            beside_lbfgs(
+            compared_with_lbfgs(
                 singles[:few],
                 lambda p: solve_ssp(p, WEIGHTS),
                 ssp_cost,
@@ -316,7 +316,7 @@ def main() -> None:
         ),
         (
             "DSP-Opt (K 37-38)",
-            beside_lbfgs(
+            compared_with_lbfgs(
                 doubles[:few],
                 lambda p: solve_dsp(p, DSP_WEIGHTS),
                 dsp_cost,
@@ -330,10 +330,10 @@ def main() -> None:
     for name, rows in tables:
         for who, (times, excess, residual) in zip(("here", "scipy's L-BFGS-B"), rows, strict=True):
             worse = float(np.mean(excess > 1e-6))
-            told = "-" if residual is None else f"{residual:.0e}"
+            shown = "-" if residual is None else f"{residual:.0e}"
             solved.append(
                 f"| {name} | {who} | {np.median(times):.1f} | {np.percentile(times, 99):.1f} | {100 * worse:.1f} % | "
-                f"{excess.max():.1e} | {told} |"
+                f"{excess.max():.1e} | {shown} |"
             )
             solves = float(np.median(times)) if who == "here" and name.startswith("SSP") else solves
     lines += [
@@ -343,7 +343,7 @@ def main() -> None:
         "",
         f"Optima of {few} pushes up to 60 N s, from all sides, at any time. Worse: cases in which a cost is more",
         "than 1e-6 above the least that either found; excess: by what share at most. Residual: of the KKT conditions,",
-        "beside the gradient's largest term. L-BFGS-B starts from the tick before, with its usual tolerances; for",
+        "over the gradient's largest term. L-BFGS-B starts from the tick before, with its usual tolerances; for",
         "SSP-Opt it gets the exact gradient.",
         "",
         "| optimum | by | median [us] | 99 % [us] | worse | excess | residual |",
@@ -353,8 +353,8 @@ def main() -> None:
     single, double = closed_form_errors(rng)
     lines += [
         "",
-        f"Closed forms beside integration (DOP853, 1e-13), 200 cases: {single:.0e} in single support, {double:.0e} in",
-        "double support, of the larger of 1 m and the DCM.",
+        f"Closed forms compared with integration (DOP853, 1e-13), 200 cases: {single:.0e} in single support, "
+        f"{double:.0e} in double support, of the larger of 1 m and the DCM.",
         "",
         "Capture maps, 8 directions and 8 phases, in place and at 0.2 m/s (128 cells), of a robot of 86 kg whose swing",
         "foot is accelerated by 8 m/s^2:",

@@ -152,12 +152,12 @@ def main() -> None:
         print("\n".join(effects), flush=True)
         nulls = null_rows(strides, folder, draws)
     lines = [
-        "# Studies of 20 recordings: what is found of nothing, and of something",
+        "# Studies with and without a true difference",
         "",
         f"Ten people in two conditions, of {len(strides.frames)} strides of a real walk in insoles, cut and mixed.",
         "Written by `python benchmarks/study_draws.py RECORDING`.",
         "",
-        "No difference but chance; a difference was called in",
+        "Without a difference but chance, one was reported in",
         "",
         "| what | studies |",
         "|---|---|",

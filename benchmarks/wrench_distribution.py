@@ -1,4 +1,4 @@
-"""Run time of the wrench-distribution program: `plantar.mechanics.wrench_distribution` beside other ways to solve it.
+"""Run time of the wrench-distribution program compared with other ways to solve it.
 
 python benchmarks/wrench_distribution.py        (writes benchmarks/wrench_distribution.md)
 """

@@ -24,7 +24,8 @@ emed = []
 for k, frame in enumerate(frames):
     emed += ["", f"\t\t\t\tPage {k + 1}", "", "\tFile: C:\\novel\\1.dat \tMatrix: 64x95 "]
     emed += ["\tSensor area: 0.25 cm²\tTime/picture:10.0 ms", "\tSensor size: 0.500x0.500 cm"]
-    emed += [f"\tPict-No.: {k + 1}  Force[N]=sum*sensor_area in row/column", "", "\t" + "\t".join(str(i + 1) for i in range(16))]
+    emed += [f"\tPict-No.: {k + 1}  Force[N]=sum*sensor_area in row/column", ""]
+    emed += ["\t" + "\t".join(str(i + 1) for i in range(16))]
     emed += [f"{i + 1}\t{row}" for i, row in enumerate(rows(frame))] + ["", "\f"]
 
 tekscan = ["DATA_TYPE MOVIE", "FILENAME walk_left.fsx", "ROW_SPACING 5.08 mm", "COL_SPACING 5.08 mm"]
