@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import heapq
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import integer
-from plantar.errors import InputError
 from plantar.geometry.convex_shapes import convex_shapes
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import convex_ring
@@ -34,7 +34,10 @@ __all__ = [
 ]
 
 
+_QUARTER = 0.5 * math.pi
 _FIRST = 32  # intervals of a quarter turn that a scan begins with
+_LOOKS = 300  # angles that a scan measures
+_FEW_LOOKS = 64  # of a convex polygon, whose rectangle changes smoothly between its edges' directions
 _PROVEN = 1e-6  # share of the area that is not looked for
 
 
@@ -149,24 +152,27 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 
 
 def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Rectangle of most area in a convex polygon, at any angle.
+    """Largest rectangle in a convex polygon that a scan of angles finds.
 
-    Global, not a local summit: the edges that hold the best rectangle at one angle bound those at every other angle, by
-    weak duality and to second order, so that some 40 steps along the quarter turn leave nothing above the best area
-    (`plantar/kernels/geometry/any_angle.py` has the proof).
+    `rectangle_in_outline_any_angle` scans an outline and gives the proven bound on all other rectangles, too.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
 
     Returns:
-        Corners (4, 2) in m; its area is within 1e-6 of the largest one.
+        Corners (4, 2) in m.
 
     Example:
         >>> corners = inscribed_rectangle_any_angle([[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0]])
         >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 9)
         2.0
     """
-    return np.asarray(convex_shapes().rectangle_at_any_angle(convex_ring(polygon)))
+    ring = np.asarray(convex_ring(polygon))
+    edges = np.roll(ring, -1, axis=0) - ring
+    # The edges' directions first: the best rectangle often has a side on one, and that of a needle always.
+    longest = edges[np.argsort(-np.hypot(*edges.T))[:16]]
+    seeds = np.arctan2(longest[:, 1], longest[:, 0])
+    return _scan(lambda angle: inscribed_rectangle(ring, angle), ring, _FEW_LOOKS, seeds).corners
 
 
 def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.float64]:
@@ -191,19 +197,19 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
     if not len(outline):
         return np.empty((0, 2))
     shapes = convex_shapes()
-    return np.asarray(shapes.rectangle_in_outline(outline.points, outline.starts, outline.apart, float(angle)))
+    return np.asarray(shapes.rectangle_in_outline(outline.points, outline.starts, float(angle)))
 
 
-def rectangle_in_outline_any_angle(outline: Outline, looks: int = 300) -> BoundedRectangle:
-    """Largest rectangle in a concave outline found by a scan of its angles, and the proven bound on all others.
+def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> BoundedRectangle:
+    """Largest rectangle in a concave outline that a scan of angles finds, and the proven bound on all others.
 
     A rectangle turned by t about its middle holds one of d^2 sin(2 t) / 2 less at the angle before, d its diagonal: so
-    the largest rectangle at one angle bounds those near it. Intervals of angles, the one of the largest bound first,
-    are looked at in their middle and halved. The best angle is refined at the end.
+    the largest rectangle at one angle bounds those near it. The interval of the largest bound is measured in its middle
+    and halved, again and again; the best angle is refined at the end.
 
     Args:
         outline: Outline with islands and holes in m.
-        looks: At how many angles the outline is looked at; more of them never give a larger gap.
+        looks: Number of angles in the scan; more of them never give a larger gap.
 
     Returns:
         Corners (4, 2) in m and gap: no rectangle is larger by more than that share of its area. No corners (0, 2) and
@@ -215,54 +221,54 @@ def rectangle_in_outline_any_angle(outline: Outline, looks: int = 300) -> Bounde
     Example:
         >>> tilted = Outline.of_rings([[[0, 0], [1, 1], [0, 2], [-1, 1]]])
         >>> corners, gap = rectangle_in_outline_any_angle(tilted)
-        >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 6), gap
-        (2.0, 1e-06)
+        >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 6)
+        2.0
+        >>> gap < 0.01
+        True
     """
     most = integer(looks, "looks", 1)
-    if not len(outline):
+    return _scan(lambda angle: rectangle_in_outline(outline, angle), outline.points, most, np.zeros(1))
+
+
+def _scan(
+    largest: Callable[[float], NDArray[np.float64]],
+    points: NDArray[np.float64],
+    looks: int,
+    seeds: NDArray[np.float64],
+) -> BoundedRectangle:
+    """Scan the angles of a quarter turn, some seeds first, for the largest rectangle within points."""
+    if not len(points):
         return BoundedRectangle(np.empty((0, 2)), 0.0)
-    if len(outline.rings) == 1 and _is_convex(outline.rings[0]):
-        return BoundedRectangle(inscribed_rectangle_any_angle(outline.rings[0]), _PROVEN)
-    reach2 = float((np.ptp(outline.points, axis=0) ** 2).sum())  # no diagonal is longer
-    angle, corners = 0.0, rectangle_in_outline(outline)
-    best = _area(corners)
-    half = 0.25 * math.pi / _FIRST
+    found = [(_area(corners), angle, corners) for angle in (0.0, *seeds.tolist()) for corners in [largest(angle)]]
+    best, angle, corners = max(found, key=lambda f: f[0])
+    reach2 = float((np.ptp(points, axis=0) ** 2).sum())  # no diagonal is longer
+    half = 0.5 * _QUARTER / _FIRST
     waiting = [(-math.inf, (2 * k + 1) * half, half) for k in range(_FIRST)]
-    for _ in range(most):
-        bound, middle, half = heapq.heappop(waiting)
+    for _ in range(looks):
+        bound, middle, half = waiting[0]
         if -bound <= best * (1.0 + _PROVEN):
-            heapq.heappush(waiting, (bound, middle, half))
             break
-        found = rectangle_in_outline(outline, middle)
-        if _area(found) > best:
-            angle, corners, best = middle, found, _area(found)
+        trial = largest(middle)
+        size = _area(trial)
+        if size > best:
+            best, angle, corners = size, middle, trial
         # Half of the interval to either side, each with the bound of its farther end.
-        bound = max(bound, -(_area(found) + 0.5 * reach2 * math.sin(2.0 * half)))
-        for side in (-0.5, 0.5):
-            heapq.heappush(waiting, (bound, middle + side * half, 0.5 * half))
-    width = 0.5 * math.pi / _FIRST
-    while width > 1e-7:  # refine
-        for trial in (angle - width, angle + width):
-            found = rectangle_in_outline(outline, trial)
-            if _area(found) > best:
-                angle, corners, best = trial, found, _area(found)
+        bound = max(bound, -(size + 0.5 * reach2 * math.sin(2.0 * half)))
+        heapq.heapreplace(waiting, (bound, middle - 0.5 * half, 0.5 * half))
+        heapq.heappush(waiting, (bound, middle + 0.5 * half, 0.5 * half))
+    width, least = _QUARTER / _FIRST, 1e-7 * min(1.0, best / reach2) if reach2 else math.inf
+    while width > least:  # refine
+        for turned in (angle - width, angle + width):
+            trial = largest(turned)
+            if _area(trial) > best:
+                best, angle, corners = _area(trial), turned, trial
                 break
         else:
             width *= 0.5
-    gap = max(_PROVEN, -waiting[0][0] / best - 1.0) if best > 0.0 else 0.0
-    return BoundedRectangle(corners, gap)
+    return BoundedRectangle(corners, max(_PROVEN, -waiting[0][0] / best - 1.0) if best > 0.0 else 0.0)
 
 
 def _area(corners: NDArray[np.float64]) -> float:
     """Area in m^2 of a rectangle's corners."""
     first, second = corners[1] - corners[0], corners[2] - corners[1]
     return float(math.hypot(*first) * math.hypot(*second))
-
-
-def _is_convex(ring: NDArray[np.float64]) -> bool:
-    """Whether a ring is convex, so that the rectangle at any angle is known without a scan."""
-    try:
-        convex_ring(ring)
-    except InputError:
-        return False
-    return True

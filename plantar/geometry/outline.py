@@ -33,7 +33,6 @@ class Outline(Rings):
         points: Vertices (k, 2) of all rings in m, one ring after another, no ring with a repeated last point.
         starts: Offsets (r + 1) of the rings in `points`.
         ring_areas: Signed area of each ring in m^2, below 0 for a hole.
-        apart: Whether islands are known to meet in points at most, so that what lies in the area lies in one of them.
         area: Area in m^2, holes left out; exact to 1e-12 of it.
 
     Raises:
@@ -51,14 +50,11 @@ class Outline(Rings):
         points: NDArray[np.float64]
         starts: Sequence[int]
         ring_areas: Sequence[float]
-        apart: bool
 
         @property
         def area(self) -> float: ...
 
-    def __init__(
-        self, points: ArrayLike, starts: Sequence[int], ring_areas: Sequence[float], apart: bool = False
-    ) -> None:
+    def __init__(self, points: ArrayLike, starts: Sequence[int], ring_areas: Sequence[float]) -> None:
         # Kernels go where the offsets say.
         kept = own(plane_points(points, "points of an outline"))
         offsets = tuple(integers(starts, "offsets of an outline", ("r + 1",)).tolist())
@@ -69,19 +65,18 @@ class Outline(Rings):
         slack = 1e-9 * float(np.ptp(kept, axis=0).max()) ** 2 if len(kept) else 0.0
         if any(not abs(a - b) <= slack or b == 0.0 for a, b in zip(given, right, strict=True)):
             raise InputError(f"areas of an outline are {_shortly(given)}; those of its rings are {_shortly(right)}")
-        super().__init__(kept, offsets, tuple(given), bool(apart))  # type: ignore[no-untyped-call]
+        super().__init__(kept, offsets, tuple(given))  # type: ignore[no-untyped-call]
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Copies and pickles are made anew: numpy forgets what is read-only.
-        return type(self), (self.points, self.starts, self.ring_areas, self.apart)
+        return type(self), (self.points, self.starts, self.ring_areas)
 
     @classmethod
-    def of_rings(cls, rings: Sequence[ArrayLike], apart: bool = False) -> Outline:
+    def of_rings(cls, rings: Sequence[ArrayLike]) -> Outline:
         """Outline of given rings.
 
         Args:
             rings: Vertices (k, 2) of each ring in m, rims of islands counter-clockwise and of holes clockwise.
-            apart: Whether islands are known to meet in points at most.
 
         Returns:
             The outline; rings without area are left out.
@@ -90,10 +85,10 @@ class Outline(Rings):
             InputError: If a ring is not (k, 2) finite numbers.
         """
         parts = [plane_points(ring, "ring") for ring in items(rings, "rings")]
-        return cls._with_area(np.concatenate([np.empty((0, 2)), *parts]), [0, *accumulate(map(len, parts))], apart)
+        return cls._with_area(np.concatenate([np.empty((0, 2)), *parts]), [0, *accumulate(map(len, parts))])
 
     @classmethod
-    def _with_area(cls, points: NDArray[np.float64], starts: Sequence[int], apart: bool) -> Outline:
+    def _with_area(cls, points: NDArray[np.float64], starts: Sequence[int]) -> Outline:
         """Outline of rings one after another, in an array that nobody else holds; those without area are left out."""
         areas = areas_of_rings(points, starts)
         if 0.0 in areas:
@@ -101,15 +96,13 @@ class Outline(Rings):
             points = np.concatenate([np.empty((0, 2)), *(ring for ring, _ in kept)])
             starts = [0, *accumulate(len(ring) for ring, _ in kept)]
             areas = [area for _, area in kept]
-        return cls._of(points, starts, areas, apart)
+        return cls._of(points, starts, areas)
 
     @classmethod
-    def _of(
-        cls, points: NDArray[np.float64], starts: Sequence[int], areas: Sequence[float], apart: bool = False
-    ) -> Outline:
-        """Outline of what is known to be right, in an array that nobody else holds."""
+    def _of(cls, points: NDArray[np.float64], starts: Sequence[int], areas: Sequence[float]) -> Outline:
+        """Outline of checked values, in an array that only it holds."""
         made = cls.__new__(cls)
-        Rings.__init__(made, read_only(points), tuple(starts), tuple(areas), apart)
+        Rings.__init__(made, read_only(points), tuple(starts), tuple(areas))
         return made
 
     def __len__(self) -> int:
@@ -166,7 +159,7 @@ class Outline(Rings):
         (xx, xy), (yx, yy) = turn.tolist()
         if xx * yy < xy * yx:  # seen from below
             points = np.concatenate([points, *(points[a:b][::-1] for a, b in pairwise(self.starts))])[len(points) :]
-        return Outline._with_area(points, self.starts, self.apart)
+        return Outline._with_area(points, self.starts)
 
 
 def concave_outline(layout: SoleLayout, active: ArrayLike) -> Outline:
@@ -242,7 +235,6 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
         np.concatenate([np.empty((0, 2)), *(o.points for o in parts)]),
         [0, *accumulate(sizes)],
         [area for o in parts for area in o.ring_areas],
-        all(o.apart for o in parts),
     )
 
 
@@ -257,7 +249,7 @@ def _union(parts: Sequence[NDArray[np.float64] | tuple[NDArray[np.float64], ...]
         if part.geom_type == "Polygon":
             part = shapely.geometry.polygon.orient(part)
             rings += [np.array(r.coords)[:-1] for r in (part.exterior, *part.interiors)]
-    return Outline.of_rings(rings, True)
+    return Outline.of_rings(rings)
 
 
 def _shortly(values: Sequence[float]) -> str:

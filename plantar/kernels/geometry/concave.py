@@ -1,9 +1,5 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Kernel for the largest rectangle in an outline with islands and holes, exact.
-
-Plain Python that also compiles ahead of time (`concave.pxd` gives the C types). `plantar.inscribed` is the public face.
-"""
+"""Kernel for the largest rectangle in an outline with islands and holes, exact."""
 
 from __future__ import annotations
 
@@ -13,9 +9,6 @@ from ..base import signals, work_arrays
 from . import rectangle
 
 __all__ = ["OutlineRectangles"]
-
-_ASK = 1 << 19  # units of work between two looks for signals
-_INF = math.inf
 
 
 class OutlineRectangles:
@@ -29,37 +22,12 @@ class OutlineRectangles:
 
     def __init__(self, lists):
         self.lists = lists
-        self.m = 0
-        self.rings = 0
-        self.given_rings = 0
-        self.parts = 0
-        self.room = 0
-        self.many = 0
-        self._make_given(64, 16)
         self._make_room(64, 16)
         self._make_many(512)
-        self.ring = work_arrays.numbers(18, self.lists)
-        self.work = work_arrays.numbers(96, self.lists)
+        self.ring = work_arrays.numbers(24, self.lists)
+        self.kept = work_arrays.numbers(24, self.lists)
+        self.work = work_arrays.numbers(128, self.lists)
         self.corner = work_arrays.numbers(8, self.lists)
-        self.spent = 0
-        self.next_look = _ASK
-        self.limit = _INF
-        self.ended = False
-        self.best = 0.0
-        self.found = False
-        self.x1 = 0.0
-        self.x2 = 0.0
-        self.y1 = 0.0
-        self.y2 = 0.0
-
-    def _make_given(self, points, rings):
-        """Work arrays for an outline of so many points and rings."""
-        self.given = work_arrays.numbers(2 * points, self.lists)
-        self.given_start = work_arrays.places(rings + 1, self.lists)
-        self.owner = work_arrays.places(rings + 1, self.lists)
-        self.part = work_arrays.places(rings + 1, self.lists)
-        self.ring_area = work_arrays.numbers(rings + 1, self.lists)
-        self.part_area = work_arrays.numbers(rings + 1, self.lists)
 
     def _make_room(self, points, rings):
         """Work arrays for what is looked at, so many points and rings."""
@@ -86,176 +54,53 @@ class OutlineRectangles:
         self.path = work_arrays.places(total // 2 + 2, self.lists)
         self.slab = work_arrays.places(total // 2 + 1, self.lists)
 
-    def take(self, points, starts, apart):
-        """Take an outline, and find its parts: each island with its holes.
-
-        Args:
-            points: Vertices (k, 2) in m, the area on the left of each ring.
-            starts: Offsets (r + 1,) of the rings.
-            apart: Whether islands meet in points at most, so that no rectangle lies in two; all rings are one part
-                where they may share edges.
-
-        Returns:
-            Number of parts, the one of most area first.
-        """
+    def take(self, points, starts):
+        """Copy an outline: vertices (k, 2) in m, the area on the left of each ring, and offsets of rings."""
         m = points.shape[0]
         rings = len(starts) - 1
         if m > self.room or rings + 1 > len(self.start):
             self._make_room(max(2 * m, self.room), max(2 * rings, len(self.start)))
-        if 2 * m > len(self.given) or rings + 1 > len(self.owner):
-            self._make_given(max(2 * m, 64), max(2 * rings, 16))
-        self.given_rings = rings
-        self.spent = 0
-        self.next_look = _ASK
-        self.allow(_INF)
+        self.m = m
+        self.rings = rings
         for i in range(m):
-            self.given[2 * i] = points[i, 0] - points[0, 0]
-            self.given[2 * i + 1] = points[i, 1] - points[0, 1]
+            self.points[2 * i] = points[i, 0] - points[0, 0]
+            self.points[2 * i + 1] = points[i, 1] - points[0, 1]
+            self.order[i] = i
         for r in range(rings + 1):
-            self.given_start[r] = starts[r]
-        self.parts = 0
-        whole = 0.0
-        for r in range(rings):
-            a = self.given_start[r]
-            b = self.given_start[r + 1]
-            twice = 0.0
-            j = b - 1
-            for i in range(a, b):
-                twice += (self.given[2 * j] - self.given[2 * a]) * (self.given[2 * i + 1] - self.given[2 * a + 1]) - (
-                    self.given[2 * i] - self.given[2 * a]
-                ) * (self.given[2 * j + 1] - self.given[2 * a + 1])
-                j = i
-            self.ring_area[r] = 0.5 * twice
-            whole += 0.5 * twice
-            if twice > 0.0:
-                self.part[self.parts] = r
-                self.part_area[r] = 0.5 * twice
-                self.parts += 1
-                self.owner[r] = r
-        if not apart or self.parts < 2:
-            for r in range(rings):
-                self.owner[r] = 0
-            self.part[0] = 0
-            self.part_area[0] = whole
-            self.parts = 1
-            return 1
-        for r in range(rings):
-            if self.ring_area[r] <= 0.0:
-                self.owner[r] = self._around(r)
-                self.part_area[self.owner[r]] += self.ring_area[r]
-        for i in range(1, self.parts):
-            r = self.part[i]
-            j = i
-            while j > 0 and self.part_area[self.part[j - 1]] < self.part_area[r]:
-                self.part[j] = self.part[j - 1]
-                j -= 1
-            self.part[j] = r
-        return self.parts
+            self.start[r] = starts[r]
 
-    def allow(self, work):
-        """Allow so many units of work from now on; what then ends too early says so in `ended`, and finds less."""
-        self.limit = self.spent + work
-        self.ended = False
+    def largest(self, angle, out):
+        """Largest rectangle in the outline taken last whose first side has a given angle.
 
-    def _count(self, work):
-        """Count some units of work, and look for signals from time to time."""
-        self.spent += work
-        if self.spent > self.next_look:
-            self.next_look = self.spent + _ASK
-            signals.PyErr_CheckSignals()
-
-    def _around(self, hole):
-        """The smallest rim that encloses the middle of a hole's first edge."""
-        given = self.given
-        a = self.given_start[hole]
-        x = 0.5 * (given[2 * a] + given[2 * a + 2])
-        y = 0.5 * (given[2 * a + 1] + given[2 * a + 3])
-        best = -1
-        for k in range(self.parts):
-            r = self.part[k]
-            inside = False
-            j = self.given_start[r + 1] - 1
-            for i in range(self.given_start[r], self.given_start[r + 1]):
-                if (given[2 * i + 1] > y) != (given[2 * j + 1] > y):
-                    share = (y - given[2 * i + 1]) / (given[2 * j + 1] - given[2 * i + 1])
-                    if x < given[2 * i] + share * (given[2 * j] - given[2 * i]):
-                        inside = not inside
-                j = i
-            if inside and (best < 0 or self.ring_area[r] < self.ring_area[best]):
-                best = r
-        return best if best >= 0 else self.part[0]
-
-    def choose(self, k):
-        """Look at one part of the outline from now on.
+        Lines through every vertex cut the area into slabs and these into trapezoids. A rectangle starts in one
+        trapezoid, ends in another and crosses those between; what it may then use is convex: a window in y, and the
+        slants of the first and the last trapezoid. Branch and bound over the pairs: the box of the window bounds what a
+        pair can give, and the pairs that are left are solved as convex polygons. Where all of a pair's window passes
+        through one way into the trapezoid before the first, the pair with that one may use as much: the pair is left
+        out, likewise at the end.
 
         Args:
-            k: Which part, from that of most area.
+            angle: Angle of the first side in rad.
+            out: Receives the 4 corners about the first vertex, flat, counter-clockwise; untouched without area.
 
         Returns:
             Its area.
         """
-        chosen = self.part[k]
-        m = 0
-        rings = 0
-        for r in range(self.given_rings):
-            if self.owner[r] != chosen and self.parts > 1:
-                continue
-            self.start[rings] = m
-            rings += 1
-            for i in range(self.given_start[r], self.given_start[r + 1]):
-                self.points[2 * m] = self.given[2 * i]
-                self.points[2 * m + 1] = self.given[2 * i + 1]
-                self.order[m] = m
-                m += 1
-        self.start[rings] = m
-        self.rings = rings
-        self.m = m
-        return self.part_area[chosen]
-
-    def largest(self, angle, floor, out):
-        """Largest rectangle in the chosen part whose first side stands at an angle.
-
-        Lines across through every vertex cut the area into trapezoids in slabs. A rectangle starts in one trapezoid,
-        ends in another one and crosses those between; what it may then use is convex: a window in y, and the slants of
-        the first and the last trapezoid. Branch and bound over the pairs: the box of the window bounds what a pair can
-        give, and the pairs that are left are solved as convex polygons.
-
-        Args:
-            angle: Angle of the first side in rad.
-            floor: Look for more than this area only; 0 to find the largest.
-            out: Receives the 4 corners, flat, counter-clockwise; untouched unless the area is above the floor.
-
-        Returns:
-            Its area; the floor where there is none above it.
-        """
-        return self._enumerate(angle, floor, out)
-
-    def _enumerate(self, angle, floor, out):
-        """Branch and bound over the pairs of trapezoids that a rectangle starts and ends in.
-
-        Where all of a pair's window passes through one way into the trapezoid before the first, what starts in the
-        first goes on at least up to the way, which the pair with that one may use too: the pair is left out, likewise
-        at the end. So each rectangle lies in what some pair that is left may use.
-        """
+        self.best = 0.0
         slabs = self._cut(angle)
         if slabs < 1:
-            return floor
-        self._find_ways(slabs, floor)
+            return 0.0
+        self._find_ways(slabs)
         line = self.line
         slab = self.slab
         reach = self.reach
         left = self.left
         trapezoid = self.trapezoid
         count = self.first[slabs]
-        self.best = floor
-        self.found = False
         # First pass: rectangles between lines, a good start. Second pass: whatever two trapezoids may still give.
-        for exact in range(1 if floor > 0.0 else 0, 2):
+        for exact in range(2):
             for start in range(count):
-                self._count(1)
-                if self.spent > self.limit:
-                    self.ended = True
-                    break
+                signals.PyErr_CheckSignals()
                 i = slab[start]
                 below = trapezoid[4 * start]
                 above = trapezoid[4 * start + 1]
@@ -270,15 +115,12 @@ class OutlineRectangles:
                     reach[start] - line[i], high_right - low_right
                 ):
                     self._walk(start, slabs, exact)
-        if self.found:
+        if self.best > 0.0:
             rectangle.write_corners(out, math.cos(angle), math.sin(angle), self.x1, self.x2, self.y1, self.y2)
         return self.best
 
-    def _find_ways(self, slabs, floor):
+    def _find_ways(self, slabs):
         """Find how far to the right a rectangle can get from each trapezoid, and the widest ways through its sides."""
-        # How far to the right a rectangle can get from a trapezoid, if it is high enough for more than the floor. And
-        # the widest ways through its sides: what passes there unhindered goes on, and need not start or end here.
-        least = floor / (self.line[slabs] - self.line[0])
         for t in range(self.first[0], self.first[1]):
             self.left[2 * t] = 1.0
             self.left[2 * t + 1] = 0.0
@@ -287,8 +129,7 @@ class OutlineRectangles:
                 for t in range(self.first[k + 1], self.first[k + 2]):
                     self.left[2 * t] = 1.0
                     self.left[2 * t + 1] = 0.0
-            if k + 1 < slabs:
-                self._count((self.first[k + 1] - self.first[k]) * (self.first[k + 2] - self.first[k + 1]))
+            signals.PyErr_CheckSignals()
             for start in range(self.first[k], self.first[k + 1]):
                 far = self.line[k + 1]
                 self.right[2 * start] = 1.0
@@ -300,7 +141,7 @@ class OutlineRectangles:
                         wide = top_y - bottom_y
                         if wide <= 0.0:
                             continue
-                        if wide > least and self.reach[t] > far:
+                        if self.reach[t] > far:
                             far = self.reach[t]
                         if wide > self.left[2 * t + 1] - self.left[2 * t]:
                             self.left[2 * t] = bottom_y
@@ -336,7 +177,6 @@ class OutlineRectangles:
                 bottom_y = max(low_y, self.trapezoid[4 * t])
                 top_y = min(high_y, self.trapezoid[4 * t + 1])
                 height = top_y - bottom_y
-                self.spent += 1
                 if height <= 0.0:
                     continue
                 if bottom_y >= left_low and top_y <= left_high:
@@ -374,12 +214,10 @@ class OutlineRectangles:
             self.x2 = x2
             self.y1 = y1
             self.y2 = y2
-            self.found = True
 
     def _solve(self, i, k, low, high, start, end):
         """Keep the largest rectangle of a pair of trapezoids if it is larger than the best so far (see `_octagon`)."""
         floor = self.best
-        self.spent += 20
         n = self._octagon(i, k, low, high, start, end)
         if n < 3:
             return
@@ -388,9 +226,8 @@ class OutlineRectangles:
             self._offer(self.corner[0], self.corner[4], self.corner[1], self.corner[5])
 
     def _cut(self, angle):
-        """Cut the part, turned back by an angle, into trapezoids; the number of slabs."""
+        """Cut the outline, turned back by an angle, into trapezoids; the number of slabs."""
         self._turn(angle)
-        m = self.m
         ys = self.ys
         rank = self.rank
         line = self.line
@@ -420,12 +257,10 @@ class OutlineRectangles:
             self.filled[k] = total
             total += across
         total = first[slabs]
-        self.spent += 3 * total + 4 * m
         if total > self.many:
             self._make_many(2 * total)
         edge = self.edge
         filled = self.filled
-        moved = 0
         for r in range(self.rings):
             i = start[r + 1] - 1
             for j in range(start[r], start[r + 1]):
@@ -449,17 +284,13 @@ class OutlineRectangles:
                         edge[3 * p + 1] = edge[3 * p - 2]
                         edge[3 * p + 2] = edge[3 * p - 1]
                         p -= 1
-                        moved += 1
                     edge[3 * p] = left
                     edge[3 * p + 1] = right
                     edge[3 * p + 2] = side
                     filled[k] += 1
                     left = right
                 i = j
-                if moved > _ASK // 4:
-                    self._count(moved)
-                    moved = 0
-        self._count(moved)
+                signals.PyErr_CheckSignals()
         self._pair_edges(slabs)
         return slabs
 
@@ -529,84 +360,56 @@ class OutlineRectangles:
         self.first[slabs] = count
 
     def _octagon(self, i, k, low, high, start, end):
-        """What a rectangle may use that starts in one trapezoid and ends in another: a window, cut by their slants.
-
-        Args:
-            i: Slab of the first trapezoid; k of the last one.
-            low: Bottom of the window in m, at or above the bottoms at xb and xc; likewise high.
-            start: Index of the first trapezoid; end of the last one.
+        """What a rectangle may use from slab i to slab k: the window from low to high, cut by the slants at its ends.
 
         Returns:
-            Number of vertices, up to 8, in `ring`, counter-clockwise; 0 where nothing is left.
+            Number of vertices, up to 8, in `ring`, counter-clockwise; fewer than 3 where nothing is left.
         """
         ring = self.ring
-        trapezoid = self.trapezoid
-        xa = self.line[i]
-        xb = self.line[i + 1]
-        xc = self.line[k]
-        xd = self.line[k + 1]
-        n = 0
-        # Lower left, lower right, upper right, upper left: y of the slant on the outer and on the inner side.
-        for corner in range(4):
-            outer_x = xa
-            inner_x = xb
-            t = 4 * start
-            if corner == 1 or corner == 2:
-                outer_x = xd
-                inner_x = xc
-                t = 4 * end + 2
-            inner_t = t + 2 if corner == 0 or corner == 3 else t - 2
-            if corner < 2:
-                mine = trapezoid[t]
-                inner = trapezoid[inner_t]
-                other = trapezoid[t + 1]
-                other_inner = trapezoid[inner_t + 1]
-                level = low
-                far = high
-                cut = mine > low
-                gone = mine > high
-                other_gone = other < low
-            else:
-                mine = trapezoid[t + 1]
-                inner = trapezoid[inner_t + 1]
-                other = trapezoid[t]
-                other_inner = trapezoid[inner_t]
-                level = high
-                far = low
-                cut = mine < high
-                gone = mine < low
-                other_gone = other > high
-            # Where the slant meets the window's side, and the point on the outer side.
-            bx = outer_x
-            by = level
-            ax = outer_x
-            ay = level
-            has_two = False
-            if cut:
-                share = (level - mine) / (inner - mine)
-                bx = outer_x + (inner_x - outer_x) * share
-                if gone:  # the outer side is all cut off: the slant ends at the window's other side
-                    share = (far - mine) / (inner - mine)
-                    ax = outer_x + (inner_x - outer_x) * share
-                    ay = far
-                else:
-                    ay = mine
-                has_two = True
-            elif other_gone:  # cut off by the other slant, which meets this side
-                share = (level - other) / (other_inner - other)
-                bx = outer_x + (inner_x - outer_x) * share
-            # Counter-clockwise: lower left goes down to the bottom, lower right leaves it, and so on round.
-            if corner == 0 or corner == 2:
-                if has_two:
-                    n = _add(ring, n, ax, ay)
-                n = _add(ring, n, bx, by)
-            else:
-                n = _add(ring, n, bx, by)
-                if has_two:
-                    n = _add(ring, n, ax, ay)
-        while n > 1 and ring[2 * n - 2] == ring[0] and ring[2 * n - 1] == ring[1]:
-            n -= 1
+        x1 = self.line[i]
+        x2 = self.line[k + 1]
+        ring[0] = ring[6] = x1
+        ring[2] = ring[4] = x2
+        ring[1] = ring[3] = low
+        ring[5] = ring[7] = high
+        n = self._clip(4, x1, self.line[i + 1], 4 * start, low, high)
+        return n if start == end else self._clip(n, self.line[k], x2, 4 * end, low, high)
+
+    def _clip(self, n, x1, x2, at, low, high):
+        """Keep of the ring what is between bottom and top of a trapezoid from x1 to x2, where these cut the window."""
+        left = self.trapezoid[at]
+        right = self.trapezoid[at + 2]
+        if left > low or right > low:
+            n = self._keep_left(n, x1, left, x2, right)
+        left = self.trapezoid[at + 1]
+        right = self.trapezoid[at + 3]
+        if left < high or right < high:
+            n = self._keep_left(n, x2, right, x1, left)
         return n
+
+    def _keep_left(self, n, x1, y1, x2, y2):
+        """Keep of the ring what is left of the line from point 1 to point 2; its number of vertices."""
+        ring = self.ring
+        kept = self.kept
+        dx = x2 - x1
+        dy = y2 - y1
+        count = 0
+        for p in range(n):
+            q = p + 1 if p + 1 < n else 0
+            a = dx * (ring[2 * p + 1] - y1) - dy * (ring[2 * p] - x1)
+            b = dx * (ring[2 * q + 1] - y1) - dy * (ring[2 * q] - x1)
+            if a >= 0.0:
+                count = _add(kept, count, ring[2 * p], ring[2 * p + 1])
+            if (a < 0.0 < b) or (b < 0.0 < a):
+                share = a / (a - b)
+                x = ring[2 * p] + share * (ring[2 * q] - ring[2 * p])
+                y = ring[2 * p + 1] + share * (ring[2 * q + 1] - ring[2 * p + 1])
+                count = _add(kept, count, x, y)
+        while count > 1 and kept[2 * count - 2] == kept[0] and kept[2 * count - 1] == kept[1]:
+            count -= 1
+        for p in range(2 * count):
+            ring[p] = kept[p]
+        return count
 
 
 def _add(ring, n, x, y):

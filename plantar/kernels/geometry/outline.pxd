@@ -19,7 +19,6 @@ cdef class Rings:
     cdef readonly object points
     cdef readonly object starts
     cdef readonly object ring_areas
-    cdef readonly bint apart
 
 cdef class EdgeTable:
     cdef readonly const Py_ssize_t[::1] cell_start

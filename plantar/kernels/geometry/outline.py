@@ -84,14 +84,12 @@ class Rings:
         points: Vertices (k, 2) of all rings in m, one ring after another.
         starts: Offsets (r + 1) of the rings.
         ring_areas: Signed area (r) of each ring in m^2.
-        apart: Whether islands are known to meet in points at most.
     """
 
-    def __init__(self, points, starts, ring_areas, apart=False):
+    def __init__(self, points, starts, ring_areas):
         self.points = points
         self.starts = starts
         self.ring_areas = ring_areas
-        self.apart = apart
 
     @property
     def area(self):
@@ -167,7 +165,6 @@ class EdgeTable:
         memory.close(found.points)
         found.starts = tuple(starts)
         found.ring_areas = tuple(areas)
-        found.apart = True
         return found
 
     def _trace(self, active, starts, areas):

@@ -42,7 +42,6 @@ cpdef double largest_rectangle(
 cpdef void write_corners(
     double[::1] out, double cosine, double sine, double x1, double x2, double y1, double y2
 ) noexcept
-cpdef double lean(double[::1] corners) noexcept
 cdef Py_ssize_t _chain(
     double[::1] work, Py_ssize_t n, Py_ssize_t low, Py_ssize_t high, Py_ssize_t step, double tolerance, Py_ssize_t
     at

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["largest_rectangle", "lean", "write_corners"]
+__all__ = ["largest_rectangle", "write_corners"]
 
 
 class _Gap:
@@ -325,13 +325,6 @@ def write_corners(out, cosine, sine, x1, x2, y1, y2):
     out[5] = sine * x2 + cosine * y2
     out[6] = cosine * x1 - sine * y2
     out[7] = sine * x1 + cosine * y2
-
-
-def lean(corners):
-    """Angle between the diagonal and the longer side of a rectangle in rad, whose corners `write_corners` wrote."""
-    along = math.hypot(corners[2] - corners[0], corners[3] - corners[1])
-    across = math.hypot(corners[4] - corners[2], corners[5] - corners[3])
-    return math.atan2(min(along, across), max(along, across))
 
 
 def _chain(work, n, low, high, step, tolerance, at):

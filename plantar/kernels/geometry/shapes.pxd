@@ -2,7 +2,7 @@
 cimport cython
 from libc cimport math
 from ..base cimport work_arrays
-from . cimport any_angle, clean, concave, enclosing, inscribed, parallelogram, rectangle
+from . cimport clean, concave, enclosing, inscribed, parallelogram, rectangle
 
 cdef double _LARGEST
 cdef double _INF
@@ -14,7 +14,6 @@ cdef class ConvexShapes:
     cdef double[::1] work
     cdef double[::1] out
     cdef concave.OutlineRectangles outline
-    cdef any_angle.AnyAngle turning
     cdef Py_ssize_t n
     cdef double x
     cdef double y
@@ -48,7 +47,6 @@ cdef class ConvexShapes:
         c=double, s=double, i=Py_ssize_t, j=Py_ssize_t, dx=double, dy=double, along=double, across=double
     )
     cdef bint _leans(self, double angle) noexcept
-    cpdef rectangle_at_any_angle(self, const double[:, :] polygon)
     cpdef box(self, const double[:, :] polygon)
     cpdef parallelogram_around(self, const double[:, :] polygon)
 
@@ -58,8 +56,4 @@ cdef class ConvexShapes:
     )
     cpdef bounding_box(self, const double[:, :] points)
 
-    @cython.locals(best=double, k=Py_ssize_t)
-    cpdef rectangle_in_outline(self, const double[:, :] points, object starts, bint apart, double angle)
-
-    @cython.locals(i=Py_ssize_t)
-    cdef _placed(self, const double[:, :] points, double area)
+    cpdef rectangle_in_outline(self, const double[:, :] points, object starts, double angle)

@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from ..base import work_arrays
-from . import any_angle, clean, concave, enclosing, inscribed, parallelogram, rectangle
+from . import clean, concave, enclosing, inscribed, parallelogram, rectangle
 
 __all__ = ["ConvexShapes"]
 
@@ -37,7 +37,6 @@ class ConvexShapes:
         self.work = work_arrays.numbers(512, self.lists)
         self.out = work_arrays.numbers(8, self.lists)
         self.outline = concave.OutlineRectangles(lists)
-        self.turning = any_angle.AnyAngle(lists)
         self.n = 0
         self.x = 0.0
         self.y = 0.0
@@ -154,27 +153,12 @@ class ConvexShapes:
                 return True
         return False
 
-    def rectangle_at_any_angle(self, polygon):
-        """Corners of the largest rectangle inside, at any angle."""
-        if self._clean(polygon) < 3:
-            return self._middle(4)
-        self.turning.in_ring(self.ring, self.n, self.work, self.out)
-        return self._corners(4)
-
-    def rectangle_in_outline(self, points, starts, apart, angle):
-        """Corners of the largest rectangle in an outline, its first side at an angle."""
-        best = 0.0
-        for k in range(self.outline.take(points, starts, apart)):
-            if self.outline.choose(k) <= best:
-                break
-            best = self.outline.largest(angle, best, self.out)
-        return self._placed(points, best)
-
-    def _placed(self, points, area):
-        """The corners of `out` about the first point; all of them there where they hold no area."""
+    def rectangle_in_outline(self, points, starts, angle):
+        """Corners of the largest rectangle in an outline, its first side at an angle; all at one point without area."""
+        self.outline.take(points, starts)
         self.x = points[0, 0]
         self.y = points[0, 1]
-        if area <= 0.0:
+        if self.outline.largest(angle, self.out) <= 0.0:
             for i in range(8):
                 self.out[i] = 0.0
         return self._corners(4)

@@ -271,7 +271,7 @@ def test_an_outline_made_by_hand_is_checked(points, starts, areas, text):
 def test_an_outline_made_by_hand_is_one():
     made, right = Outline(SQUARE, [0, 4], [1.0]), Outline.of_rings([SQUARE])
     assert made.points.tolist() == right.points.tolist()
-    assert (made.area, made.starts, made.apart, made.centroid.tolist()) == (1.0, (0, 4), False, [0.5, 0.5])
+    assert (made.area, made.starts, made.centroid.tolist()) == (1.0, (0, 4), [0.5, 0.5])
     assert rectangle_in_outline(made).tolist() == rectangle_in_outline(right).tolist()
 
 
@@ -289,7 +289,7 @@ def test_outlines_and_their_copies_are_read_only(sole):
     for name, outline in outlines(sole):
         for one in (outline, copy.copy(outline), copy.deepcopy(outline), pickle.loads(pickle.dumps(outline))):
             assert one.points.tolist() == outline.points.tolist(), name
-            assert (one.starts, one.ring_areas, one.apart) == (outline.starts, outline.ring_areas, outline.apart), name
+            assert (one.starts, one.ring_areas) == (outline.starts, outline.ring_areas), name
             for array in (one.points, *one.rings, one.centroid, *one.islands[0]):
                 with pytest.raises(ValueError, match="read-only"):
                     array[0] = 0.0
@@ -300,7 +300,7 @@ def test_outlines_and_their_copies_are_read_only(sole):
 @pytest.mark.skipif(not kernels.is_compiled("outline"), reason="plain Python cannot keep others from assigning")
 def test_an_outline_keeps_what_it_is(sole):
     outline = Outline.of_rings([SQUARE])
-    for name in ("points", "starts", "ring_areas", "apart"):
+    for name in ("points", "starts", "ring_areas"):
         with pytest.raises(AttributeError):
             setattr(outline, name, None)
 
