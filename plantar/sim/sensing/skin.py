@@ -274,7 +274,7 @@ class SkinSensor:
         becomes NaN, too."""
         force = self.skin.taxel_forces(data, contacts)
         if self._errors is not None:
-            force = self._errors.felt(force, now)
+            force = self._errors.read(force, now)
         sample: NDArray[np.float64] = self._sample.of(force)
         if self._errors is not None:
             self._errors.silence(now, sample, distance)

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from plantar.robots import load_robot
+from plantar.sensing.taxel_faults import WARMING
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES, Side
 from plantar.sim.plant.draw import TruePlant, drawn_plant
 from plantar.sim.plant.settings import Plant
-from plantar.sim.plant.taxels import CONNECTORS, SILENCE, WARMING, TaxelErrors
+from plantar.sim.plant.taxels import CONNECTORS, SILENCE, TaxelErrors
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 from plantar.sim.sensing.sensors import SensorSuite
@@ -39,7 +40,7 @@ def errors_of(side: Side = "left", **settings: object) -> TaxelErrors:
 def test_crosstalk_keeps_the_sum_and_goes_to_neighbours_alone(side: Side) -> None:
     layout = LAYOUTS[side]
     for i, force in enumerate(100.0 * np.eye(len(layout))):
-        felt = errors_of(side, crosstalk=0.1).felt(force, 0.0)
+        felt = errors_of(side, crosstalk=0.1).read(force, 0.0)
         assert felt.sum() == pytest.approx(100.0)
         assert felt[i] == pytest.approx(90.0)
         assert set(np.flatnonzero(felt)) == {i, *layout.neighbours[i]}
@@ -48,7 +49,7 @@ def test_crosstalk_keeps_the_sum_and_goes_to_neighbours_alone(side: Side) -> Non
 def test_taxels_read_their_gain_times_what_is_on_them() -> None:
     plant = plant_of(taxel_gain=0.2)
     force = np.linspace(1.0, 5.0, COUNT)
-    felt = TaxelErrors(LEFT, plant, "left").felt(force, 0.0)
+    felt = TaxelErrors(LEFT, plant, "left").read(force, 0.0)
     assert felt / force == pytest.approx(plant.taxel_gains["left"])
     assert not np.array_equal(plant.taxel_gains["left"], plant.taxel_gains["right"])
 
@@ -58,7 +59,7 @@ def loop_area(hysteresis: float, peak: float) -> float:
     errors = errors_of(hysteresis=hysteresis, crosstalk=1e-12)
     up = np.linspace(0.0, peak, 2001)
     force = np.concatenate([up, up[::-1]])
-    read = np.array([errors.felt(np.full(COUNT, f), 0.0)[0] for f in force])
+    read = np.array([errors.read(np.full(COUNT, f), 0.0)[0] for f in force])
     assert read[-1] == pytest.approx(0.0, abs=1e-9)
     return -float(np.trapezoid(read, force))
 
@@ -74,8 +75,8 @@ def test_a_load_that_comes_and_goes_draws_a_loop_of_the_known_area() -> None:
 def test_hysteresis_does_not_depend_on_the_rate() -> None:
     force = 30.0 * np.abs(np.sin(np.linspace(0.0, 9.0, 4001)))
     slow, fast = errors_of(hysteresis=0.2), errors_of(hysteresis=0.2)
-    read = [slow.felt(np.full(COUNT, f), 0.0)[0] for f in force]
-    every_fourth = [fast.felt(np.full(COUNT, f), 0.0)[0] for f in force[::4]]
+    read = [slow.read(np.full(COUNT, f), 0.0)[0] for f in force]
+    every_fourth = [fast.read(np.full(COUNT, f), 0.0)[0] for f in force[::4]]
     assert every_fourth == pytest.approx(read[::4], abs=0.02)
 
 
@@ -83,9 +84,9 @@ def test_zeros_wander_off_as_the_sole_becomes_warm() -> None:
     plant = plant_of(taxel_drift=1.5)
     errors = TaxelErrors(LEFT, plant, "left")
     nothing = np.zeros(COUNT)
-    assert not errors.felt(nothing, 0.0).any()
-    assert errors.felt(nothing, WARMING) == pytest.approx((1.0 - math.exp(-1.0)) * plant.taxel_drifts["left"])
-    assert errors.felt(nothing, 100.0 * WARMING) == pytest.approx(plant.taxel_drifts["left"])
+    assert not errors.read(nothing, 0.0).any()
+    assert errors.read(nothing, WARMING) == pytest.approx((1.0 - math.exp(-1.0)) * plant.taxel_drifts["left"])
+    assert errors.read(nothing, 100.0 * WARMING) == pytest.approx(plant.taxel_drifts["left"])
     assert np.std(np.concatenate([plant.taxel_drifts[side] for side in SIDES])) == pytest.approx(1.5, rel=0.25)
 
 
@@ -124,4 +125,4 @@ def test_a_sole_s_reading_has_the_errors_of_its_taxels() -> None:
         suite.read_skins()
     for side in SIDES:
         clean, felt = (suite.readings[side].force for suite in suites)
-        assert felt == pytest.approx(TaxelErrors(LAYOUTS[side], plant, side).felt(clean, 0.0))
+        assert felt == pytest.approx(TaxelErrors(LAYOUTS[side], plant, side).read(clean, 0.0))

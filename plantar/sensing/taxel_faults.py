@@ -1,0 +1,211 @@
+"""What real taxels make of the forces on them, one model for simulations, `plantar.mujoco.Skin` and recordings.
+
+In the order in which a force meets them: tangential force reads as normal force (shear), the cover spreads it to
+neighbours (crosstalk), the elastic layer rubs (hysteresis), it arrives late (delay), the electronics have a gain, a
+zero that wanders off as the sole becomes warm (offset, drift), noise and steps (resolution), and some taxels are dead.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import number
+from plantar.arrays import numbers
+from plantar.errors import InputError, ReadingError
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.same_time import SAME_TIME
+
+__all__ = ["WARMING", "TaxelFaults", "WornFaults", "crosstalk_matrix"]
+
+WARMING = 60.0
+"""Time constant in s with which a sole becomes as warm as the foot in it."""
+
+_GAIN_MOST = 0.9  # either way of a taxel's gain of 1: a taxel that reads nothing is dead, which is another fault
+_SHARES = ("crosstalk", "hysteresis", "dead", "shear")
+
+
+@dataclass(frozen=True)
+class TaxelFaults:
+    """How much the taxels of a kind of skin err; a taxel's own faults are drawn from it. 0 is no fault.
+
+    Attributes:
+        gain: Standard deviation of the gains about 1.
+        offset: Standard deviation in N of the zeros.
+        drift: Standard deviation in N of what the zeros wander off to within minutes.
+        hysteresis: Share by which a taxel reads too little while its load comes on, and too much while it goes off.
+        crosstalk: Share of each taxel's force that its neighbours read instead, each as much.
+        dead: Share of the taxels that are dead: they read NaN.
+        shear: Share of the tangential force that a taxel reads as normal force.
+        noise: Standard deviation in N of white noise.
+        resolution: Step in N of what is read.
+        delay: Time in s from a force to its reading.
+
+    Raises:
+        InputError: If a value is not finite, below 0, or a share above 0.9.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+        >>> worn = TaxelFaults(gain=0.1, resolution=0.5).worn(layout, seed=1)
+        >>> read = worn.read(0.0, np.full(len(layout), 10.0))
+        >>> bool((read % 0.5 == 0.0).all()), bool(0.5 < read.std() < 2.0)
+        (True, True)
+    """
+
+    gain: float = 0.0
+    offset: float = 0.0
+    drift: float = 0.0
+    hysteresis: float = 0.0
+    crosstalk: float = 0.0
+    dead: float = 0.0
+    shear: float = 0.0
+    noise: float = 0.0
+    resolution: float = 0.0
+    delay: float = 0.0
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = number(getattr(self, field.name), f"taxel fault '{field.name}'", finite=True)
+            most = 0.9 if field.name in _SHARES else math.inf
+            if not 0.0 <= value <= most:
+                raise InputError(f"taxel fault '{field.name}' is {value:g}; allowed: 0 to {most:g}")
+
+    def worn(self, layout: SoleLayout, seed: int = 0, batch: tuple[int, ...] = ()) -> WornFaults:
+        """Draw the faults of one sole, or of many.
+
+        Args:
+            layout: The sole, n taxels.
+            seed: What is drawn; the same seed and readings give the same result.
+            batch: Dimensions of many soles, for arrays (*batch, n).
+
+        Returns:
+            The faults, with the state that hysteresis and delay need.
+        """
+        rng = np.random.default_rng(seed)
+        shape = (*batch, len(layout))
+        gains = 1.0 + np.clip(self.gain * rng.standard_normal(shape), -_GAIN_MOST, _GAIN_MOST)
+        offsets, drifts = self.offset * rng.standard_normal(shape), self.drift * rng.standard_normal(shape)
+        dead = rng.permuted(np.broadcast_to(np.arange(len(layout)), shape), axis=-1) < round(self.dead * len(layout))
+        return WornFaults(layout, self, gains, offsets, drifts, dead, rng)
+
+
+class WornFaults:
+    """The faults of each taxel of a sole, and the state of what remembers.
+
+    Args:
+        layout: The sole, n taxels.
+        faults: What all taxels share: hysteresis, crosstalk, shear, noise, resolution, delay.
+        gains: Gain (..., n) of each taxel.
+        offsets: Zero (..., n) in N.
+        drifts: What the zero wanders off to (..., n) in N.
+        dead: Whether each taxel (..., n) is dead.
+        rng: Source of the noise; None where there is none.
+
+    Raises:
+        InputError: If there is noise and no source of it.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+        >>> worn = TaxelFaults(hysteresis=0.2).worn(layout)
+        >>> float(worn.read(0.0, np.full(len(layout), 10.0))[0]), float(worn.read(0.1, np.full(len(layout), 8.0))[0])
+        (8.0, 8.0)
+    """
+
+    def __init__(
+        self,
+        layout: SoleLayout,
+        faults: TaxelFaults,
+        gains: NDArray[np.float64],
+        offsets: NDArray[np.float64] | float = 0.0,
+        drifts: NDArray[np.float64] | float = 0.0,
+        dead: NDArray[np.bool_] | None = None,
+        rng: np.random.Generator | None = None,
+    ) -> None:
+        if faults.noise > 0.0 and rng is None:
+            raise InputError("taxel noise needs a random generator; pass rng=numpy.random.default_rng(seed)")
+        self.faults, self.gains, self.offsets, self.drifts, self.dead = faults, gains, offsets, drifts, dead
+        self.spread = crosstalk_matrix(layout, faults.crosstalk)
+        self._rng = rng
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget what was read; the noise goes on where it is."""
+        self._held = np.zeros(self.gains.shape)
+        self._late: deque[tuple[float, NDArray[np.float64]]] = deque()
+
+    def read(self, time: float, force: ArrayLike, vectors: ArrayLike | None = None) -> NDArray[np.float64]:
+        """What the taxels read.
+
+        Args:
+            time: Time in s, which never goes back.
+            force: Normal force (..., n) on each taxel in N.
+            vectors: Force (..., n, 3) in N with the tangential part, for shear.
+
+        Returns:
+            Readings (..., n) in N; NaN for dead taxels.
+
+        Raises:
+            ReadingError: If there are other taxels, or shear and no vectors.
+        """
+        faults = self.faults
+        pressed = numbers(force, "forces", ReadingError)
+        if pressed.shape != self.gains.shape:
+            raise ReadingError(f"forces have shape {pressed.shape}; expected {self.gains.shape}")
+        if faults.shear:
+            if vectors is None:
+                raise ReadingError("taxels that read shear need the force vectors (..., n, 3)")
+            pressed = pressed + faults.shear * np.linalg.norm(np.asarray(vectors)[..., :2], axis=-1)
+        pressed = self.rubbed(pressed)
+        if faults.delay:
+            pressed = self._delayed(time, pressed)
+        warm = -math.expm1(-max(time, 0.0) / WARMING)
+        read = self.gains * pressed + self.offsets + warm * self.drifts
+        if faults.noise and self._rng is not None:
+            read = read + self._rng.normal(0.0, faults.noise, read.shape)
+        if faults.resolution:
+            read = faults.resolution * np.round(read / faults.resolution)
+        return np.asarray(read if self.dead is None else np.where(self.dead, np.nan, read))
+
+    def rubbed(self, force: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Forces (..., n) in N after crosstalk and hysteresis: the play between (1 - h) and (1 + h) times the force."""
+        spread = self.spread.dot(force) if force.ndim == 1 else force @ self.spread.T
+        h = self.faults.hysteresis
+        self._held = np.minimum(np.maximum(self._held, (1.0 - h) * spread), (1.0 + h) * spread)
+        return self._held
+
+    def _delayed(self, time: float, force: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The force of one delay ago, between samples along a line; the first one until then."""
+        late = self._late
+        late.append((time, force))
+        due = time - self.faults.delay
+        while len(late) > 1 and late[1][0] <= due + SAME_TIME:
+            late.popleft()
+        (before, first), (after, second) = late[0], late[min(1, len(late) - 1)]
+        if due <= before or after <= before:
+            return first
+        share = (due - before) / (after - before)
+        return np.asarray(first + share * (second - first))
+
+
+def crosstalk_matrix(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64]:
+    """What each taxel (n, n) reads of each one's force; a taxel without neighbours keeps its own.
+
+    Args:
+        layout: The sole, n taxels.
+        crosstalk: Share of each taxel's force that its neighbours read instead.
+
+    Returns:
+        The matrix; each column sums up to 1.
+    """
+    spread = np.eye(len(layout))
+    for i, near in enumerate(layout.neighbours):
+        if near:
+            spread[i, i] -= crosstalk
+            spread[list(near), i] = crosstalk / len(near)
+    return spread
