@@ -36,6 +36,7 @@ LIBRARIES: dict[str, dict[str, str]] = {
     "sim": {"mujoco": "mujoco", "scipy": "scipy", "opencv-contrib-python-headless": "cv2", "daqp": "daqp"},
     "formats": {"rosbags": "rosbags", "ezc3d": "ezc3d", "opencv-contrib-python-headless": "cv2"},
     "cluster": {"distributed": "distributed"},
+    "gym": {"gymnasium": "gymnasium"},
 }
 """Distribution and module of the libraries that each extra brings; those without an extra are always needed."""
 
@@ -44,6 +45,7 @@ PURPOSES = {
     "shoes": "plantar shoe: printable shoes",
     "sim": "plantar sim, sweep, robot, demo: walking in MuJoCo",
     "formats": "ROS bags, C3D files and images of footprints",
+    "gym": "environments for learning, PlantarWalk-v0",
     "cluster": "plantar sweep --scheduler: workers on other machines",
 }
 """What each extra is for."""

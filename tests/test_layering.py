@@ -85,7 +85,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
             "figures",
             "loop",
         ),
-        *("companion", "arms", "partner", "run", "bench", "survey", "sweep"),
+        *("companion", "arms", "partner", "run", "environments", "bench", "survey", "sweep"),
     ),
     "plantar.shoes": (
         *(
@@ -122,6 +122,7 @@ PLACE_OF_LIBRARY = {
     ),
     "matplotlib": "plantar.plotting",
     "mpl_toolkits": "plantar.plotting",
+    "gymnasium": "plantar.sim.environments",
     "mink": None,  # a reference in tests and benchmarks only
     "pink": None,
     "pytest": None,

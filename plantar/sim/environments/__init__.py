@@ -1,0 +1,39 @@
+"""Gymnasium environments of robots with plantar skin: `gymnasium.make("PlantarWalk-v0", robot="my_robot.toml")`.
+
+Gymnasium finds them by an entry point as soon as it is imported; `register` lists them where it does not.
+"""
+
+from __future__ import annotations
+
+from plantar.optional_library import need_libraries
+
+__all__ = ["ENVIRONMENTS", "register"]
+
+ENVIRONMENTS = {
+    "PlantarStand-v0": "stand",
+    "PlantarStep-v0": "step",
+    "PlantarWalk-v0": "walk",
+    "PlantarBoard-v0": "board",
+}
+"""Id and task of each environment."""
+
+_STEPS = 500  # of 20 ms: episodes of 10 s
+
+
+def register() -> None:
+    """Add the environments to Gymnasium's registry, once.
+
+    Raises:
+        DependencyError: If Gymnasium or MuJoCo is missing.
+    """
+    need_libraries("gym", "gymnasium", "mujoco")
+    import gymnasium
+
+    for name, task in ENVIRONMENTS.items():
+        if name not in gymnasium.registry:
+            gymnasium.register(
+                name,
+                "plantar.sim.environments.walker:PlantarEnv",
+                max_episode_steps=_STEPS,
+                kwargs={"task": task},
+            )

@@ -1,0 +1,27 @@
+"""Gymnasium's classes; without it, stand-ins that can be imported, and refuse to be made."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from plantar.optional_library import need_libraries
+
+__all__ = ["Env", "ObservationWrapper", "spaces"]
+
+
+class _Missing:
+    """A class of Gymnasium, which is not installed: making one raises the line that installs it."""
+
+    def __new__(cls, *_: Any, **__: Any) -> _Missing:
+        need_libraries("gym", "gymnasium")
+        return super().__new__(cls)
+
+    def __class_getitem__(cls, _: Any) -> type:
+        return cls
+
+
+try:
+    from gymnasium import Env, ObservationWrapper, spaces
+except ImportError:
+    Env = ObservationWrapper = _Missing
+    spaces = None

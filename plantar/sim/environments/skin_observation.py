@@ -1,0 +1,94 @@
+"""Adds plantar skin to the observation of any Gymnasium environment that simulates with MuJoCo."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.mujoco.bound_skin import BoundSkin, SkinReading
+from plantar.mujoco.skin import Skin
+from plantar.sensing.taxel_faults import TaxelFaults, WornFaults
+from plantar.sim.environments.gymnasium_base import ObservationWrapper, spaces
+
+__all__ = ["SkinObservation"]
+
+
+class SkinObservation(ObservationWrapper[Any, Any, Any]):
+    """Adds the forces on skins to the observation, which becomes a Dict.
+
+    What the environment observes is under its own keys where it is a Dict, else under "observation"; each skin is under
+    its name: the force (n,) on each taxel in N, float32. The physics stay as they are.
+
+    Args:
+        env: An environment whose `unwrapped` has `model` and `data`, as Gymnasium's own MuJoCo environments do.
+        skins: The skins by name.
+        faults: What the taxels do to the forces, drawn again at each reset; None for taxels without faults.
+
+    Attributes:
+        readings: What each skin read last, without faults (`plantar.mujoco.SkinReading`).
+
+    Raises:
+        InputError: If the environment has no MuJoCo model, or a name is taken.
+        RobotError: If a skin cannot be on its body.
+    """
+
+    def __init__(self, env: Any, skins: Mapping[str, Skin], faults: TaxelFaults | None = None) -> None:
+        super().__init__(env)
+        model = getattr(env.unwrapped, "model", None)
+        if model is None or getattr(env.unwrapped, "data", None) is None:
+            raise InputError("skin needs an environment with MuJoCo's model and data: env.unwrapped.model and .data")
+        own = env.observation_space
+        boxes = dict(own.spaces) if isinstance(own, spaces.Dict) else {"observation": own}
+        taken = sorted(boxes.keys() & skins.keys())
+        if taken:
+            raise InputError(f"observation already has {', '.join(taken)}; allowed: other names for the skins")
+        self._is_dict = isinstance(own, spaces.Dict)
+        self._skins: dict[str, BoundSkin] = {name: skin.bind(model) for name, skin in skins.items()}
+        self._faults = faults
+        self._worn: dict[str, WornFaults] = {}
+        self.readings: dict[str, SkinReading] = {}
+        low = 0.0 if faults is None else -np.inf
+        for name, skin in self._skins.items():
+            boxes[name] = spaces.Box(low, np.inf, (len(skin),), np.float32)
+        self.observation_space = spaces.Dict(boxes)
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Reset the environment, and draw the taxels' faults by its seed.
+
+        Args:
+            seed: As of the environment.
+            options: As of the environment.
+
+        Returns:
+            Observation and info.
+        """
+        observation, info = self.env.reset(seed=seed, options=options)
+        if self._faults is not None:
+            rng = self.env.unwrapped.np_random
+            self._worn = {
+                name: self._faults.worn(skin.layout, int(rng.integers(2**63))) for name, skin in self._skins.items()
+            }
+        return self.observation(observation), info
+
+    def observation(self, observation: Any) -> dict[str, Any]:
+        """The observation with the skins.
+
+        Args:
+            observation: What the environment observed.
+
+        Returns:
+            It, and the force (n,) on each taxel of each skin; 0 for a dead one.
+        """
+        data = self.env.unwrapped.data
+        self.readings = {name: skin(data) for name, skin in self._skins.items()}
+        seen = dict(observation) if self._is_dict else {"observation": observation}
+        for name, reading in self.readings.items():
+            force: NDArray[np.float64] = reading.force
+            if name in self._worn:
+                force = np.nan_to_num(self._worn[name].read(reading.time, force, reading.vectors))
+            seen[name] = force.astype(np.float32)
+        return seen

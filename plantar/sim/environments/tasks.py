@@ -1,0 +1,242 @@
+"""What a robot in a Gymnasium environment is asked to do: its ground, disturbances, observation and reward.
+
+Velocities are stated in sqrt(g l), lengths in legs l and times in beats sqrt(l / g), so that a task is as hard for
+every robot. Each reward is at most 1 a step.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gravity import GRAVITY
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.mujoco.bound_skin import SkinReading
+from plantar.robots.robot import Robot
+from plantar.settings.body_scale import BodyScale
+from plantar.sides import SIDES, Side
+from plantar.sim.model.world import World
+from plantar.sim.terrain import Ground, Motion, Solid
+
+__all__ = ["TASKS", "Board", "Simulated", "Stand", "Step", "Task", "Walk"]
+
+_FRICTION = 0.8
+
+
+class Simulated(Protocol):
+    """What a task reads of its environment (`plantar.sim.environments.walker.PlantarEnv`)."""
+
+    robot: Robot
+    body: BodyScale
+    world: World
+    model: Any
+    data: Any
+    readings: Mapping[Side, SkinReading]
+    difficulty: float
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Velocity (forward, left) in m/s and turn in rad/s."""
+
+    @property
+    def up(self) -> float:
+        """Share of the torso's z that points up."""
+
+
+class Task:
+    """Stand still, on flat ground.
+
+    Attributes:
+        size: Numbers that `observe` returns.
+    """
+
+    size = 1
+
+    def __init__(self, env: Simulated) -> None:
+        self.env = env
+        self.leg = env.body.leg
+        self.speed = math.sqrt(GRAVITY * self.leg)
+        self.beat = math.sqrt(self.leg / GRAVITY)
+
+    def ground(self) -> Ground:
+        """The ground as the model is compiled with it."""
+        return Ground((), 0.0, _FRICTION)
+
+    def reset(self, rng: np.random.Generator) -> None:
+        """Draw an episode."""
+
+    def disturb(self, rng: np.random.Generator) -> None:
+        """Before a step's physics."""
+
+    def observe(self) -> NDArray[np.float64]:
+        """What the task asks for."""
+        return np.zeros(self.size)
+
+    def reward(self) -> float:
+        """Between 0 and 1."""
+        moved = float(np.square(self.env.velocity[:2]).sum()) / (0.1 * self.speed) ** 2
+        return 0.5 * self.upright + 0.5 * math.exp(-moved)
+
+    def info(self) -> dict[str, Any]:
+        """Figures of the task."""
+        return {}
+
+    @property
+    def upright(self) -> float:
+        """1 for a torso that is upright, 0.37 where it tilts by 0.2 rad."""
+        return math.exp(-2.0 * (1.0 - self.env.up) / 0.04)
+
+
+class Stand(Task):
+    """Stand still; every 8 beats a push changes the velocity by up to 0.1 sqrt(g l) in any direction."""
+
+    def reset(self, rng: np.random.Generator) -> None:
+        self._next = 8.0 * self.beat
+
+    def disturb(self, rng: np.random.Generator) -> None:
+        if self.env.data.time >= self._next:
+            self._next += 8.0 * self.beat
+            way = rng.uniform(0.0, 2.0 * math.pi)
+            size = self.env.difficulty * rng.uniform(0.0, 0.1) * self.speed
+            self.env.data.qvel[:2] += size * np.array([math.cos(way), math.sin(way)])
+
+
+class Step(Task):
+    """Step onto targets: each 3 beats one foot, left first, up to a sixth of a leg ahead of the other one.
+
+    Observed are the swing foot (1 left, -1 right), the share of its time that has passed, and the target (2,) in the
+    torso's heading, from the swing foot's sole, in legs. Reward: 0.2 for the unloaded swing foot, 0.4 for being
+    upright, 0.4 for the sole near its target when its time ends. `info` has "steps": landings within 0.1 leg of it.
+    """
+
+    size = 4
+
+    def reset(self, rng: np.random.Generator) -> None:
+        self._begin, self._swing, self.steps, self._lifted = 0.0, 0, 0, False
+        self._target: NDArray[np.float64] | None = None
+
+    def disturb(self, rng: np.random.Generator) -> None:
+        now, env = float(self.env.data.time), self.env
+        passed = now - self._begin >= 3.0 * self.beat
+        if passed:
+            self.steps += int(self._lifted and self._load() > 0.05 and self._off() < 0.1 * self.leg)
+            self._begin, self._swing, self._lifted = now, 1 - self._swing, False
+        if passed or self._target is None:
+            other = env.data.site_xpos[env.world.sole_sites[SIDES[1 - self._swing]], :2]
+            c, s = self._heading()
+            aside = env.robot.stance_width * (1.0 if self._swing == 0 else -1.0)
+            ahead = env.difficulty * rng.uniform(0.0, self.leg / 6.0)
+            self._target = other + np.array([c * ahead - s * aside, s * ahead + c * aside])
+
+    def _load(self) -> float:
+        """What the swing foot carries in shares of the weight."""
+        env = self.env
+        return float(env.readings[SIDES[self._swing]].wrench[2]) / (env.body.mass * GRAVITY)
+
+    def _heading(self) -> tuple[float, float]:
+        turn = self.env.data.xmat[self.env.world.torso]
+        length = math.hypot(turn[0], turn[3]) or 1.0
+        return turn[0] / length, turn[3] / length
+
+    def _to_target(self) -> NDArray[np.float64]:
+        env = self.env
+        if self._target is None:
+            return np.zeros(2)
+        return np.asarray(self._target - env.data.site_xpos[env.world.sole_sites[SIDES[self._swing]], :2])
+
+    def _off(self) -> float:
+        return float(np.hypot(*self._to_target()))
+
+    def observe(self) -> NDArray[np.float64]:
+        (x, y), (c, s) = self._to_target() / self.leg, self._heading()
+        share = (float(self.env.data.time) - self._begin) / (3.0 * self.beat)
+        return np.array([1.0 - 2.0 * self._swing, share, c * x + s * y, c * y - s * x])
+
+    def reward(self) -> float:
+        env = self.env
+        share = (float(env.data.time) - self._begin) / (3.0 * self.beat)
+        in_air = self._load() < 0.05
+        self._lifted = self._lifted or in_air
+        lifted = 0.2 * in_air if share < 0.8 else 0.2
+        return lifted + 0.4 * self.upright + 0.4 * share * math.exp(-((self._off() / (0.1 * self.leg)) ** 2))
+
+    def info(self) -> dict[str, Any]:
+        return {"steps": self.steps}
+
+
+class Walk(Task):
+    """Walk at a velocity on square tiles that are up to a fortieth of a leg higher or lower, with friction 0.5 to 1.
+
+    Every 16 beats a velocity is drawn: forward -0.1 to 0.3, left -0.1 to 0.1 sqrt(g l), turn -0.1 to 0.1 sqrt(g / l).
+    Observed is the velocity (3,) in these units.
+    """
+
+    size = 3
+    _LOW, _HIGH = np.array([-0.1, -0.1, -0.1]), np.array([0.3, 0.1, 0.1])
+
+    def ground(self) -> Ground:
+        side = 0.6 * self.leg
+        solids = []
+        for i in range(-3, 16):
+            for j in range(-5, 6):
+                centre = np.array([i * side, j * side, -0.1])
+                solids.append(Solid("box", (0.5 * side, 0.5 * side, 0.1), centre))
+        self._level = np.array([np.hypot(*s.position[:2]) < self.leg for s in solids])  # where the robot stands up
+        return Ground(tuple(solids), -0.04 * self.leg, _FRICTION)
+
+    def reset(self, rng: np.random.Generator) -> None:
+        model, world = self.env.model, self.env.world
+        first = model.geom("ground_0").id
+        rises = self.env.difficulty * self.leg / 40.0 * rng.uniform(-1.0, 1.0, len(self._level))
+        model.geom_pos[first : first + len(rises), 2] = np.where(self._level, 0.0, rises) - 0.1
+        soles = [g for geoms in world.sole_geoms.values() for g in geoms]
+        tiles = range(first, first + len(rises))
+        model.geom_friction[[*tiles, model.geom("ground").id, *soles], 0] = rng.uniform(0.5, 1.0)
+        self._next = 0.0
+        self.command = np.zeros(3)
+
+    def disturb(self, rng: np.random.Generator) -> None:
+        if self.env.data.time >= self._next:
+            self._next += 16.0 * self.beat
+            self.command = self.env.difficulty * rng.uniform(self._LOW, self._HIGH)
+
+    def observe(self) -> NDArray[np.float64]:
+        return self.command
+
+    def reward(self) -> float:
+        off = self.env.velocity / np.array([self.speed, self.speed, 1.0 / self.beat]) - self.command
+        return (
+            0.3 * self.upright
+            + 0.5 * math.exp(-float(off[:2] @ off[:2]) / 0.01)
+            + 0.2 * math.exp(-(off[2] ** 2) / 0.01)
+        )
+
+
+class Board(Task):
+    """Stand on a board that tilts about both horizontal axes by up to 5 degrees, at 0.05 to 0.15 swings a beat."""
+
+    def ground(self) -> Ground:
+        half = (1.5 * self.leg, 1.5 * self.leg, 0.05)
+        centre = np.array([0.0, 0.0, -0.05])
+        return Ground((Solid("box", half, centre, motions=(Motion(math.inf, 0.0, centre),)),), -self.leg, _FRICTION)
+
+    def reset(self, rng: np.random.Generator) -> None:
+        self._size = self.env.difficulty * math.radians(5.0) * rng.uniform(0.5, 1.0, 2)
+        self._rate = 2.0 * math.pi * rng.uniform(0.05, 0.15, 2) / self.beat
+        self._board = int(self.env.model.body("ground_0").mocapid[0])
+        self.env.data.mocap_quat[self._board] = [1.0, 0.0, 0.0, 0.0]
+
+    def disturb(self, rng: np.random.Generator) -> None:
+        roll, pitch = self._size * np.sin(self._rate * self.env.data.time)
+        rotation = rotation_from_angles(0.0, pitch, roll)
+        mujoco.mju_mat2Quat(self.env.data.mocap_quat[self._board], rotation.ravel())
+        self.env.data.mocap_pos[self._board] = -0.05 * rotation[:, 2]
+
+
+TASKS: dict[str, type[Task]] = {"stand": Stand, "step": Step, "walk": Walk, "board": Board}
+"""The tasks by name."""

@@ -1,0 +1,230 @@
+"""A robot with plantar skin as a Gymnasium environment."""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.arguments import number
+from plantar.errors import InputError
+from plantar.gait.contact.foot_contacts import middle_of_sole
+from plantar.gait.plan.walk_plan import vrp_of_step
+from plantar.gravity import GRAVITY
+from plantar.mujoco.bound_skin import SkinReading
+from plantar.mujoco.skin import Skin
+from plantar.robots.controller_settings import com_height_of
+from plantar.robots.kinematics.body import body_of
+from plantar.robots.kinematics.robot_model import build_leg_model
+from plantar.robots.robot_file import load_robot
+from plantar.robots.start import start_of_walk
+from plantar.robots.walk import Walk
+from plantar.sensing.taxel_faults import TaxelFaults, WornFaults
+from plantar.sides import SIDES, Side
+from plantar.sim.environments.gymnasium_base import Env, spaces
+from plantar.sim.environments.tasks import TASKS, Task
+from plantar.sim.figures.render import Camera, View
+from plantar.sim.model.world import build_world
+from plantar.sim.run.servos import LegServos
+from plantar.sim.run.standing import stand
+
+__all__ = ["PlantarEnv"]
+
+_FALLEN_UP = math.cos(0.7)  # the torso's z against the world's
+_FALLEN_HEIGHT = 0.7  # of the height of the torso when standing
+
+
+class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
+    """A robot with skin under its soles, and a task.
+
+    An action (k,) of -1 to 1 moves the set-points of the k leg joints from the standing posture by `scale` rad. An
+    observation is a Dict of float32, SI:
+
+    - joints (2 k,): angles from the standing posture in rad, then velocities in rad/s;
+    - imu (9,): gyro in rad/s, accelerometer in m/s^2, direction of gravity, in the sensor's and the torso's frame;
+    - skin_left, skin_right (n,): force on each taxel in shares of the body weight; without skin they are missing;
+    - task (m,): what the task asks for, see `plantar.sim.environments.tasks`.
+
+    An episode ends where the robot falls: the torso tilts by 40 degrees or sinks by 30 %. `info` has "time" in s,
+    "velocity" (2,) in m/s in the torso's heading, "load" of both soles in shares of the weight, and the task's figures.
+
+    Args:
+        task: "stand" (pushed), "step" (onto targets), "walk" (at a velocity, on uneven tiles) or "board" (it tilts).
+        robot: Built-in name or robot file.
+        period: Time of a step in s.
+        physics_period: Time step of the physics in s.
+        skin: Whether the observation holds the skin.
+        faults: What the taxels do to the forces; drawn again at each reset. None for taxels without faults.
+        scale: Joint angle in rad that an action of 1 stands for.
+        difficulty: 0 to 1 and more: scales pushes, ground and commands; at 1 as the tasks describe.
+        render_mode: "rgb_array" or None.
+
+    Raises:
+        InputError: If an argument is not valid.
+        RobotError: If the robot is not.
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 50}  # noqa: RUF012
+
+    def __init__(
+        self,
+        task: str = "stand",
+        robot: str | os.PathLike[str] = "h1",
+        *,
+        period: float = 0.02,
+        physics_period: float = 0.002,
+        skin: bool = True,
+        faults: TaxelFaults | None = None,
+        scale: float = 0.3,
+        difficulty: float = 1.0,
+        render_mode: str | None = None,
+    ) -> None:
+        if task not in TASKS:
+            raise InputError(f"task is {task!r}; allowed: {', '.join(TASKS)}")
+        if render_mode not in (None, "rgb_array"):
+            raise InputError(f"render_mode is {render_mode!r}; allowed: rgb_array or None")
+        step = number(physics_period, "physics_period", finite=True)
+        if not step > 0.0 or number(period, "period", finite=True) < step:
+            raise InputError(f"period is {period} s and physics_period {step} s; allowed: above 0, a period no shorter")
+        self.render_mode = render_mode
+        self.robot = load_robot(robot)
+        self.scale, self.difficulty, self.faults = scale, number(difficulty, "difficulty", finite=True), faults
+        legs = build_leg_model(self.robot)
+        self.body = body_of(self.robot, legs.model)
+        self.task: Task = TASKS[task](self)
+        self.world = build_world(self.robot, self.task.ground(), step)
+        self.model, self.data = self.world.model, self.world.data
+        self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE  # its boxes do not follow moved ground
+        self._substeps = max(1, round(period / step))
+        self.period = self._substeps * step
+        walk = Walk().for_body(self.body)
+        height = com_height_of(walk, self.robot)
+        feet = start_of_walk(walk, self.robot, height).feet
+        centers = {
+            s: vrp_of_step(feet[s], middle_of_sole(self.robot.layouts[s], self.robot.ankle_reach)) for s in SIDES
+        }
+        stand(self.world, legs, LegServos(self.world, legs, self.period), feet, centers, height)
+        self._start = self.data.qpos.copy(), self.data.ctrl.copy()
+        self._height = float(self.data.xpos[self.world.torso, 2])
+        self.skins = {side: self._skin(side).bind(self.model) for side in SIDES}
+        self.readings: dict[Side, SkinReading] = {}
+        self._worn: dict[Side, WornFaults] = {}
+        k = len(self.world.servos)
+        self.last_action = np.zeros(k, dtype=np.float32)
+        self.action_space = spaces.Box(-1.0, 1.0, (k,), np.float32)
+        boxes = {"joints": _box(2 * k), "imu": _box(9), "task": _box(self.task.size)}
+        if skin:
+            low = 0.0 if faults is None else -np.inf
+            boxes |= {f"skin_{side}": _box(len(self.robot.layouts[side]), low) for side in SIDES}
+        self.observation_space = spaces.Dict(boxes)
+        self._camera: Camera | None = None
+
+    def _skin(self, side: Side) -> Skin:
+        leg = self.robot.legs[side]
+        geoms = [self.model.geom(g).name for g in self.world.sole_geoms[side]]
+        return Skin(self.robot.layouts[side], leg.foot_body, site=leg.sole_site, geoms=geoms, reach=self.world.reach)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
+        """Stand the robot up again on newly drawn ground, its joints off by 0.01 rad at random.
+
+        Args:
+            seed: Seeds all that is drawn from now on.
+            options: None are known.
+
+        Returns:
+            Observation and info.
+        """
+        super().reset(seed=seed)
+        data, world = self.data, self.world
+        mujoco.mj_resetData(self.model, data)
+        self.task.reset(self.np_random)
+        data.qpos[:], data.ctrl[:] = self._start
+        data.qpos[world.joint_qpos] += self.np_random.normal(0.0, 0.01, len(world.joint_qpos))
+        self.last_action[:] = 0.0
+        mujoco.mj_forward(self.model, data)
+        if self.faults is not None:
+            layouts = self.robot.layouts
+            self._worn = {s: self.faults.worn(layouts[s], self.np_random.integers(2**63)) for s in SIDES}
+        return self._observe(), self._info()
+
+    def step(
+        self, action: NDArray[np.float32]
+    ) -> tuple[dict[str, NDArray[np.float32]], float, bool, bool, dict[str, Any]]:
+        """One control step.
+
+        Args:
+            action: Set-points (k,), -1 to 1; what is beyond is clipped.
+
+        Returns:
+            Observation, reward, whether the robot fell, False (`TimeLimit` truncates), and info.
+        """
+        moved = np.clip(np.asarray(action, dtype=np.float32), -1.0, 1.0)
+        if moved.shape != self.last_action.shape or not np.isfinite(moved).all():
+            raise InputError(f"action has shape {moved.shape}; expected {self.last_action.shape} finite numbers")
+        data, servos = self.data, self.world.servos
+        data.ctrl[servos] = self._start[1][servos] + self.scale * moved
+        self.task.disturb(self.np_random)
+        mujoco.mj_step(self.model, data, self._substeps)
+        observation = self._observe()
+        reward = self.task.reward() - 0.05 * float(np.square(moved - self.last_action).mean())
+        self.last_action[:] = moved
+        up, height = data.xmat[self.world.torso, 8], data.xpos[self.world.torso, 2]
+        fell = bool(not up > _FALLEN_UP or height < _FALLEN_HEIGHT * self._height)
+        return observation, reward, fell, False, self._info()
+
+    def render(self) -> Any:
+        """A picture (480, 640, 3) of the robot; None without a render mode."""
+        if self.render_mode is None:
+            return None
+        if self._camera is None:
+            view = View(4.0 * self.body.leg, below=0.4 * self.body.leg)
+            self._camera = Camera(self.model, self.world.torso, 640, 480, view, fast=True)
+        return self._camera.picture(self.data)
+
+    @property
+    def up(self) -> float:
+        """Share of the torso's z that points up."""
+        return float(self.data.xmat[self.world.torso, 8])
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Velocity of the torso (forward, left) in m/s in its heading, and its turn in rad/s."""
+        turn = self.data.xmat[self.world.torso].reshape(3, 3)
+        c, s = turn[0, 0], turn[1, 0]
+        length = math.hypot(c, s) or 1.0
+        vx, vy = self.data.qvel[:2]
+        return np.array(
+            [(c * vx + s * vy) / length, (c * vy - s * vx) / length, float((turn @ self.data.qvel[3:6])[2])]
+        )
+
+    def _observe(self) -> dict[str, NDArray[np.float32]]:
+        data, world = self.data, self.world
+        self.readings = {side: self.skins[side](data) for side in SIDES}
+        sensed = data.sensordata
+        gravity = -data.xmat[world.torso].reshape(3, 3)[2]
+        imu = [sensed[world.gyro : world.gyro + 3], sensed[world.accelerometer : world.accelerometer + 3], gravity]
+        joints = [data.qpos[world.joint_qpos] - self._start[0][world.joint_qpos], data.qvel[world.joint_qvel]]
+        seen = {"joints": np.concatenate(joints), "imu": np.concatenate(imu), "task": self.task.observe()}
+        if "skin_left" in self.observation_space.spaces:
+            weight = self.body.mass * GRAVITY
+            for side, reading in self.readings.items():
+                force = reading.force
+                if self._worn:
+                    force = np.nan_to_num(self._worn[side].read(reading.time, force, reading.vectors))
+                seen[f"skin_{side}"] = force / weight
+        return {name: np.asarray(value, dtype=np.float32) for name, value in seen.items()}
+
+    def _info(self) -> dict[str, Any]:
+        weight = self.body.mass * GRAVITY
+        load = np.array([self.readings[s].wrench[2] / weight for s in SIDES])
+        return {"time": float(self.data.time), "velocity": self.velocity[:2], "load": load, **self.task.info()}
+
+
+def _box(size: int, low: float = -np.inf) -> spaces.Box:
+    return spaces.Box(low, np.inf, (size,), np.float32)

@@ -1,0 +1,94 @@
+"""The environments: Gymnasium's own checker, the same seed the same episode, skin that adds up, vectors of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from plantar import InputError
+from plantar.sensing.taxel_faults import TaxelFaults
+
+gymnasium = pytest.importorskip("gymnasium")
+
+from gymnasium.utils.env_checker import check_env  # noqa: E402
+
+from plantar.sim.environments import ENVIRONMENTS, register  # noqa: E402
+from plantar.sim.environments.walker import PlantarEnv  # noqa: E402
+
+register()
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("name", ENVIRONMENTS)
+def test_gymnasium_finds_nothing_wrong(name):
+    check_env(gymnasium.make(name).unwrapped, skip_render_check=True)
+
+
+@pytest.mark.parametrize("task", ENVIRONMENTS.values())
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+def test_the_skin_adds_up_and_a_seed_repeats_an_episode(task, robot):
+    env = PlantarEnv(task, robot)
+    runs = []
+    for _ in range(2):
+        seen, _ = env.reset(seed=5)
+        rewards = []
+        for action in 0.2 * np.random.default_rng(1).uniform(-1.0, 1.0, (25, len(env.last_action))):
+            seen, reward, fell, _, info = env.step(action)
+            for side, load in zip(("left", "right"), info["load"], strict=True):
+                assert seen[f"skin_{side}"].sum() == pytest.approx(load, rel=1e-4, abs=1e-5)
+            assert seen in env.observation_space
+            assert reward <= 1.0
+            assert not fell
+            rewards.append(reward)
+        runs.append((rewards, seen))
+    assert runs[0][0] == runs[1][0]
+    assert all(np.array_equal(runs[0][1][k], runs[1][1][k]) for k in seen)
+
+
+def test_ground_and_command_of_a_walk_are_drawn_again():
+    env = PlantarEnv("walk")
+    env.reset(seed=1)
+    first = env.model.geom_pos.copy(), env.step(np.zeros(12))[0]["task"]
+    env.reset()
+    second = env.model.geom_pos.copy(), env.step(np.zeros(12))[0]["task"]
+    assert not np.array_equal(first[0], second[0])
+    assert not np.array_equal(first[1], second[1])
+    assert np.ptp(second[0][:, 2]) > 0.0
+
+
+def test_a_robot_that_falls_ends_the_episode():
+    env = PlantarEnv("stand")
+    env.reset(seed=0)
+    ends = [env.step(np.tile([0.0, 0.0, 1.0, 0.0, -1.0, 0.0], 2))[2] for _ in range(150)]
+    assert ends[0] is False
+    assert any(ends)
+
+
+def test_without_skin_and_with_faults():
+    assert "skin_left" not in PlantarEnv("stand", skin=False).observation_space.spaces
+    env = PlantarEnv("stand", faults=TaxelFaults(gain=0.2, noise=1.0, dead=0.1))
+    a, b = env.reset(seed=1)[0]["skin_left"], env.reset(seed=2)[0]["skin_left"]
+    assert not np.array_equal(a, b)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"task": "fly"}, "allowed: stand, step, walk, board"),
+        ({"render_mode": "human"}, "rgb_array"),
+        ({"period": 0.0}, "above 0"),
+        ({"physics_period": -1.0}, "above 0"),
+    ],
+)
+def test_wrong_arguments_are_refused(given, words):
+    with pytest.raises(InputError, match=words):
+        PlantarEnv(**given)
+
+
+def test_many_at_once():
+    envs = gymnasium.make_vec("PlantarStand-v0", num_envs=2, vectorization_mode="sync")
+    seen, _ = envs.reset(seed=3)
+    assert seen["skin_left"].shape[0] == 2
+    seen, reward, *_ = envs.step(np.zeros((2, 12), dtype=np.float32))
+    assert reward.shape == (2,)
+    envs.close()
