@@ -86,6 +86,7 @@ QUICK = {
         r"svg: .* (\d+) cm.*dxf: .* (\d+) cm.*geojson: .* (\d+) cm.*robot.xml: .* (\d+) cm",
         holds=lambda *area: area == (176, 176, 176, 176),
     ),
+    "own_policy": Example(r"FootholdResult\(completed=False, steps=0, planned=8"),
     "walk_own_computer": Example(r"walked (\S+) m and stands", holds=lambda way: 0.4 < way < 0.65),
     "walk_own_loop": Example(
         r"walked (\S+) m; the controller thinks (\S+) m",

@@ -13,19 +13,26 @@ __all__ = ["COMMAND", "bench"]
 
 
 def bench(
-    what: Annotated[str, Argument(help="kernels, contact, scenes, skip, stress or all.")] = "all",
+    what: Annotated[str, Argument(help="kernels, contact, scenes, skip, stress, footholds or all.")] = "all",
     layout: Annotated[
         Path | None, Option(help="contact: layout file of the sole. Default: 250 x 155 mm with taxels of 691 mm^2.")
     ] = None,
     scenarios: Annotated[int, Option(help="stress: how many scenarios.")] = 10_000,
     first: Annotated[int, Option(min=0, help="stress: number of the first one.")] = 0,
     scene: Annotated[
-        list[str] | None, Option(metavar="SCENE", help="scenes: a walk to run (again for more). Default: all.")
+        list[str] | None,
+        Option(
+            metavar="SCENE", help="scenes: a walk to run (again for more); footholds: a kind of trial. Default: all."
+        ),
     ] = None,
     robot: Annotated[
-        list[str] | None, Option(metavar="ROBOT", help="scenes: a robot to run them with, likewise.")
+        list[str] | None, Option(metavar="ROBOT", help="scenes, footholds: a robot to run them with, likewise.")
     ] = None,
     quick: Annotated[bool, Option("--quick", help="scenes, all: the most telling ones, once.")] = False,
+    policy: Annotated[
+        Path | None, Option(help="footholds: Python file with make_policy(task). Default: the built-in controller.")
+    ] = None,
+    seeds: Annotated[int, Option(min=1, help="footholds: runs of each trial.")] = 100,
     output: Output = Path("out/bench"),
     as_json: Json = False,
 ) -> None:
@@ -49,6 +56,10 @@ def bench(
     sensors, saturation, edges, masses and gains anywhere in their ranges, 1 km from the origin, float32): exit code 1
     if one raises or commands nonsense. A second or two each; stress.csv goes on where it was left. Not part of all.
 
+    footholds: a controller or policy of your own, or the built-in one, on beams, stones, slopes, steps and under pushes
+    that it does not know of, in units of the robot; a second or two a run. footholds.csv goes on where it was left, and
+    a second policy adds its rows. The page "Footholds for any policy" of the documentation shows how.
+
     all: kernels, contact, skip, quick scenes on flat ground and the papers' experiments, and bench.html, one page that
     shows them; about 12 minutes of one core, --quick 4.
 
@@ -57,11 +68,13 @@ def bench(
     Example: plantar bench kernels -o out/bench
 
     Example: plantar bench stress --scenarios 10 --json
+
+    Example: plantar bench footholds --policy examples/own_policy.py --seeds 10
     """
     from plantar.sim.bench.kinds import BenchOptions, measure
 
     walks = tuple(scene or ()), tuple(robot or ())
-    done = measure(what, BenchOptions(layout, scenarios, first, *walks, quick), output)
+    done = measure(what, BenchOptions(layout, scenarios, first, *walks, quick, policy, seeds), output)
     end_command(done.result, as_json, done.text, done.failures, bool(done.failures))
 
 

@@ -31,6 +31,8 @@ class BenchOptions:
         scene: Walks to run; all where empty.
         robot: Robots to run them with; all where empty.
         quick: Run what shows most, once.
+        policy: Python file of the policy to run; the built-in controller where None.
+        seeds: Runs of each trial.
     """
 
     layout: Path | None = None
@@ -39,6 +41,8 @@ class BenchOptions:
     scene: tuple[str, ...] = ()
     robot: tuple[str, ...] = ()
     quick: bool = False
+    policy: Path | None = None
+    seeds: int = 100
 
 
 class Told(NamedTuple):
@@ -94,8 +98,10 @@ _TAKEN_BY: Mapping[str, tuple[str, ...]] = {
     "layout": ("contact", "all"),
     "scenarios": ("stress",),
     "first": ("stress",),
-    "scene": ("scenes",),
-    "robot": ("scenes",),
+    "scene": ("scenes", "footholds"),
+    "robot": ("scenes", "footholds"),
+    "policy": ("footholds",),
+    "seeds": ("footholds",),
     "quick": ("all", "scenes"),
 }
 
@@ -119,7 +125,20 @@ def _stress(output: Path, options: BenchOptions, tell: Progress) -> Told:
     return Told(result, stress_loop_text(result), tuple(failures))
 
 
-_TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Told]] = {"scenes": _scenes, "stress": _stress}
+def _footholds(output: Path, options: BenchOptions, tell: Progress) -> Told:
+    """Any controller or policy on beams, stones, slopes, steps and under pushes."""
+    need_libraries("sim", *LIBRARIES)
+    from plantar.sim.bench.footholds.measure_footholds import footholds_text, measure_footholds
+
+    result = measure_footholds(output, options.policy, options.robot, options.seeds, options.scene, tell)
+    return Told(result, footholds_text(result) + "\n" + file_lines(str(output / name) for name in result["files"]))
+
+
+_TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Told]] = {
+    "scenes": _scenes,
+    "stress": _stress,
+    "footholds": _footholds,
+}
 """Kinds whose tables grow in the folder itself and are gone on with."""
 
 

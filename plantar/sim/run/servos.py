@@ -87,6 +87,13 @@ class LegServos:
         setpoints.load(friction, command.joint_offsets)
         return self._reference.copy()
 
+    def follow(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
+        """Go to joint angles (k,) in rad by the next tick, with feed-forward torques (k,) in N m."""
+        self._legs.joints[:], self._legs.torques[:] = joints, torques
+        self._setpoints.go_to()
+        friction = self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None
+        self._setpoints.load(friction, None)
+
     def drive(self) -> None:
         """Write the set-points of one physics step."""
         if self._drives is None:

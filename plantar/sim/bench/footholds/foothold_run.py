@@ -1,0 +1,117 @@
+"""One run of a policy on one trial, judged by what truly happened."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+
+from plantar.errors import InputError
+from plantar.gravity import GRAVITY
+from plantar.robots.controller import JointTargets
+from plantar.sim.bench.footholds.policy import WalkTask
+from plantar.sim.bench.footholds.trials import Trial, scene_of_trial
+from plantar.sim.model.world import check_stable
+from plantar.sim.run.runner import Simulation
+
+__all__ = ["FootholdResult", "run_trial"]
+
+_PATIENCE = 1.5  # times the built-in controller's time until a run is cut off
+_LOOK = 0.25  # s from one look for the last step to the next
+_STAY = 1.0  # s that the robot has to stay up after its last step
+
+
+class FootholdResult(NamedTuple):
+    """What came of a run.
+
+    Attributes:
+        completed: Whether all steps were taken, in order and place, and the robot stayed up.
+        steps: Steps taken.
+        planned: Steps planned.
+        fell: Whether it fell.
+        tilt: Largest tilt of the torso in degrees.
+        froude: v^2 / (g l), v the way over the time from first to last step.
+        time: Simulated time in s.
+    """
+
+    completed: bool
+    steps: int
+    planned: int
+    fell: bool
+    tilt: float
+    froude: float
+    time: float
+
+
+def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) -> FootholdResult:
+    """Run a policy on a trial.
+
+    Args:
+        make_policy: Makes the policy of a `WalkTask`.
+        trial: The trial.
+        robot: Name or file of the robot.
+        seed: Draws the ground, the push and the sensors' noise.
+
+    Returns:
+        What came of it.
+
+    Raises:
+        InputError: If the policy raises, or returns no finite angles of the joints.
+        SceneError: If the physics become unstable.
+    """
+    run = Simulation(scene_of_trial(trial, robot), seed)
+    world, data, judge = run.world, run.world.data, run.judge
+    stance = JointTargets(run.legs.joints.copy(), run.legs.torques.copy())
+    names = (*run.robot.legs["left"].joints, *run.robot.legs["right"].joints)
+    period = run.settings.period
+    task = WalkTask(robot, names, period, stance, run.feet, run.steps, run.end, trial.tables["walk"])
+    policy = _called(make_policy, task)
+    tick_every, look_every = round(period / world.period), round(_LOOK / world.period)
+    last = round(_PATIENCE * run.end / world.period)
+    k, taken_all = 0, None
+    while k < last and judge.fall is None and (taken_all is None or data.time < taken_all + _STAY):
+        if k % run.sensors.skin_every == 0:
+            run.sensors.read_skins()
+        if k % tick_every == 0:
+            action = _called(policy.step, run.sensors.read_body())
+            angles = np.asarray(action[0], dtype=np.float64)
+            torques = np.zeros(len(names)) if action[1] is None else np.asarray(action[1], dtype=np.float64)
+            if angles.shape != stance.angles.shape or not np.isfinite(angles).all() or not np.isfinite(torques).all():
+                raise InputError(f"policy returned angles of shape {angles.shape}; expected {len(names)} finite ones")
+            run.servos.follow(angles, torques)
+        run.servos.drive()
+        run.pusher.apply(world)
+        if world.moving_ground:
+            world.move_ground()
+        mujoco.mj_step(world.model, data)
+        if judge.step():
+            check_stable(data.warning.number)
+        if k % tick_every == 0:
+            judge.update(data.time, data.subtree_com[world.torso], None, action[2], run.pusher.pushing)
+        if k % look_every == 0 and taken_all is None and judge.steps.count().taken == len(run.steps):
+            taken_all = float(data.time)
+        k += 1
+    count = judge.steps.count()
+    speed = 0.0
+    if count.taken > 1:
+        start = np.mean([foot.position[:2] for foot in run.feet.values()], axis=0)
+        way = np.mean([stand.place[:2] for stand in count.stands[-2:]], axis=0) - start
+        speed = float(np.hypot(*way)) / max(count.stands[-1].touchdown - count.stands[0].touchdown, 1e-9)
+    return FootholdResult(
+        judge.fall is None and count.taken == len(run.steps),
+        count.taken,
+        len(run.steps),
+        judge.fell,
+        judge.tilt_max,
+        speed**2 / (GRAVITY * run.body.leg),
+        float(data.time),
+    )
+
+
+def _called(function: Any, argument: Any) -> Any:
+    """What a user's function returns; what it raises names it."""
+    try:
+        return function(argument)
+    except Exception as problem:  # whatever the policy raises
+        raise InputError(f"policy raised {type(problem).__name__}: {problem}") from problem

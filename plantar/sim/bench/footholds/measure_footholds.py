@@ -1,0 +1,132 @@
+"""The foothold benchmark: all trials with many seeds, a table that grows by a row a run, and its summary."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from plantar.atomic import write_text
+from plantar.bench.tables import GrowingTable, markdown_table
+from plantar.errors import InputError, SceneError
+from plantar.sim.bench.footholds.foothold_run import run_trial
+from plantar.sim.bench.footholds.policy import OwnController, load_policy
+from plantar.sim.bench.footholds.trials import TRIALS
+from plantar.sim.sweep.intervals import wilson_interval
+
+__all__ = ["footholds_text", "measure_footholds"]
+
+_COLUMNS = ("policy", "robot", "kind", "value", "seed", "completed", "steps", "planned", "fell", "tilt_deg", "froude")
+_TABLE, _PAGE = "footholds.csv", "footholds.md"
+
+
+def measure_footholds(
+    folder: Path,
+    policy: Path | None = None,
+    robots: Sequence[str] = (),
+    seeds: int = 100,
+    kinds: Sequence[str] = (),
+    progress: Callable[[float, str], None] | None = None,
+) -> dict[str, Any]:
+    """Run a policy on all trials; runs that are in the table already are not run again.
+
+    Args:
+        folder: Where footholds.csv and footholds.md are.
+        policy: Python file with `make_policy(task)`; the built-in controller where None.
+        robots: Names or files of robots; h1 where empty.
+        seeds: Runs of each trial.
+        kinds: Kinds of trials; all where empty.
+        progress: Called with the fraction done and a text.
+
+    Returns:
+        A row for each policy, robot and trial in the table, and the files' names.
+
+    Raises:
+        InputError: If a kind is unknown, there is not at least one seed, or the policy cannot be run.
+    """
+    known = list(dict.fromkeys(t.kind for t in TRIALS))
+    if seeds < 1 or set(kinds) - set(known):
+        raise InputError(f"{seeds} seeds of {', '.join(kinds) or 'all'}; allowed: 1 or more of {', '.join(known)}")
+    make, name = (OwnController, "plantar") if policy is None else (load_policy(policy), policy.stem)
+    folder.mkdir(parents=True, exist_ok=True)
+    table = GrowingTable(folder / _TABLE, _COLUMNS, "foothold runs")
+    done = {tuple(row[c] for c in _COLUMNS[:5]) for row in table.rows}
+    wanted = [
+        (robot, trial, seed)
+        for robot in (robots or ("h1",))
+        for trial in TRIALS
+        if not kinds or trial.kind in kinds
+        for seed in range(seeds)
+    ]
+    for k, (robot, trial, seed) in enumerate(wanted):
+        key = (name, robot, trial.kind, f"{trial.value:g}", str(seed))
+        if key in done:
+            continue
+        try:
+            found = run_trial(make, trial, robot, seed)
+            row = (found.completed, found.steps, found.planned, found.fell, round(found.tilt, 2))
+            values: tuple[Any, ...] = (*key, *row, round(found.froude, 4))
+        except SceneError:  # unstable physics: a policy that shakes the robot to pieces
+            values = (*key, False, 0, len(trial.tables), True, 180.0, 0.0)
+        table.add(dict(zip(_COLUMNS, values, strict=True)))
+        if progress is not None:
+            progress((k + 1) / len(wanted), f"{name}, {trial.kind} {trial.value:g}, seed {seed}")
+    rows = _summary(table.rows)
+    write_text(folder / _PAGE, footholds_text({"rows": rows}) + "\n")
+    return {"rows": rows, "files": [_TABLE, _PAGE]}
+
+
+def _summary(table: Sequence[dict[str, str]]) -> list[dict[str, Any]]:
+    """A row for each policy, robot and trial."""
+    groups: dict[tuple[str, ...], list[dict[str, str]]] = {}
+    for row in table:
+        groups.setdefault(tuple(row[c] for c in _COLUMNS[:4]), []).append(row)
+    units = {(t.kind, f"{t.value:g}"): t.unit for t in TRIALS}
+    rows = []
+    for (policy, robot, kind, value), runs in groups.items():
+        completed = sum(r["completed"] == "True" for r in runs)
+        low, high = wilson_interval(completed, len(runs))
+        rows.append(
+            {
+                "policy": policy,
+                "robot": robot,
+                "trial": kind,
+                "value": float(value),
+                "unit": units.get((kind, value), ""),
+                "runs": len(runs),
+                "completed": completed / len(runs),
+                "low": low,
+                "high": high,
+                "steps": sum(int(r["steps"]) / max(int(r["planned"]), 1) for r in runs) / len(runs),
+                "fell": sum(r["fell"] == "True" for r in runs) / len(runs),
+                "froude": sum(float(r["froude"]) for r in runs) / len(runs),
+            }
+        )
+    return rows
+
+
+def footholds_text(result: dict[str, Any]) -> str:
+    """The summary as a table in Markdown.
+
+    Args:
+        result: What `measure_footholds` returned.
+
+    Returns:
+        The text.
+    """
+    titles = ("policy", "robot", "trial", "completed", "95 %", "steps", "fell", "Froude", "runs")
+    rows = [
+        (
+            r["policy"],
+            r["robot"],
+            f"{r['trial']} {r['value']:g} {r['unit']}".strip(),
+            f"{100 * r['completed']:.0f} %",
+            f"{100 * r['low']:.0f} to {100 * r['high']:.0f} %",
+            f"{100 * r['steps']:.0f} %",
+            f"{100 * r['fell']:.0f} %",
+            f"{r['froude']:.4f}",
+            str(r["runs"]),
+        )
+        for r in result["rows"]
+    ]
+    return markdown_table(titles, rows)

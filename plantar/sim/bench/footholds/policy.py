@@ -1,0 +1,116 @@
+"""What a policy of the foothold benchmark gets and returns, and how its file is loaded."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.gait.command import Sensors
+from plantar.gait.plan.footsteps import Footstep
+from plantar.gait.plan.plan_change import MovedStep
+from plantar.robots.controller import JointTargets, RobotController, load_controller
+from plantar.sides import Side
+
+__all__ = ["Action", "OwnController", "Policy", "WalkTask", "load_policy"]
+
+
+@dataclass(frozen=True)
+class WalkTask:
+    """What a policy knows of a trial: the walk as planned on level ground, nothing of the true ground.
+
+    Attributes:
+        robot: Name or file of the robot.
+        joints: Names of its k leg joints, in the order of all joint vectors.
+        period: Time in s from one call of `step` to the next.
+        stance: Joint angles (k,) in rad and torques (k,) in N m in which the robot waits at time 0.
+        feet: Where the feet are at the start.
+        steps: The footsteps to take, in order, world frame.
+        end: Time in s at which the built-in controller has ended the walk; a run is cut off at 1.5 times that.
+        walk: The gait as a scene's [walk] table states it.
+    """
+
+    robot: str
+    joints: tuple[str, ...]
+    period: float
+    stance: JointTargets
+    feet: Mapping[Side, Footstep]
+    steps: tuple[Footstep, ...]
+    end: float
+    walk: Mapping[str, Any]
+
+
+class Action(NamedTuple):
+    """What a policy asks of the leg joints.
+
+    Attributes:
+        angles: Joint angles (k,) in rad.
+        torques: Feed-forward torques (k,) in N m, on top of the servos'; None for none.
+        moved: Footsteps that it has moved on purpose: the judge asks whether ground or a push justify it.
+    """
+
+    angles: NDArray[np.float64]
+    torques: NDArray[np.float64] | None = None
+    moved: Sequence[MovedStep] = ()
+
+
+class Policy(Protocol):
+    """A controller or a learned policy, made anew for each trial by the `make_policy(task)` of its file."""
+
+    def step(self, sensors: Sensors) -> Action:
+        """One control tick.
+
+        Args:
+            sensors: Time in s, joint angles (k,) in rad, gyro (3,) in rad/s, accelerometer (3,) in m/s^2, and a
+                `Reading` of each sole.
+
+        Returns:
+            The action.
+        """
+
+
+class OwnController:
+    """Plantar's walking controller as a policy."""
+
+    def __init__(self, task: WalkTask) -> None:
+        self._walker: RobotController = load_controller(task.robot, {"walk": task.walk})
+
+    def step(self, sensors: Sensors) -> Action:
+        """One tick of the controller, and inverse kinematics."""
+        command = self._walker.step(sensors)
+        angles, torques = self._walker.joint_targets(command)
+        return Action(angles, torques, command.moved_steps)
+
+
+def load_policy(path: str | os.PathLike[str]) -> Any:
+    """The `make_policy` of a Python file. The file's code runs.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The function.
+
+    Raises:
+        InputError: If there is no such file, it cannot be run, or has no function `make_policy`.
+    """
+    file = Path(path)
+    spec = importlib.util.spec_from_file_location(file.stem, file) if file.is_file() else None
+    if spec is None or spec.loader is None:
+        raise InputError(f"policy '{file}' is no Python file; allowed: a .py file with make_policy(task)")
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as problem:  # whatever the file raises
+        raise InputError(f"policy '{file}' cannot be run: {type(problem).__name__}: {problem}") from None
+    make = getattr(module, "make_policy", None)
+    if not callable(make):
+        raise InputError(f"policy '{file}' has no function make_policy(task)")
+    return make

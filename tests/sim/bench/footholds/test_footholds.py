@@ -1,0 +1,105 @@
+"""The benchmark of footholds: policies are loaded, run, judged and resumed; what is wrong with one is named."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from plantar import InputError
+from plantar.sim.bench.footholds import measure_footholds as module
+from plantar.sim.bench.footholds.foothold_run import FootholdResult, run_trial
+from plantar.sim.bench.footholds.measure_footholds import footholds_text, measure_footholds
+from plantar.sim.bench.footholds.policy import Action, OwnController, load_policy
+from plantar.sim.bench.footholds.trials import TRIALS, scene_of_trial
+
+EXAMPLE = Path(__file__).resolve().parents[4] / "examples" / "own_policy.py"
+SHORT = TRIALS[0]._replace(tables={"terrain": {"kind": "flat"}, "walk": {"steps": 2, "settle": 0.2}})
+
+
+class Stiff(NamedTuple):
+    """Holds what it is given."""
+
+    action: Action
+
+    def step(self, sensors):
+        return self.action
+
+
+def test_the_own_controller_takes_its_steps_and_a_standing_policy_none():
+    own = run_trial(OwnController, SHORT)
+    assert own.completed
+    assert (own.steps, own.planned) == (2, 2)
+    assert own.froude > 0.0
+    still = run_trial(lambda task: Stiff(Action(task.stance.angles, task.stance.torques)), SHORT)
+    assert (still.completed, still.steps, still.fell) == (False, 0, False)
+
+
+def test_a_policy_that_falls_is_seen():
+    def make(task):
+        return Stiff(Action(task.stance.angles - 0.5 * np.array(["ankle_pitch" in name for name in task.joints])))
+
+    fell = run_trial(make, SHORT)
+    assert fell.fell
+    assert not fell.completed
+
+
+@pytest.mark.parametrize(
+    ("step", "words"),
+    [
+        (lambda s: (np.zeros(3), None, ()), "expected 12 finite ones"),
+        (lambda s: (np.full(12, np.nan), None, ()), "finite"),
+        (lambda s: 1 / 0, "policy raised ZeroDivisionError"),
+    ],
+)
+def test_what_a_policy_does_wrong_is_named(step, words):
+    policy = type("Wrong", (), {"step": staticmethod(step)})()
+    with pytest.raises(InputError, match=words):
+        run_trial(lambda task: policy, SHORT)
+
+
+def test_files_that_are_no_policy_are_refused(tmp_path):
+    assert callable(load_policy(EXAMPLE))
+    with pytest.raises(InputError, match="no Python file"):
+        load_policy(tmp_path / "missing.py")
+    for text, words in (("1 / 0", "ZeroDivisionError"), ("x = 1", "no function make_policy")):
+        (tmp_path / "my.py").write_text(text)
+        with pytest.raises(InputError, match=words):
+            load_policy(tmp_path / "my.py")
+
+
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+def test_every_trial_is_a_scene_of_every_robot(robot):
+    for trial in TRIALS:
+        scene = scene_of_trial(trial, robot)
+        assert scene.walk.steps == 8
+        assert scene.terrain.kind == trial.tables["terrain"]["kind"]
+
+
+def test_a_table_grows_and_is_gone_on_with(tmp_path, monkeypatch):
+    ran = []
+
+    def fake(make, trial, robot, seed):
+        ran.append((trial.kind, seed))
+        return FootholdResult(seed > 0, 8 * (seed > 0), 8, seed == 0, 3.0, 0.01, 12.0)
+
+    monkeypatch.setattr(module, "run_trial", fake)
+    measure_footholds(tmp_path, seeds=1, kinds=["push"])
+    result = measure_footholds(tmp_path, EXAMPLE, seeds=4, kinds=["push"])
+    assert len(ran) == 3 + 12
+    assert len(measure_footholds(tmp_path, EXAMPLE, seeds=4, kinds=["push"])["rows"]) == 6
+    assert len(ran) == 15
+    own = result["rows"][-1]
+    assert (own["policy"], own["completed"], own["fell"], own["runs"]) == ("own_policy", 0.75, 0.25, 4)
+    assert own["low"] < 0.75 < own["high"]
+    text = footholds_text(result)
+    assert "push 0.15 sqrt(g l)" in text
+    assert (tmp_path / "footholds.md").read_text() == text + "\n"
+
+
+@pytest.mark.parametrize("given", [{"seeds": 0}, {"kinds": ["lava"]}])
+def test_wrong_questions_are_refused(given, tmp_path):
+    with pytest.raises(InputError, match="allowed: 1 or more of flat, beam, stones, slopes, steps, push"):
+        measure_footholds(tmp_path, **given)
