@@ -21,7 +21,7 @@ from statistics import mean, median
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
-from plantar.sim.sweep.intervals import wilson_interval
+from plantar.bench.intervals import wilson_interval
 
 FOLDER = Path(__file__).parent
 

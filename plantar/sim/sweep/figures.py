@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from plantar.bench.intervals import wilson_interval
 from plantar.plotting import COLOURS, new_figure
-from plantar.sim.sweep.intervals import wilson_interval
 from plantar.sim.sweep.limit_search import LimitSearch
 from plantar.sim.sweep.plan import Plan
 from plantar.sim.sweep.runs import Rows, settings_of

@@ -10,11 +10,11 @@ from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
+from plantar.bench.intervals import wilson_interval
 from plantar.errors import InputError, SceneError
 from plantar.sim.run.scene import Scene
 from plantar.sim.run.scene_kind import open_scene, robot_file_of
 from plantar.sim.sweep.grid import canonical, is_word, split_values
-from plantar.sim.sweep.intervals import wilson_interval
 from plantar.sim.sweep.runs import Rows, Run, key_of, settings_of
 from plantar.sim.sweep.task import criteria_of
 from plantar.sim.sweep.value_range import ValueRange

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from plantar.sim.sweep.intervals import wilson_interval
+from plantar.bench.intervals import wilson_interval
 
 
 @pytest.mark.parametrize(("completed", "runs"), [(0, 5), (1, 5), (8, 10), (10, 10), (50, 100), (999, 1000)])
