@@ -88,7 +88,12 @@ class LegServos:
         return self._reference.copy()
 
     def follow(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
-        """Go to joint angles (k,) in rad by the next tick, with feed-forward torques (k,) in N m."""
+        """Go to joint angles by the next tick.
+
+        Args:
+            joints: Joint angles (k,) in rad.
+            torques: Feed-forward torques (k,) in N m.
+        """
         self._legs.joints[:], self._legs.torques[:] = joints, torques
         self._setpoints.go_to()
         friction = self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None
