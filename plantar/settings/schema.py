@@ -25,7 +25,7 @@ from plantar.errors import InputError, PlantarError
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale, Quantity, si_unit
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
-__all__ = ["Setting", "Settings", "choice", "number", "share", "switch", "tables", "text", "whole"]
+__all__ = ["Setting", "Settings", "choice", "fixed", "number", "share", "switch", "tables", "text", "whole"]
 
 
 def number(default: float, unit: str, low: float = 0.0, high: float = math.inf, words: tuple[str, ...] = ()) -> Any:
@@ -58,6 +58,19 @@ def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -
     """
     quantity = Quantity(float(default), unit)
     return field(default=quantity, metadata={"unit": si_unit(unit), "low": low, "high": high})
+
+
+def fixed(value: float, unit: str) -> Any:
+    """A field that grows with the robot and that no file sets.
+
+    Args:
+        value: Its value as a share.
+        unit: What of the body it is a share of.
+
+    Returns:
+        The field of a dataclass.
+    """
+    return field(default=Quantity(float(value), unit), init=False, repr=False, metadata={"fixed": True})
 
 
 def whole(default: int, unit: str, low: int = 0, high: float = math.inf) -> Any:
@@ -170,6 +183,10 @@ class Settings:
             if isinstance(value, Quantity):
                 stated[item.name] = value
             object.__setattr__(self, item.name, _checked(item, value, self._body))
+        for item in fields(self):
+            if "fixed" in item.metadata and isinstance(item.default, Quantity):
+                stated[item.name] = item.default
+                object.__setattr__(self, item.name, item.default.si(self._body))
         object.__setattr__(self, "_stated", stated)
 
     @property
@@ -199,7 +216,7 @@ class Settings:
         for item in fields(self):
             value = self._stated.get(item.name, getattr(self, item.name))
             if isinstance(value, Quantity):
-                value = _checked(item, value, body)
+                value = value.si(body) if "fixed" in item.metadata else _checked(item, value, body)
             elif isinstance(value, Settings):
                 value = value.for_body(body)
             object.__setattr__(found, item.name, value)

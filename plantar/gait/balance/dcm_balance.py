@@ -15,7 +15,7 @@ from plantar.gait.balance.load_transfer import transferred
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.dcm_feedback import DcmFeedback
 from plantar.settings.part import Part
-from plantar.settings.schema import share
+from plantar.settings.schema import fixed, share
 from plantar.sides import Side
 
 __all__ = ["BalanceGains", "DcmBalance"]
@@ -32,14 +32,14 @@ class BalanceGains(Part, table="balance"):
         zmp_gain: k_f of T 4.29 in 1/s: how fast the CoM reference yields to a ZMP error.
         com_gain: k_x of T 4.29 in 1/s: how fast the CoM reference returns to the plan.
         zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
-        zmp_offset: Inner offset in m that the desired ZMP keeps from the support polygon's edge.
     """
 
     dcm_gain: float = share(0.371, "1/beat", 0, 50)
     zmp_gain: float = share(0.124, "1/beat", 0, 50)
     com_gain: float = share(0.247, "1/beat", 0, 50)
     zmp_filter: float = share(0.0809, "beat", 0, 1)
-    zmp_offset: float = share(0.065, "sole", 0, 0.1)
+    # Inner offset in m that the desired ZMP keeps from the support polygon's edge
+    zmp_offset: float = fixed(0.065, "sole")
 
 
 class DcmBalance:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.gait.sole_admittance import SoleAdmittance
-from plantar.settings.schema import Settings, number, share
+from plantar.settings.schema import Settings, fixed, number, share
 from plantar.sides import SIDES, Side
 
 __all__ = ["AdmittanceGains", "FootAdmittance"]
@@ -26,7 +26,6 @@ class AdmittanceGains(Settings):
         foot_turn_gain: Turning rate of a sole in rad/s per N m of moment error.
         foot_lift_gain: Rate of the feet's height difference in m/s per N of force difference error.
         foot_return: Rate in 1/s at which corrections return to zero while the foot stands.
-        foot_release: The same in the air.
         foot_filter: Time constant in s of the low-pass on the measured wrench.
         largest_turn: Largest turn of a sole about an axis in rad.
         largest_lift: Largest shift of a sole in m.
@@ -35,7 +34,7 @@ class AdmittanceGains(Settings):
     foot_turn_gain: float = share(0.0481, "rad/beat/weight/sole", 0, 1)
     foot_lift_gain: float = share(0.00695, "leg/beat/weight", 0, 0.1)
     foot_return: float = share(0.247, "1/beat", 0, 100)
-    foot_release: float = share(1.98, "1/beat", 0, 200)
+    foot_release: float = fixed(1.98, "1/beat")  # Rate in 1/s at which they do in the air
     foot_filter: float = share(0.0809, "beat", 0, 1)
     largest_turn: float = number(0.08, "rad", 0, 0.5)
     largest_lift: float = share(1 / 30, "leg", 0, 0.2)

@@ -29,7 +29,7 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.settings.part import Part
-from plantar.settings.schema import Setting, number, share
+from plantar.settings.schema import Setting, fixed, number, share
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
 __all__ = ["WrenchBalance", "WrenchBalanceGains"]
@@ -49,7 +49,6 @@ class WrenchBalanceGains(Part, table="balance"):
         zmp_gain: Rate in 1/s at which the CoM reference yields to a ZMP error (T 4.29).
         com_gain: Rate in 1/s at which it returns to the plan (T 4.29).
         zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
-        zmp_offset: Inner offset in m of the desired ZMP from the support polygon's edge.
         minimum_force: Least normal force in N of a standing foot.
         feet: Gains of the feet's admittance.
     """
@@ -61,7 +60,8 @@ class WrenchBalanceGains(Part, table="balance"):
     zmp_gain: float = number(0.0, "1/s", 0, 50)
     com_gain: float = share(0.247, "1/beat", 0, 50)
     zmp_filter: float = share(0.0809, "beat", 0, 1)
-    zmp_offset: float = share(0.065, "sole", 0, 0.1)
+    # Inner offset in m that the desired ZMP keeps from the support polygon's edge
+    zmp_offset: float = fixed(0.065, "sole")
     minimum_force: float = share(0.0178, "weight", 0, 10000)
     feet: AdmittanceGains = field(default_factory=AdmittanceGains)
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,25 +46,21 @@ class GroundMapSettings(
     Attributes:
         orientation: "plane" turns the sole by the plane fitted to the distances, "moment" by the virtual moment.
         sensing_range: Range of the proximity sensors in m.
-        largest_slope: Slope in rad beyond which the sole does not follow the ground.
-        follow_taxels: Number of taxels that must lie on a slope for the sole to follow it.
         readings: Number of readings that the map of distances averages over while the sole stands still.
-        readings_moving: The same while it moves fast.
         still: Move in m a control tick that halves it.
         jump: Difference from the map, in standard deviations of the readings, by which one of them shows that the
             ground has moved.
-        jump_of_all: The same for the mean of all taxels, which is less noisy.
     """
 
     orientation: str = choice("plane", "moment")
     sensing_range: float = share(1 / 12, "leg", 0.005, 0.5)
-    largest_slope: float = number(0.25, "rad", 0, 0.7)
-    follow_taxels: int = whole(10, "taxels", 3, 10000)
+    largest_slope: ClassVar[float] = 0.25  # Slope in rad beyond which the sole does not follow the ground
+    follow_taxels: ClassVar[int] = 10  # Number of taxels that must lie on a slope for the sole to follow it
     readings: int = whole(60, "readings", 1, 10000)
-    readings_moving: int = whole(5, "readings", 1, 10000)
+    readings_moving: ClassVar[int] = 5  # The same while it moves fast
     still: float = share(1 / 6000, "leg", 1e-06, 0.01)
     jump: float = number(6.0, "1", 0.1, 100)
-    jump_of_all: float = number(1.5, "1", 0.1, 100)
+    jump_of_all: ClassVar[float] = 1.5  # The same for the mean of all taxels, which is less noisy
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ readings, and is refined while more load comes on.
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,7 @@ from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.proximity import cells_polygon
 from plantar.sensing.reading import Reading
 from plantar.settings.part import Part
-from plantar.settings.schema import number, share, switch, whole
+from plantar.settings.schema import fixed, number, share, switch
 
 __all__ = ["ContactSettings", "StanceContact"]
 
@@ -34,59 +35,50 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
 
     Attributes:
         minimum_load: Vertical force in N from which a foot's taxels tell what it stands on.
-        settle_readings: Readings with that load before the contact polygon counts.
-        taxel_noise: Standard deviation of a taxel's noise in N.
-        smoothing: Share of a new reading in the running mean that decides whether a taxel has carried.
-        forgetting: Share of the old in the running sum that edges are fitted to.
-        least_expected: Force in N that the ground believed in would put on a taxel, from which its silence tells.
-        least_share: Share of that force below which a taxel is silent.
-        step_down: Depth in m below the nearest ground from which a taxel has no ground to stand on.
         deep: Depth in m that counts for all that is deeper or out of range.
-        sight: Share of a new reading in the running mean of what is seen.
-        least_seen: Number of taxels that have to see ground.
-        least_margin: Distance in m of the load from the believed polygon's edge, from which silence tells.
-        least_wrong: Share of the load that silent taxels should carry, from which the belief is wrong.
         level: Slope in rad of the sole against the ground from which the silence of taxels on the side that rises tells
             nothing: what its noise is.
         least_force: Running mean in N from which a taxel has carried.
         least_beside: Share of the strongest neighbour's force up to which a taxel may be carried along by its cover and
             have no ground: more than the twentieth that a crosstalk of 10 % gives one beside a straight edge.
         model_error: Share of the largest force that a taxel's force may differ from the fit's.
-        full_ratio: Share of the sole from which on the contact polygon counts as the whole sole.
         subcell: Whether edges are found finer than a cell; else the polygon of cell corners counts (T 4.24).
-        fit_every: Readings between two fits of a contact polygon that has settled.
-        standing_load: Vertical force in N from which the foot stands and its loads say where the edges are.
-        foresee_readings: Readings of the ground from which a foothold is planned with before the foot is on it.
-        foresee_reach: Distance in m that the foot may still have to go for that.
-        foresee_least: Time in s before the planned touchdown from which it is too late for that.
         remember: Whether a foot that does not see the ground presumes that edges of the foothold before go on under it.
         watch: Time in s into the single support until which a contact polygon is refined.
     """
 
     minimum_load: float = share(0.107, "weight", 0, 10000)
-    settle_readings: int = whole(3, "readings", 1, 1000)
-    taxel_noise: float = share(0.00178, "weight", 0, 1000)
-    smoothing: float = number(0.3, "1", 0.001, 1)
-    forgetting: float = number(0.92, "1", 0, 1)
-    least_expected: float = share(0.00593, "weight", 0, 10000)
-    least_share: float = number(0.3, "1", 0, 1)
-    step_down: float = share(0.02, "leg", 0.001, 0.1)
+    settle_readings: ClassVar[int] = 3  # Readings with that load before the contact polygon counts
+    taxel_noise: float = fixed(0.00178, "weight")  # Standard deviation of a taxel's noise in N
+    # Share of a new reading in the running mean that decides whether a taxel has carried
+    smoothing: ClassVar[float] = 0.3
+    forgetting: ClassVar[float] = 0.92  # Share of the old in the running sum that edges are fitted to
+    # Force in N that the ground believed in would put on a taxel, from which its silence tells
+    least_expected: float = fixed(0.00593, "weight")
+    least_share: ClassVar[float] = 0.3  # Share of that force below which a taxel is silent
+    # Depth in m below the nearest ground from which a taxel has no ground to stand on
+    step_down: float = fixed(0.02, "leg")
     deep: float = share(1 / 12, "leg", 0.002, 0.5)
-    sight: float = number(0.3, "1", 0.001, 1)
-    least_seen: int = whole(4, "taxels", 1, 10000)
-    least_margin: float = share(0.13, "sole", 0, 0.2)
-    least_wrong: float = number(0.1, "1", 0, 1)
+    sight: ClassVar[float] = 0.3  # Share of a new reading in the running mean of what is seen
+    least_seen: ClassVar[int] = 4  # Number of taxels that have to see ground
+    # Distance in m of the load from the believed polygon's edge, from which silence tells
+    least_margin: float = fixed(0.13, "sole")
+    # Share of the load that silent taxels should carry, from which the belief is wrong
+    least_wrong: ClassVar[float] = 0.1
     level: float = number(1.5e-4, "rad", 0, 0.5)
     least_force: float = share(0.00415, "weight", 0, 10000)
     least_beside: float = number(0.08, "1", 0, 1)
     model_error: float = number(0.1, "1", 0, 1)
-    full_ratio: float = number(0.93, "1", 0.1, 1)
+    full_ratio: ClassVar[float] = 0.93  # Share of the sole from which on the contact polygon counts as the whole sole
     subcell: bool = switch(True)
-    fit_every: int = whole(8, "readings", 1, 1000)
-    standing_load: float = share(0.533, "weight", 0, 100000)
-    foresee_readings: int = whole(6, "readings", 1, 1000)
-    foresee_reach: float = share(0.065, "sole", 0, 0.2)
-    foresee_least: float = share(0.283, "beat", 0, 1)
+    fit_every: ClassVar[int] = 8  # Readings between two fits of a contact polygon that has settled
+    # Vertical force in N from which the foot stands and its loads say where the edges are
+    standing_load: float = fixed(0.533, "weight")
+    # Readings of the ground from which a foothold is planned with before the foot is on it
+    foresee_readings: ClassVar[int] = 6
+    foresee_reach: float = fixed(0.065, "sole")  # Distance in m that the foot may still have to go for that
+    # Time in s before the planned touchdown from which it is too late for that
+    foresee_least: float = fixed(0.283, "beat")
     remember: bool = switch(True)
     watch: float = share(0.607, "beat", 0, 5)
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from plantar.settings.part import Part
-from plantar.settings.schema import number, share
+from plantar.settings.schema import fixed, number, share
 
 __all__ = ["ComplianceGains", "TouchdownGains"]
 
@@ -19,10 +21,6 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
         top_speed: Largest speed downwards in m/s.
         acceleration: Largest acceleration downwards in m/s^2.
         clearance: Distance in m from the ground that the foot keeps at most while it still moves horizontally.
-        clearance_slope: The same, for each metre that it still has to go.
-        correction: Time constant in s with which the foot follows the distance that it should have.
-        steepness: Power of the time that is left with which a descent that has time to spare comes to the ground.
-        crawl_time: Time in s before the plan puts weight on the foot at which it is there.
         reserve: The same at which a foot that has not touched hurries down; it begins at twice that.
         late_speed_ratio: How many times faster it touches then.
         turning: Time constant in s with which the sole turns to the ground.
@@ -35,10 +33,12 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     top_speed: float = share(0.124, "leg/beat", 0.01, 2)
     acceleration: float = share(0.408, "leg/beat^2", 0.1, 100)
     clearance: float = share(0.02, "leg", 0, 0.1)
-    clearance_slope: float = number(0.2, "1", 0, 2)
-    correction: float = share(0.121, "beat", 0.005, 1)
-    steepness: float = number(3.0, "1", 1, 10)
-    crawl_time: float = share(1.21, "beat", 0, 2)
+    clearance_slope: ClassVar[float] = 0.2  # The same, for each metre that it still has to go
+    # Time constant in s with which the foot follows the distance that it should have
+    correction: float = fixed(0.121, "beat")
+    # Power of the time that is left with which a descent that has time to spare comes to the ground
+    steepness: ClassVar[float] = 3.0
+    crawl_time: float = fixed(1.21, "beat")  # Time in s before the plan puts weight on the foot at which it is there
     reserve: float = share(0.323, "beat", 0, 1)
     late_speed_ratio: float = number(2.5, "1", 1, 20)
     turning: float = share(0.162, "beat", 0.005, 1)
@@ -52,14 +52,13 @@ class TouchdownGains(Part, table="touchdown", needs={"control.pfc": (True,)}):
         contact_force: Force in N that counts as touchdown.
         touch_force: Force in N that a foot carries at first.
         hold_force: Force in N that it carries from then on to the double support.
-        load_time: Time in s from the one to the other.
         admittance: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
-        settling: Time constant in s with which it learns how fast the body above it moves up or down.
     """
 
     contact_force: float = share(0.0213, "weight", 0, 10000)
     touch_force: float = share(0.0237, "weight", 0, 10000)
     hold_force: float = share(0.0356, "weight", 0.1, 10000)
-    load_time: float = share(0.607, "beat", 0.001, 5)
+    load_time: float = fixed(0.607, "beat")  # Time in s from the one to the other
     admittance: float = share(0.0348, "leg/beat/weight", 0, 0.1)
-    settling: float = share(0.404, "beat", 0.005, 10)
+    # Time constant in s with which it learns how fast the body above it moves up or down
+    settling: float = fixed(0.404, "beat")

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
 from plantar.settings.part import Part
-from plantar.settings.schema import number, share, whole
+from plantar.settings.schema import fixed, share, whole
 from plantar.sides import SIDES, Side
 
 __all__ = ["ConformityGains", "FootTurn", "GroundConformity", "SoleTurn"]
@@ -45,11 +45,8 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
         rolling: k of a foot that rolls over an edge in rad/s per m.
         nearly: Distance in m from its target at which an incoming foot stays as it is.
         largest_rate: Largest rate of a turn in rad/s.
-        least_load: Vertical force in N from which a centre of pressure means something.
         press: Force in N that a landed foot holds before it takes the weight over.
-        follows: Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground.
         watch: Number of control ticks over which that is judged.
-        least_turn: Turn in rad from which it is.
         carries: Running mean in N from which a cell touches the ground.
         gap: Rise in m from which a cell that has touched has lifted off.
     """
@@ -58,11 +55,12 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
     rolling: float = share(0.285, "rad/beat/sole", 0, 100)
     nearly: float = share(0.0433, "sole", 0, 0.1)
     largest_rate: float = share(0.148, "rad/beat", 0, 10)
-    least_load: float = share(0.0178, "weight", 0, 10000)
+    least_load: float = fixed(0.0178, "weight")  # Vertical force in N from which a centre of pressure means something
     press: float = share(0.0948, "weight", 0, 10000)
-    follows: float = share(4.33, "sole/rad", 0, 100)
+    # Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground
+    follows: float = fixed(4.33, "sole/rad")
     watch: int = whole(10, "ticks", 1, 1000)
-    least_turn: float = number(0.002, "rad", 0, 0.5)
+    least_turn: ClassVar[float] = 0.002  # Turn in rad from which it is
     carries: float = share(0.00948, "weight", 0, 1000)
     gap: float = share(1 / 300, "leg", 0, 0.05)
 

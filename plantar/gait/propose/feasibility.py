@@ -22,7 +22,7 @@ from plantar.geometry.polygon import area
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.sensing.proximity import cells_polygon
 from plantar.settings.part import Part
-from plantar.settings.schema import choice, number, share, whole
+from plantar.settings.schema import choice, fixed, number, share, whole
 
 __all__ = ["FeasibilityRules", "Foothold", "FootholdProbe", "room_ahead", "way_around"]
 
@@ -39,18 +39,14 @@ class FeasibilityRules(
         rule: "skin" or "force_torque".
         area_ratio: epsilon_A: a foothold that supports no more than this share of the sole is refused; above 1 none is
             accepted.
-        ankle_moment: epsilon_t in N m: a foothold that makes this moment at the ankle is refused.
         surprise: How much higher than expected in m ground has to be to be checked.
         hold: By how much the single support is made longer for that, in s.
         probe_force: Force in N that the foot presses with.
-        probe_time: For how long in s it is probed, once it is there.
-        probe_limit: For how long in s it may take to come.
         reserve: How long in s the single support goes on after that at least.
         active_force: Mean force in N of a taxel that carries, above what its noise adds up to.
         near: Distance in m of a taxel from the ground, seen at touchdown, that counts as supported.
         clearance: Distance in m that the sole keeps from an obstacle.
         swing_time: Duration in s of the swing around it.
-        return_time: Duration in s of the swing back beside the other foot.
         outward: How far outwards a foothold may be moved in m.
         inward: How far inwards.
         forward: How far forward.
@@ -61,18 +57,19 @@ class FeasibilityRules(
 
     rule: str = choice("skin", "force_torque")
     area_ratio: float = number(0.8, "1", 0, 2)
-    ankle_moment: float = share(0.0411, "weight sole", 0, 1000)
+    # epsilon_t in N m: a foothold that makes this moment at the ankle is refused
+    ankle_moment: float = fixed(0.0411, "weight sole")
     surprise: float = share(1 / 60, "leg", 0.001, 0.1)
     hold: float = share(2.83, "beat", 0.01, 10)
     probe_force: float = share(0.154, "weight", 1, 10000)
-    probe_time: float = share(0.485, "beat", 0.01, 5)
-    probe_limit: float = share(1.01, "beat", 0.01, 5)
+    probe_time: float = fixed(0.485, "beat")  # For how long in s it is probed, once it is there
+    probe_limit: float = fixed(1.01, "beat")  # For how long in s it may take to come
     reserve: float = share(2.02, "beat", 0, 5)
     active_force: float = share(0.00154, "weight", 0, 10000)
     near: float = share(0.005, "leg", 0, 0.05)
     clearance: float = share(1 / 24, "leg", 0, 0.2)
     swing_time: float = share(5.66, "beat", 0.2, 10)
-    return_time: float = share(8.9, "beat", 0.2, 10)
+    return_time: float = fixed(8.9, "beat")  # Duration in s of the swing back beside the other foot
     outward: float = share(1 / 3, "leg", 0, 1)
     inward: float = share(0.025, "leg", 0, 1)
     forward: float = share(2 / 15, "leg", 0, 1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from plantar.settings.part import Part
-from plantar.settings.schema import share
+from plantar.settings.schema import fixed, share
 
 __all__ = ["FootholdRules"]
 
@@ -12,11 +12,11 @@ class FootholdRules(Part, table="foothold", needs={"control.footholds": ("force"
     """When a foothold that is not what was planned moves the plan, and how far.
 
     Attributes:
-        least_move: Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved.
         largest_shift: Distance in m by which one foothold moves the footsteps to come.
         replan_pause: Time in s between two moves of the plan by one foothold.
     """
 
-    least_move: float = share(0.0173, "sole", 0, 0.1)
+    # Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved
+    least_move: float = fixed(0.0173, "sole")
     largest_shift: float = share(0.0867, "sole", 0, 0.2)
     replan_pause: float = share(0.243, "beat", 0, 5)

@@ -18,7 +18,7 @@ from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.gait.propose.proposer import Priority, Tick, was_applied
 from plantar.settings.part import Part
-from plantar.settings.schema import number, share
+from plantar.settings.schema import fixed, number
 from plantar.sides import Side
 
 __all__ = ["LearnedStride", "LearnedStrideRules"]
@@ -31,14 +31,13 @@ class LearnedStrideRules(
 
     Attributes:
         rate: Share of what a step went farther than its stride that the next ones take over.
-        least_stride: Stride in m below which a direction has no stride that could become longer.
-        least_change: Change in m of a stride below which the plan stays.
         largest: Factor by which strides become longer at most.
     """
 
     rate: float = number(0.3, "1", 0, 1)
-    least_stride: float = share(1 / 30, "leg", 0.001, 1)
-    least_change: float = share(1 / 120, "leg", 0, 1)
+    # Stride in m below which a direction has no stride that could become longer
+    least_stride: float = fixed(1 / 30, "leg")
+    least_change: float = fixed(1 / 120, "leg")  # Change in m of a stride below which the plan stays
     largest: float = number(2.0, "1", 1, 5)
 
 

@@ -36,7 +36,7 @@ from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeight
 from plantar.gait.propose.step_timing import StepTiming
 from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.settings.part import Part
-from plantar.settings.schema import choice, number, share, switch
+from plantar.settings.schema import choice, fixed, number, share, switch
 from plantar.sides import Side, other_side
 
 __all__ = ["StepAdjustment", "StepAdjustmentRules"]
@@ -67,7 +67,6 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
         pause: Time in s between two changes.
         price_time: What a second costs in m/s of DCM error.
         price_place: What a metre of footstep costs in metres of DCM error, with confidence 1; with none a tenth of it.
-        misplaced: Distance in m from its place at which a foot that has landed stands elsewhere.
         lean: Roll of the trunk over the stance foot in rad per metre of the CoM's way there, at least, while steps may
             move: a push needs of the hip roll joint what carrying the body leaves of its torque. (Upright, hrp2kai's
             bears its body with 0.78 of it, and 16 N s hold it at its limit for 0.3 s, in which its foot stands on its
@@ -87,7 +86,8 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
     pause: float = share(0.081, "beat", 0, 5)
     price_time: float = share(0.0206, "leg/beat", 0, 10)
     price_place: float = number(0.5, "1", 0, 10)
-    misplaced: float = share(0.0333, "leg", 0.001, 1)
+    # Distance in m from its place at which a foot that has landed stands elsewhere
+    misplaced: float = fixed(0.0333, "leg")
     lean: float = share(0.48, "rad/leg", 0, 5)
 
 

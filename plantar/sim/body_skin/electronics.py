@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,6 @@ class SkinElectronicsSettings(Settings):
         half_force: Force in N at which a taxel's normalised signal is one half.
         half_distance: Distance in m at which its normalised proximity is one half.
         noise: Of the normalised signals.
-        temperature_noise: Of the temperatures in K.
         gain_error: Of each taxel's half_force and half_distance, as a share; the seed draws it once.
         bits: Resolution of the normalised signals.
         dead_taxels: Share of taxels that read NaN; the seed chooses which.
@@ -36,7 +36,7 @@ class SkinElectronicsSettings(Settings):
     half_force: float = number(10.0, "N", 0.01, 1e4)
     half_distance: float = number(0.02, "m", 1e-4, 1.0)
     noise: float = number(0.001, "1", 0.0, 0.5)
-    temperature_noise: float = number(0.1, "K", 0.0, 10.0)
+    temperature_noise: ClassVar[float] = 0.1  # Of the temperatures in K
     gain_error: float = number(0.05, "1", 0.0, 0.3)
     bits: int = whole(10, "bits", 4, 24)
     dead_taxels: float = number(0.0, "1", 0.0, 0.9)

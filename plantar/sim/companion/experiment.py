@@ -48,7 +48,6 @@ class CompanionControl(Settings):
         servo: What the drives take; "machine" for what the machine's file states.
         encoder_noise: Standard deviation of joint positions, in rad or m.
         velocity_noise: Standard deviation of joint speeds, in rad/s or m/s.
-        attitude_noise: Standard deviation of a floating base's orientation.
         gyro_noise: Standard deviation of its angular velocity.
         model_error: Standard deviation by which mass and inertia of each link are misjudged, as a share of them; the
             seed draws it once.
@@ -58,7 +57,7 @@ class CompanionControl(Settings):
     servo: str = choice("machine", "torque", "velocity", "position")
     encoder_noise: float = number(2e-5, "rad", 0, 0.1)
     velocity_noise: float = number(1e-3, "rad/s", 0, 1)
-    attitude_noise: float = number(2e-4, "rad", 0, 0.1)
+    attitude_noise: ClassVar[float] = 0.0002  # rad: standard deviation of a floating base's orientation
     gyro_noise: float = number(2e-3, "rad/s", 0, 1)
     model_error: float = number(0.0, "1", 0, 0.3)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import ClassVar, Literal, NamedTuple
 
 from plantar.settings.schema import Settings, number
 from plantar.wholebody.tasks.task import Task
@@ -28,7 +28,6 @@ class ContactSettings(Settings):
         release: Share of the limit below which the force has to fall before it tries again.
         stuck: Time in s for which it has to be slow before it approaches.
         retreat: Least time in s of a retreat.
-        patience: Time in s for which it presses on what does not move before it retreats.
         free: Time in s without contact and with nothing near, after which it avoids again.
         shrink: Time in s in which the sensing range shrinks to nothing while it approaches, and grows again after.
     """
@@ -38,7 +37,7 @@ class ContactSettings(Settings):
     release: float = number(0.5, "1", 0.0, 1.0)
     stuck: float = number(0.3, "s", 0.0, 60.0)
     retreat: float = number(0.3, "s", 0.0, 60.0)
-    patience: float = number(2.0, "s", 0.0, 60.0)
+    patience: ClassVar[float] = 2.0  # Time in s for which it presses on what does not move before it retreats
     free: float = number(0.5, "s", 0.0, 60.0)
     shrink: float = number(0.5, "s", 1e-3, 60.0)
 

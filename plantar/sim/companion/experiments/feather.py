@@ -52,13 +52,12 @@ class FeatherControl(StandingControl):
         proximity: Whether what is near repels it.
         range: Distance from which it does.
         stiffness: Virtual force of one taxel a metre of range that is used up.
-        repelled_damping: Damping of a repelled link.
     """
 
     proximity: bool = switch(True)
     range: float = number(0.02, "m", 0.001, 0.05)
     stiffness: float = number(300.0, "N/m", 0.0, 1e5)
-    repelled_damping: float = number(40.0, "N s/m", 0.1, 1e5)
+    repelled_damping: ClassVar[float] = 40.0  # N s/m: damping of a repelled link
 
 
 class Feather(StandingExperiment):

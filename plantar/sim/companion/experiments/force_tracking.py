@@ -41,7 +41,6 @@ class ForceTrackingSettings(Settings):
         duration: Simulated time.
         force: Mean of the wanted force.
         amplitude: Amplitude of its sine.
-        sine_period: Period of its sine.
         distance: Wanted distance before contact.
         contact: Time at which the contact phase is activated; 0 for never.
         gap: Distance of hand and object at first.
@@ -50,12 +49,9 @@ class ForceTrackingSettings(Settings):
         circle: When the base is commanded along a circle.
         circle_radius: Its radius.
         swing: When the base is commanded to swing sideways.
-        swing_amplitude: Amplitude of that.
-        base_period: Period of both.
         touch: Windows in which the arm is touched.
         touch_force: Range of these forces in N.
         person: Windows in which a person comes near the base.
-        too_near: How far inside of where the base was the person wants to stand.
         turn: When the object is turned about the vertical, and back.
         turn_angle: By how much, in degrees.
         largest_free: Limit of the RMS error of the force without interactions; 0 for none.
@@ -67,7 +63,7 @@ class ForceTrackingSettings(Settings):
     duration: float = number(30.0, "s", 0.5, 600)
     force: float = number(4.0, "N", 0, 100)
     amplitude: float = number(0.0, "N", 0, 100)
-    sine_period: float = number(4.0, "s", 0.1, 100)
+    sine_period: ClassVar[float] = 4.0  # Period of its sine
     distance: float = number(0.03, "m", 0.005, 0.1)
     contact: float = number(0.0, "s", 0, 600)
     gap: float = number(0.12, "m", 0.0, 0.5)
@@ -76,12 +72,12 @@ class ForceTrackingSettings(Settings):
     circle: tuple[float, float] = tables("[begin, end] in s")
     circle_radius: float = number(0.2, "m", 0, 2)
     swing: tuple[float, float] = tables("[begin, end] in s")
-    swing_amplitude: float = number(0.3, "m", 0, 2)
-    base_period: float = number(8.0, "s", 1, 100)
+    swing_amplitude: ClassVar[float] = 0.3  # Amplitude of that
+    base_period: ClassVar[float] = 8.0  # s: period of both
     touch: tuple[tuple[float, float], ...] = tables("a list of windows [begin, end] in s")
     touch_force: tuple[float, float] = tables("[low, high] in N")
     person: tuple[tuple[float, float], ...] = tables("a list of windows [begin, end] in s")
-    too_near: float = number(0.1, "m", -1, 1)
+    too_near: ClassVar[float] = 0.1  # m: how far inside of where the base was the person wants to stand
     turn: tuple[float, float] = tables("[begin, end] in s")
     turn_angle: float = number(15.0, "deg", 0, 90)
     largest_free: float = number(0.0, "N", 0, 100)

@@ -41,8 +41,6 @@ class ReachSettings(Settings):
         far: Largest.
         least_angle: Least direction to the goal from the tip, counter-clockwise from x.
         largest_angle: Largest.
-        least_friction: Least force that it takes to push what can be moved.
-        largest_friction: Largest.
         half_height: Half of the height of what stands around, whose middle is at the tip's height.
         tolerance: Distance from the goal at which it is reached.
     """
@@ -56,8 +54,8 @@ class ReachSettings(Settings):
     far: float = number(0.6, "m", 0.05, 5.0)
     least_angle: float = number(0.0, "deg", -360.0, 360.0)
     largest_angle: float = number(90.0, "deg", -360.0, 360.0)
-    least_friction: float = number(2.0, "N", 0.1, 1e3)
-    largest_friction: float = number(5.0, "N", 0.1, 1e3)
+    least_friction: ClassVar[float] = 2.0  # N: least force that it takes to push what can be moved
+    largest_friction: ClassVar[float] = 5.0  # N: largest
     half_height: float = number(0.12, "m", 0.01, 1.0)
     tolerance: float = number(0.015, "m", 1e-3, 1.0)
 

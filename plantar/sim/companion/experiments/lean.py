@@ -38,18 +38,15 @@ class LeanSettings(Settings):
     """What is leant on, and how far.
 
     Attributes:
-        table_height: Height of the table's top that the robot expects.
-        height_error: Largest difference of the true height from it, either way; the seed draws it.
-        table_edge: Distance of the table's edge from the middle of the feet; the seed moves it by up to 2 cm.
-        sole_share: Share of the right sole that stands on ground; the seed draws which side of it.
         beyond: Distance by which the centre of mass goes beyond the front of the ground that the soles see.
         reach: Distance of the left hand's target from the middle of the feet, forward.
     """
 
-    table_height: float = number(1.05, "m", 0.5, 1.5)
-    height_error: float = number(0.03, "m", 0.0, 0.2)
-    table_edge: float = number(0.32, "m", 0.1, 1.0)
-    sole_share: float = number(0.3, "1", 0.1, 1.0)
+    table_height: ClassVar[float] = 1.05  # m: height of the table's top that the robot expects
+    height_error: ClassVar[float] = 0.03  # Largest difference of the true height from it, either way; the seed draws it
+    # Distance of the table's edge from the middle of the feet; the seed moves it by up to 2 cm
+    table_edge: ClassVar[float] = 0.32
+    sole_share: ClassVar[float] = 0.3  # Share of the right sole that stands on ground; the seed draws which side of it
     beyond: float = number(0.06, "m", -0.2, 0.2)
     reach: float = number(0.55, "m", 0.3, 1.5)
 

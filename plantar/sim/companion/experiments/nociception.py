@@ -61,15 +61,13 @@ class NociceptionControl(StandingControl):
         reflex: Whether there is a reflex.
         smooth: Whether priorities change smoothly.
         threshold: Virtual force that hurts.
-        sensitivity_taxels: xi of T 3.27 in areas of a taxel.
-        yield_damping: Damping of the hand while it yields.
     """
 
     reflex: bool = switch(True)
     smooth: bool = switch(True)
     threshold: float = number(10.0, "N", 0.1, 1000.0)
-    sensitivity_taxels: float = number(3.0, "1", 0.1, 1000.0)
-    yield_damping: float = number(60.0, "N s/m", 1.0, 1e5)
+    sensitivity_taxels: ClassVar[float] = 3.0  # xi of T 3.27 in areas of a taxel
+    yield_damping: ClassVar[float] = 60.0  # N s/m: damping of the hand while it yields
     filter: float = number(0.02, "s", 0.0, 1.0)
 
 

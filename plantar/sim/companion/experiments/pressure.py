@@ -55,15 +55,14 @@ class PressureControl(StandingControl):
 
     Attributes:
         by_pressure: Whether the area counts; otherwise the force alone, as if it were on `sensitivity_taxels`.
-        sensitivity_taxels: xi of T 3.27 in areas of a taxel: over so many a force counts as it is.
-        yield_damping: Damping of the torso while it yields. With the sensitivity it describes how fast 1 N moves the
-            torso; both larger, what is wrong with 97 taxels' calibration and noise of the gyro count for less, until
-            the force that is fed back through the skin's delay lets the probe chatter (from 16 taxels on).
     """
 
     by_pressure: bool = switch(True)
-    sensitivity_taxels: float = number(12.0, "1", 0.1, 1000.0)
-    yield_damping: float = number(9000.0, "N s/m", 1.0, 1e6)
+    sensitivity_taxels: ClassVar[float] = 12.0  # xi of T 3.27 in areas of a taxel: over so many a force counts as it is
+    # N s/m: damping of the torso while it yields. With the sensitivity it describes how fast 1 N moves the torso;
+    # both larger, what is wrong with 97 taxels' calibration and noise of the gyro count for less, until the force
+    # that is fed back through the skin's delay lets the probe chatter (from 16 taxels on)
+    yield_damping: ClassVar[float] = 9000.0
 
 
 @dataclass

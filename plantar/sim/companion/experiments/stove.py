@@ -61,14 +61,12 @@ class StoveControl(StandingControl):
     Attributes:
         temperature: Whether heat repels it.
         threshold: kappa_0 of T 3.34: temperature from which it does.
-        repulsion: Force of one taxel a kelvin above the threshold.
-        repelled_damping: Damping of the hand while it is repelled.
     """
 
     temperature: bool = switch(True)
     threshold: float = number(31.0, "degC", -50.0, 1000.0)
-    repulsion: float = number(2.0, "N/K", 0.0, 1000.0)
-    repelled_damping: float = number(80.0, "N s/m", 0.1, 1e5)
+    repulsion: ClassVar[float] = 2.0  # N/K: force of one taxel a kelvin above the threshold
+    repelled_damping: ClassVar[float] = 80.0  # N s/m: damping of the hand while it is repelled
 
 
 class Stove(StandingExperiment):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -40,33 +42,12 @@ class HandControl(CompanionControl):
     rate m force_gain `force_integral`, here 20 1/s: two thirds of what a delay of two periods and the spring allow.
 
     Attributes:
-        force_gain: K_1 / Lambda_1 of A 9: acceleration for a newton that is missing.
         approach_speed: Speed at which the hand comes near to the surface.
-        landing_speed: Speed at which it comes to the surface in the contact phase, until it measures it.
-        force_damping: D_1 / Lambda_1.
         free_damping: D_1 / Lambda_1 while the hand measures nothing.
-        force_integral: Rate at which a lasting error is taken back, as a share of the proportional part.
-        distance_rate: Rate at which an error of the distance decays.
-        wrist_gain: K_2 / Lambda_2 of A 10: angular acceleration for a newton metre.
-        wrist_damping: D_2 / Lambda_2.
-        wrist_stiffness: Force that counts for a metre by which a taxel is nearer than it sees.
-        hand_stiffness: Stiffness with which the hand keeps its place in contact, for a unit mass.
-        guidance_mass: Lambda_3 of A 12.
-        guidance_damping: D_3.
         guidance_stiffness: Stiffness with which the hand keeps its place before contact while the arm measures nothing:
             critical, D_3^2 / (4 Lambda_3); 0 lets it drift with what is misjudged of the arm's weight.
-        guidance_ends: Whether guidance ends where the arm becomes straight (ablation).
-        arm_stiffness: K_c of A 18 of each joint of the arm.
-        arm_damping: D_c of each joint of the arm.
-        elbow_least: Bend of the elbow in degrees below which it resists: stretched, an arm cannot hold its hand still
-            while the base goes on.
-        elbow_most: Bend from which it resists likewise.
-        elbow_stiffness: How stiffly.
         base_stiffness: K_c of the base along x and y, and in N m/rad about z.
         base_damping: D_c of the base likewise.
-        avoidance_force: f_max of A 16.
-        avoidance_decay: alpha of A 16.
-        sigmoid: Time in which w of A 6 goes from distance to force.
         wrist: Whether the wrist complies (ablation).
         avoidance: Whether the base avoids obstacles (ablation).
         feed_forward: Whether the wanted force and what the arm's skin measures are taken over into the joints
@@ -74,31 +55,37 @@ class HandControl(CompanionControl):
         priority: "strict", or "sum": torques of all tasks added (ablation).
     """
 
-    force_gain: float = number(0.1, "m/(s^2 N)", 0, 100)
+    force_gain: ClassVar[float] = 0.1  # m/(s^2 N): K_1 / Lambda_1 of A 9: acceleration for a newton that is missing
     approach_speed: float = number(0.1, "m/s", 1e-3, 10)
-    landing_speed: float = number(0.01, "m/s", 1e-3, 10)
-    force_damping: float = number(12.0, "1/s", 0, 1e4)
+    # m/s: speed at which it comes to the surface in the contact phase, until it measures it
+    landing_speed: ClassVar[float] = 0.01
+    force_damping: ClassVar[float] = 12.0  # 1/s: D_1 / Lambda_1
     free_damping: float = number(100.0, "1/s", 0, 1e4)
-    force_integral: float = number(50.0, "1/s", 0, 1e3)
-    distance_rate: float = number(6.0, "1/s", 0, 100)
-    wrist_gain: float = number(50.0, "1/(kg m^2)", 0, 1e4)
-    wrist_damping: float = number(40.0, "1/s", 0, 1e4)
-    wrist_stiffness: float = number(300.0, "N/m", 0, 1e5)
-    hand_stiffness: float = number(400.0, "1/s^2", 0, 1e5)
-    guidance_mass: float = number(5.0, "kg", 0.01, 1e3)
-    guidance_damping: float = number(60.0, "N s/m", 0, 1e5)
+    # 1/s: rate at which a lasting error is taken back, as a share of the proportional part
+    force_integral: ClassVar[float] = 50.0
+    distance_rate: ClassVar[float] = 6.0  # 1/s: rate at which an error of the distance decays
+    wrist_gain: ClassVar[float] = 50.0  # 1/(kg m^2): K_2 / Lambda_2 of A 10: angular acceleration for a newton metre
+    wrist_damping: ClassVar[float] = 40.0  # 1/s: D_2 / Lambda_2
+    # N/m: force that counts for a metre by which a taxel is nearer than it sees
+    wrist_stiffness: ClassVar[float] = 300.0
+    # 1/s^2: stiffness with which the hand keeps its place in contact, for a unit mass
+    hand_stiffness: ClassVar[float] = 400.0
+    guidance_mass: ClassVar[float] = 5.0  # kg: lambda_3 of A 12
+    guidance_damping: ClassVar[float] = 60.0  # N s/m: D_3
     guidance_stiffness: float = number(180.0, "N/m", 0, 1e6)
-    guidance_ends: bool = switch(True)
-    arm_stiffness: float = number(30.0, "N m/rad", 0, 1e5)
-    arm_damping: float = number(15.0, "N m s/rad", 0, 1e5)
-    elbow_least: float = number(40.0, "deg", 0, 180)
-    elbow_most: float = number(145.0, "deg", 0, 180)
-    elbow_stiffness: float = number(150.0, "N m/rad", 0, 1e5)
+    guidance_ends: ClassVar[bool] = True  # Whether guidance ends where the arm becomes straight (ablation)
+    arm_stiffness: ClassVar[float] = 30.0  # N m/rad: K_c of A 18 of each joint of the arm
+    arm_damping: ClassVar[float] = 15.0  # N m s/rad: D_c of each joint of the arm
+    # Bend of the elbow in degrees below which it resists: stretched, an arm cannot hold its hand still while the base
+    # goes on
+    elbow_least: ClassVar[float] = 40.0
+    elbow_most: ClassVar[float] = 145.0  # deg: bend from which it resists likewise
+    elbow_stiffness: ClassVar[float] = 150.0  # N m/rad: how stiffly
     base_stiffness: float = number(0.0, "N/m", 0, 1e6)
     base_damping: float = number(150.0, "N s/m", 0, 1e6)
-    avoidance_force: float = number(300.0, "N", 0, 1e5)
-    avoidance_decay: float = number(0.2, "m", 1e-3, 10)
-    sigmoid: float = number(2.0, "s", 0, 60)
+    avoidance_force: ClassVar[float] = 300.0  # N: f_max of A 16
+    avoidance_decay: ClassVar[float] = 0.2  # m: alpha of A 16
+    sigmoid: ClassVar[float] = 2.0  # Time in which w of A 6 goes from distance to force
     wrist: bool = switch(True)
     avoidance: bool = switch(True)
     feed_forward: bool = switch(True)

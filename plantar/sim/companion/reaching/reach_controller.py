@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,13 +41,9 @@ class ReachControl(CompanionControl):
         policy: "intentional" for T Table 1; "avoid" for its first arrangement alone; "fields" for attraction and
             repulsion added up, as in plain potential fields.
         speed: V_max of T 3.44 while it avoids.
-        push_speed: V_max while it approaches what is in the way.
-        push_damping: k_v of T 3.43 then: what is stuck is pushed by k_v V_max times the tip's effective mass.
         range: Sensing range that is used, d_range of T 3.30.
         proximity: k_prox of T 3.30 of a taxel.
-        brake: Damping of motion along what repels, towards it and away from it.
         yielding: Gain on contact forces, tau_c of T 3.41.
-        limit_share: Share of the tolerable force from which it retreats: what is left is for the time it takes.
         slow: epsilon_v of T Table 1.
         stuck: Time for which it has to be slow before it approaches.
         transition: Time in which priorities change.
@@ -57,13 +54,15 @@ class ReachControl(CompanionControl):
 
     policy: str = choice("intentional", "avoid", "fields")
     speed: float = number(0.2, "m/s", 0.01, 2.0)
-    push_speed: float = number(0.05, "m/s", 0.001, 1.0)
-    push_damping: float = number(150.0, "1/s", 1.0, 1e3)
+    push_speed: ClassVar[float] = 0.05  # m/s: V_max while it approaches what is in the way
+    # 1/s: k_v of T 3.43 then: what is stuck is pushed by k_v V_max times the tip's effective mass
+    push_damping: ClassVar[float] = 150.0
     range: float = number(0.04, "m", 0.002, 0.2)
     proximity: float = number(25.0, "N/m", 0.0, 1e4)
-    brake: float = number(40.0, "N s/m", 0.0, 1e4)
+    brake: ClassVar[float] = 40.0  # N s/m: damping of motion along what repels, towards it and away from it
     yielding: float = number(0.5, "1", 0.0, 20.0)
-    limit_share: float = number(0.75, "1", 0.1, 1.0)
+    # Share of the tolerable force from which it retreats: what is left is for the time it takes
+    limit_share: ClassVar[float] = 0.75
     slow: float = number(0.02, "m/s", 0.0, 1.0)
     stuck: float = number(0.3, "s", 0.0, 10.0)
     transition: float = number(0.05, "s", 0.0, 2.0)

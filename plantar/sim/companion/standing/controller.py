@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from time import perf_counter
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +31,6 @@ class StandingControl(CompanionControl):
         skin: Whether the skin's tasks are in the stack and contact forces are accounted for.
         gain: Factor on contact forces with which the robot yields to them; 1 as if it had neither friction nor gears.
         lean: Share of the moment of all contacts about the feet that the centre of mass is shifted against.
-        lean_filter: Time constant in s of that shift.
         lean_limit: Largest shift in m.
         filter: Time constant in s of the low-pass filter of each taxel's force.
         balance: Stiffness of the centre of mass over the feet.
@@ -42,7 +41,7 @@ class StandingControl(CompanionControl):
     skin: bool = switch(True)
     gain: float = number(3.0, "1", 0.0, 100.0)
     lean: float = number(0.7, "1", 0.0, 1.5)
-    lean_filter: float = number(0.15, "s", 0.0, 10.0)
+    lean_filter: ClassVar[float] = 0.15  # Time constant in s of that shift
     lean_limit: float = number(0.035, "m", 0.0, 0.5)
     filter: float = number(0.04, "s", 0.0, 1.0)
     balance: float = number(60.0, "1/s^2", 1.0, 1000.0)

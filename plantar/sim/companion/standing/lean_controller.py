@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,17 +48,14 @@ class LeanControl(StandingControl):
 
     Attributes:
         touch: Force in N, as a share of body weight, from which the forearm is taken to lie on the table.
-        lowering: Speed in m/s of the forearm while it looks for the table.
         pitch: Angle by which the trunk bends forward.
-        posture_rate: Stiffness of the posture.
-        press_gain: Gain on what the forearm presses less than it should.
     """
 
     touch: float = number(0.01, "1", 1e-3, 0.2)
-    lowering: float = number(0.05, "m/s", 0.005, 0.5)
+    lowering: ClassVar[float] = 0.05  # Speed in m/s of the forearm while it looks for the table
     pitch: float = number(10.0, "deg", 0.0, 45.0)
-    posture_rate: float = number(30.0, "1/s^2", 0.0, 1e4)
-    press_gain: float = number(0.2, "1", 0.0, 10.0)
+    posture_rate: ClassVar[float] = 30.0  # 1/s^2: stiffness of the posture
+    press_gain: ClassVar[float] = 0.2  # Gain on what the forearm presses less than it should
 
 
 class Aim:
