@@ -227,14 +227,7 @@ def _connected(programs: list[_Program]) -> _Found | None:
 
 
 class _Program:
-    """The linear programs of one push and one number of steps.
-
-    Args:
-        limits: The robot's limits.
-        instant: The walk, on its left foot.
-        toward: Direction (2,) of the push, of length 1.
-        count: Number of steps n.
-    """
+    """The linear programs of one push and one number of steps."""
 
     def __init__(self, limits: CaptureLimits, instant: Instant, toward: NDArray[np.float64], count: int) -> None:
         self._limits, self._instant, self._count = limits, instant, count

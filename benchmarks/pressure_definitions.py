@@ -116,9 +116,6 @@ def reason(key: str, ours: float, other: float, cut: float, gait: FootGait) -> s
 def rows_of(path: Path) -> list[str]:
     """The table's rows of one recording.
 
-    Args:
-        path: The recording.
-
     Returns:
         A row a foot and measure: the means over the steps that both have.
     """

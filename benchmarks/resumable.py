@@ -39,9 +39,6 @@ class Case(NamedTuple):
     """Runs of one scene that differ in their seed alone.
 
     Attributes:
-        name: Name.
-        scene: Scene.
-        robot: Robot.
         settings: Settings of the scene.
         seeds: How many seeds are drawn from the commit, for each plant.
         aside: Whether it is there for comparison only, as the walk without the feature; its runs come last.

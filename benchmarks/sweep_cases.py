@@ -26,9 +26,7 @@ class SweepCase(NamedTuple):
     """A sweep.
 
     Attributes:
-        scene: The scene.
         what: What is different; empty for the scene itself.
-        settings: Its settings.
         seeds: How many seeds.
     """
 

@@ -80,9 +80,6 @@ def exact_hull(points: Iterable[tuple[Number, Number]]) -> list[tuple[Number, Nu
     Args:
         points: The points, in whole numbers or fractions.
 
-    Returns:
-        The corners.
-
     Example:
         >>> exact_hull([(0, 0), (2, 0), (1, 0), (0, 2), (1, 1)])
         [(0, 0), (2, 0), (0, 2)]

@@ -25,7 +25,6 @@ class Target:
 
     Attributes:
         what: What is wanted.
-        wanted: The limit.
         figure: What the run gave; the worst of all sizes.
         unit: Unit of both.
         at_least: Whether more is better.
@@ -170,14 +169,7 @@ def copy_share(results: Sequence[Result]) -> float | None:
 
 
 def kernel_text(result: Mapping[str, Any]) -> str:
-    """The kernels' medians and errors, and which targets are met, for people.
-
-    Args:
-        result: What `measure_kernels` gave.
-
-    Returns:
-        Lines.
-    """
+    """The kernels' medians and errors, and which targets are met, for people."""
     kernel, lines = "", []
     for row in result["results"]:
         if row["kernel"] != kernel:

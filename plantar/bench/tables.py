@@ -79,7 +79,6 @@ class GrowingTable:
 
     Args:
         path: The file; its folder exists when the first row is added.
-        columns: Its columns.
         what: What it is a table of, for the message that refuses another one.
 
     Attributes:
@@ -123,12 +122,10 @@ class Mark(NamedTuple):
     """A point of a figure of run time against error.
 
     Attributes:
-        cost: Run time.
         error: Error; 0 is drawn at the figure's least.
         group: What it belongs to, by which it is coloured and listed in the legend.
         ours: Whether it is of this project.
         hollow: Whether it is drawn hollow, as approximations are.
-        marker: Matplotlib's marker.
         text: What is written next to it.
     """
 

@@ -48,12 +48,6 @@ def run_command(app: typer.Typer) -> int:
 
     Typer's own way to run it would print several lines for a wrong argument, and end with 1 where no one reads stdout.
 
-    Args:
-        app: The commands.
-
-    Returns:
-        The exit code.
-
     Raises:
         InputError: If an argument is wrong; the message names which help shows more.
         KeyboardInterrupt: If the user stopped it.
@@ -122,9 +116,6 @@ def end_command(
 
 def file_lines(names: Iterable[str]) -> str:
     """Names of files, each in its own line below what was found.
-
-    Args:
-        names: The names.
 
     Returns:
         The lines, with a line end before each.

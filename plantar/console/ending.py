@@ -54,7 +54,6 @@ class Terminated(SystemExit):
     """The process was asked to end; raised where it is, so that what is open is closed and temporaries are removed.
 
     Args:
-        number: The signal.
         text: What to show; None for what the signal means.
 
     Example:
@@ -73,9 +72,6 @@ def one_line(text: object) -> str:
     Args:
         text: The text, for example an error that names a file.
 
-    Returns:
-        The line.
-
     Example:
         >>> one_line("no file 'a\\nb'")
         "no file 'a\\\\nb'"
@@ -89,9 +85,6 @@ def plain_lines(text: object) -> str:
     Args:
         text: The text, for example what a recording's metadata hold.
 
-    Returns:
-        The lines.
-
     Example:
         >>> plain_lines("name: \x1b[2Jred\\nsecond")
         'name: \\\\x1b[2Jred\\nsecond'
@@ -100,11 +93,7 @@ def plain_lines(text: object) -> str:
 
 
 def print_note(text: object) -> None:
-    """Print one line on stderr, indented.
-
-    Args:
-        text: The line.
-    """
+    """Print one line on stderr, indented."""
     print(f"  {one_line(text)}", file=sys.stderr)
 
 

@@ -79,9 +79,6 @@ def figures_of(figures: Iterable[tuple[Path, str]]) -> Section:
 
     Args:
         figures: PNG files to embed, each with a caption that also serves as its alternative text.
-
-    Returns:
-        The section.
     """
     return Section("figures", "Figures", embedded(figures))
 

@@ -47,9 +47,7 @@ class Entity:
     """What is drawn in a frame.
 
     Attributes:
-        name: Its name.
         frame: Name of the frame.
-        shapes: Its primitives.
     """
 
     name: str
@@ -79,9 +77,6 @@ def transforms(message: bytes) -> Iterator[tuple[str, str, tuple[float, ...]]]:
 def transform_template(message: bytes) -> Template:
     """The template of messages that have the frames of a given one and that `plantar.recordings` wrote.
 
-    Args:
-        message: The message.
-
     Returns:
         The template; its slots are the poses (k, 7), one after the other.
 
@@ -100,9 +95,6 @@ def deleted_all(message: bytes) -> bool:
 
 def entities(message: bytes) -> list[Entity]:
     """The entities of a foxglove.SceneUpdate.
-
-    Args:
-        message: Its encoding.
 
     Returns:
         Its entities, with the primitives that the viewer draws.

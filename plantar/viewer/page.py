@@ -81,23 +81,13 @@ def view_text(written: Mapping[str, Any]) -> str:
 
     Args:
         written: As `write_page` returns it.
-
-    Returns:
-        Lines of text.
     """
     walks = "\n".join(f"  {walk['name']}: {walk['duration_s']:.1f} s" for walk in written["walks"])
     return f"{walks}\n  {written['file']} ({written['bytes'] / 1e6:.1f} MB)"
 
 
 def page_of(walks: Sequence[Walk]) -> str:
-    """The page of walks.
-
-    Args:
-        walks: One or two.
-
-    Returns:
-        HTML.
-    """
+    """The page of walks."""
     return "".join(_pieces(walks))
 
 

@@ -54,7 +54,6 @@ class Event:
 
     Attributes:
         time: When, in s.
-        text: What happened.
         level: "info", "warning" or "error".
     """
 
@@ -77,7 +76,6 @@ class Walk:
         zmp: True zero moment point (n, 3) in m, NaN where there is none or none is known.
         polygon: Corners (n, 12, 3) of the true support polygon in m, likewise.
         footsteps: Times in s, and the footsteps that are planned from then on.
-        events: The log.
         weight: Weight in N of who walks, to scale forces by.
         warnings: What was missing, one line each.
     """
@@ -103,9 +101,6 @@ def read_walk(path: str | os.PathLike[str]) -> Walk:
 
     Args:
         path: MCAP file with taxel forces.
-
-    Returns:
-        The walk.
 
     Raises:
         FormatError: If it cannot be read, or holds no taxel forces with layouts.

@@ -37,13 +37,11 @@ class CompliantArm:
     their range; below that a posture holds them by springs, and the skin's forces move them (A 13-14, 18).
 
     Args:
-        worn: The arm.
         skin: All the robot's skin, that of the arm among it; None for a robot without.
         settings: Its settings, for the same robot.
         world: The world, with the arm in it.
         period: Control period in s.
         encoder_noise: Noise (1 sigma) in rad of the joint angles.
-        seed: Of the noise.
 
     Attributes:
         angles: Joint angles (k,) in rad as last measured.

@@ -33,17 +33,13 @@ class WornArm:
     """One arm of a robot, to be added to its model (`plantar.sim.model.world.Visitor`).
 
     Args:
-        robot: The robot.
-        side: Which arm.
         posture: Angle in degrees of each joint from shoulder to wrist; empty for those of the machine's file.
 
     Attributes:
-        side: Which arm.
         joints: What each joint can do, by its name, from shoulder to wrist.
         links: Its links from shoulder to hand.
         posture: Joint angles (k,) in rad.
         model: MjModel of the arm alone, on a base that stands in the world's origin, upright.
-        skin: Its skin.
 
     Raises:
         RobotError: If the machine is unknown or not valid, or lacks the arm.

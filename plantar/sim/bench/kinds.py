@@ -50,7 +50,6 @@ class Told(NamedTuple):
 
     Attributes:
         result: As plain JSON values, with the names of its files under "files" where it wrote some.
-        text: In words.
         failures: What of it failed, a line each.
     """
 
@@ -164,8 +163,7 @@ def _contact(folder: Path, options: BenchOptions, tell: Progress) -> Told:
 def _skip(folder: Path, options: BenchOptions, tell: Progress) -> Told:
     """Walks that skip what they do not need, and walks that skip nothing."""
     need_libraries("sim", *LIBRARIES)
-    from plantar.sim.bench.skip_page import skip_text
-    from plantar.sim.bench.skipping import SCENES, measure_skipping
+    from plantar.sim.bench.skipping import SCENES, measure_skipping, skip_text
 
     few, rounds = (SCENES[:1], 1) if options.quick else (SCENES, 3)
     result = measure_skipping(folder, tell, few, rounds)

@@ -1,26 +1,24 @@
-"""`plantar bench skip`: each scene with and without what it does not need, beside its physics alone, and by room."""
+"""`plantar bench skip`: each scene with and without what it does not need, its physics alone, and the time by room."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from plantar.atomic import write_text
-from plantar.csv_table import csv_text, mapping_rows
+from plantar.bench.tables import made_on, markdown_table, write_rows
 from plantar.percepts.percept import Percept
-from plantar.sim.bench.room_times import RoomTimes
-from plantar.sim.bench.skip_page import skip_page
-from plantar.sim.bench.skip_row import SkipRow
+from plantar.sim.bench.room_times import ROOMS, RoomTimes
 from plantar.sim.bench.watched_run import WatchedSimulation, replay_physics
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import Scene, load_scene
 
-__all__ = ["SCENES", "compare_skipping", "measure_skipping"]
+__all__ = ["SCENES", "SkipRow", "compare_skipping", "measure_skipping", "skip_text"]
 
 Progress = Callable[[float, str], None]
 
@@ -34,6 +32,45 @@ SCENES: tuple[tuple[str, str, tuple[str, ...]], ...] = tuple(
 _SEED = 1
 _NONE = "control.skip=none"
 _SHAPES = ("polygon", "outline", "box", "rectangle", "circle", "triangle", "parallelogram", "contours", "centroid")
+
+
+@dataclass(frozen=True)
+class SkipRow:
+    """What one scene costs with one robot. Times are CPU times, medians of rounds in which all take turns.
+
+    Attributes:
+        scene: Name of the scene.
+        robot: Name of the robot.
+        settings: What was changed of the scene.
+        seed: Seed of the run.
+        sim_s: Simulated time in s.
+        run_s: Time of the run in s, with what the scene needs.
+        everything_s: Time in s of a run that computes all percepts, casts all rays and records itself.
+        physics_s: Time in s of the physics alone: the same motion by `mj_step` in a loop.
+        factor: Everything but the physics over the physics, in the run.
+        saved: Everything but the physics with all computed, over that of the run.
+        same_motion: Whether both runs and the physics alone had the same motion, to the last bit.
+        motion: Hash of it.
+        shares: Share of each room in the time of the run.
+        skipped: How many of what were left out in the run.
+        computed: How many of the same were computed.
+    """
+
+    scene: str
+    robot: str
+    settings: str
+    seed: int
+    sim_s: float
+    run_s: float
+    everything_s: float
+    physics_s: float
+    factor: float
+    saved: float
+    same_motion: bool
+    motion: str
+    shares: dict[str, float]
+    skipped: dict[str, int]
+    computed: dict[str, int]
 
 
 def compare_skipping(
@@ -148,8 +185,8 @@ def measure_skipping(
     for number, (scene, robot, settings) in enumerate(scenes):
         progress(number / len(scenes), f"{scene}, {robot}")
         rows.append(compare_skipping(scene, robot, settings, rounds))
-    write_text(folder / "skipping.csv", _csv(rows))
-    write_text(folder / "skipping.md", skip_page(rows))
+    write_rows(folder / "skipping.csv", [_flat(row) for row in rows])
+    write_text(folder / "skipping.md", _page(rows))
     return {
         "scenes": [asdict(row) for row in rows],
         "same_motion": all(row.same_motion for row in rows),
@@ -157,12 +194,63 @@ def measure_skipping(
     }
 
 
-def _csv(rows: Sequence[SkipRow]) -> str:
-    """The rows as a table with a column a figure."""
-    flat = []
-    for row in rows:
-        cells = asdict(row)
-        for name in ("shares", "skipped", "computed"):
-            cells |= {f"{name}: {key}": value for key, value in cells.pop(name).items()}
-        flat.append(cells)
-    return csv_text(list(flat[0]), mapping_rows(list(flat[0]), flat))
+def _flat(row: SkipRow) -> dict[str, Any]:
+    """A row with a column a figure."""
+    cells = asdict(row)
+    for name in ("shares", "skipped", "computed"):
+        cells |= {f"{name}: {key}": value for key, value in cells.pop(name).items()}
+    return cells
+
+
+def skip_text(result: Mapping[str, Any]) -> str:
+    """The main figures for people."""
+    lines = [f"{'scene':12}{'robot':10}{'x real time':>12}{'rest/physics':>14}{'saved':>8}  motion"]
+    for row in result["scenes"]:
+        factor = row["sim_s"] / row["run_s"]
+        motion = "same" if row["same_motion"] else "NOT THE SAME"
+        lines.append(
+            f"{row['scene']:12}{row['robot']:10}{factor:>12.1f}{row['factor']:>14.2f}{row['saved']:>7.1f}x  {motion}"
+        )
+    return "\n".join(lines)
+
+
+_HEAD = """# What a scene's time goes to, and what is skipped
+
+`plantar bench skip -o DIR` writes these tables ({made}). "Physics alone" is the same motion by `mj_step` in a loop;
+"rest / physics" is everything else over it. "With everything" computes every member of each percept, casts every ray
+and records the run; "saved" is the factor by which everything but physics is cheaper without. "Same motion" compares a
+hash of all positions.
+
+{times}
+
+## Time by room
+
+Share of the run in percent, sampled each millisecond.
+
+{rooms}
+
+## What was skipped
+
+{counts}
+"""
+
+
+def _page(rows: Sequence[SkipRow]) -> str:
+    times = [
+        (
+            *(row.scene, row.robot, row.settings, row.sim_s / row.run_s, row.run_s, row.everything_s, row.physics_s),
+            *(row.factor, f"{row.saved:.1f} x", "yes" if row.same_motion else "**no**"),
+        )
+        for row in rows
+    ]
+    head = ("scene", "robot", "settings", "real-time factor", "run [s]", "with everything [s]", "physics alone [s]")
+    shares = [(row.scene, row.robot, *(f"{100.0 * row.shares.get(room, 0.0):.0f}" for room in ROOMS)) for row in rows]
+    counts = [
+        (row.scene, row.robot, *(f"{n} of {n + row.computed[name]}" for name, n in row.skipped.items())) for row in rows
+    ]
+    return _HEAD.format(
+        made=made_on(),
+        times=markdown_table((*head, "rest / physics", "saved", "same motion"), times),
+        rooms=markdown_table(("scene", "robot", *ROOMS), shares),
+        counts=markdown_table(("scene", "robot", *rows[0].skipped), counts),
+    )

@@ -46,8 +46,6 @@ class SkinElectronics:
     """Samples the truth and delivers readings.
 
     Args:
-        skin: The skin.
-        settings: Its quality.
         seed: Of noise, gain errors and dead taxels.
     """
 

@@ -23,7 +23,6 @@ class Obstacle:
     """A geom that skin measures. Its velocity comes from its motion, since a mocap body has none.
 
     Args:
-        model: The MjModel.
         geom: Index of the geom.
 
     Attributes:

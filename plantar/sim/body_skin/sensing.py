@@ -72,7 +72,6 @@ class SkinSensor:
         obstacles: Ids of the geoms that it measures; None for all of `OBSTACLE_GROUP`.
 
     Attributes:
-        skin: The skin.
         force: True normal force (N,) on each taxel in N at the last `apply`.
         distance: True distance (N,) from each taxel to what it sees in m; inf for nothing, negative where pressed in.
         wrenches: True wrench (L, 6) on each of `skin.links` about the link's origin, in the world frame.
@@ -119,9 +118,6 @@ class SkinSensor:
 
         It sets `data.xfrc_applied` of every skinned link and every obstacle; who else pushes these uses
         `data.qfrc_applied`.
-
-        Args:
-            data: The MjData.
         """
         period = float(data.time) - self._time
         self._time = float(data.time)
@@ -139,11 +135,7 @@ class SkinSensor:
         self.skipped += len(self.skin) - looked
 
     def read(self, data: Any) -> SkinReading:
-        """What the skin states now, of the last `apply`.
-
-        Args:
-            data: The MjData.
-        """
+        """What the skin states now, of the last `apply`."""
         return self._electronics.read(float(data.time), self.force, self.distance, self.temperature)
 
     def patch_force(self, patch: str) -> float:
@@ -208,11 +200,6 @@ class SkinSensor:
 class _BroadPhase:
     """Which patches are near to which obstacles: the sphere about a patch's rays against the box about an obstacle, and
     where these meet, the box about the rays against the sphere about the obstacle.
-
-    Args:
-        model: The MjModel.
-        patches: The patches.
-        geoms: The obstacles' geoms.
     """
 
     def __init__(self, model: Any, patches: list[_Patch], geoms: list[int]) -> None:

@@ -20,7 +20,6 @@ class Drives:
     """The machine's drives.
 
     Args:
-        world: The world.
         servo: What they take, and how stiff they are.
         period: Control period in s.
     """

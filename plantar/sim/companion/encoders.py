@@ -14,11 +14,6 @@ __all__ = ["Encoders"]
 class Encoders:
     """Measures positions and velocities with white noise. A floating base's place is known as well as a joint's: it is
     found by kinematics from what stands on the ground; its orientation is the IMU's.
-
-    Args:
-        world: The world.
-        settings: The noise.
-        seed: Of the noise.
     """
 
     def __init__(self, world: World, settings: CompanionControl, seed: int) -> None:

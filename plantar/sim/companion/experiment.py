@@ -121,7 +121,6 @@ class World:
     """The simulated machine and what is around it.
 
     Attributes:
-        machine: The machine.
         model: The MjModel of everything.
         data: Its MjData: the truth.
         positions: Places (nq of the machine alone,) of its coordinates in `data.qpos`, in its own model's order.
@@ -155,9 +154,6 @@ class Experiment:
     """Base of all experiments; what one does not need, it leaves as it is.
 
     Args:
-        machine: The machine.
-        settings: The scene's `[experiment]`.
-        control: The scene's `[control]`.
         seed: Seed of places, times, forces and directions.
 
     Attributes:
@@ -224,11 +220,7 @@ class Experiment:
         return Verdict([], {})
 
     def plot(self, folder: Path) -> Sequence[Path]:
-        """Draw what happened into a folder, by `plantar.plotting`.
-
-        Returns:
-            The files.
-        """
+        """Draw what happened into a folder, by `plantar.plotting`."""
         return ()
 
 
@@ -244,9 +236,6 @@ def experiment_class(name: str) -> type[Experiment]:
 
     Args:
         name: Its name: that of its file, with hyphens.
-
-    Returns:
-        The class.
 
     Raises:
         SceneError: If there is none of that name.

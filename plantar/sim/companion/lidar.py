@@ -42,8 +42,6 @@ class Lidar:
     Args:
         model: The MjModel of the world.
         base: Name of the base's link.
-        settings: The sensors.
-        seed: Of the noise.
     """
 
     def __init__(self, model: Any, base: str, settings: LidarSettings, seed: int) -> None:
@@ -58,9 +56,6 @@ class Lidar:
 
     def scan(self, data: Any) -> NDArray[np.float64]:
         """Scan now.
-
-        Args:
-            data: The MjData.
 
         Returns:
             Nearest point (m, 2) of each thing in reach, in the base's frame in m.

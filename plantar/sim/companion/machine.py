@@ -84,10 +84,7 @@ class Machine:
     """A machine. Joints are in the model's order, which is that of its coordinates.
 
     Attributes:
-        name: Name.
         description: One line for people.
-        path: Its TOML.
-        model_file: Its MJCF.
         base: What carries the joints.
         servo: How joints are commanded.
         joints: What each joint with one degree of freedom can do, by its name.
@@ -172,9 +169,6 @@ def load_machine(name: str | os.PathLike[str]) -> Machine:
 
     Args:
         name: A built-in name (`builtin_machines()`) or the path of a machine TOML.
-
-    Returns:
-        The machine.
 
     Raises:
         RobotError: If the name is unknown, or the file or the model that it names is not valid; the message names the

@@ -34,12 +34,10 @@ class Companion(Run):
     """A scene of the companion, built and ready to run.
 
     Args:
-        scene: The scene.
         seed: Seed of sensor noise and of what the experiment leaves to chance.
 
     Attributes:
         world: The simulated world.
-        experiment: The experiment.
         skin: The machine's skin sensor.
 
     Raises:

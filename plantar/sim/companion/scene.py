@@ -26,7 +26,6 @@ class CompanionScene:
     """A scene of the companion.
 
     Attributes:
-        name: Name.
         description: One line for people.
         robot: Name or TOML file of the machine.
         kind: Name of the experiment.

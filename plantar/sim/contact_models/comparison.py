@@ -85,12 +85,7 @@ class ContactRow:
 
 
 class Rig:
-    """A free sole that is pushed with a wrench.
-
-    Args:
-        sole: The compiled sole.
-        layout: Its layout.
-    """
+    """A free sole that is pushed with a wrench."""
 
     def __init__(self, sole: Sole, layout: SoleLayout) -> None:
         self.sole = sole

@@ -62,14 +62,7 @@ def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float
 
 
 def contact_text(result: Mapping[str, Any]) -> str:
-    """The comparison's main figures for people.
-
-    Args:
-        result: What `measure_contact` gave.
-
-    Returns:
-        Lines.
-    """
+    """The comparison's main figures for people."""
     lines = [f"{'contact model':24}{'CoP max mm':>12}{'edge mm':>10}{'step us':>10}{'read us':>10}"]
     for row in result["models"]:
         x, y = row["edge_x_mm"], row["edge_y_mm"]

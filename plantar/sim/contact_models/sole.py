@@ -28,7 +28,6 @@ class Sole(NamedTuple):
     """A compiled rig with one sole and its reader.
 
     Attributes:
-        model: The MjModel.
         site: Site id of the sole frame.
         geoms: Ids of the geoms that touch.
         read: Taxel forces (n,) in N from the MjData.

@@ -56,7 +56,6 @@ class Guide(Partner):
         seed: Chooses when it sets out, and the direction where the settings leave it open.
 
     Attributes:
-        settings: Its settings.
         grip: Where it takes the arm.
         sign: 1 where it leads forward, -1 where backward.
         starts: Time in s from which it leads.
@@ -108,9 +107,6 @@ class Guide(Partner):
 
     def bind(self, world: World) -> tuple[int, ...]:
         """Find it in the compiled world.
-
-        Args:
-            world: The world.
 
         Returns:
             Ids of its fingers.

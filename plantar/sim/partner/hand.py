@@ -98,11 +98,7 @@ class Hand:
             geom.rgba = [0.85, 0.6, 0.45, 1.0]
 
     def bind(self, model: Any) -> None:
-        """Find it in the compiled world.
-
-        Args:
-            model: The MjModel.
-        """
+        """Find it in the compiled world."""
         first = model.joint(f"{self.name}_x")
         self._places = int(first.qposadr[0]) + np.arange(4)
         self._axes = int(first.dofadr[0]) + np.arange(4)

@@ -74,9 +74,6 @@ class HandPush:
 def faces_of(pushes: Sequence[HandPush]) -> tuple[str, ...]:
     """Faces that hands are needed for.
 
-    Args:
-        pushes: The pushes.
-
     Returns:
         Their names in the order of `FACES`.
     """
@@ -125,9 +122,6 @@ class HandPushes:
     def bind(self, world: World) -> tuple[int, ...]:
         """Find the hands in the compiled world.
 
-        Args:
-            world: The world.
-
         Returns:
             Ids of the geoms that the skin measures: their palms.
         """
@@ -138,9 +132,6 @@ class HandPushes:
 
     def place(self, world: World) -> None:
         """Put the hands where they wait, once the robot stands.
-
-        Args:
-            world: The world.
 
         Raises:
             SceneError: If the middle of a palm would be above or below the skin.
@@ -255,10 +246,6 @@ class HandPushes:
 
 class _Frame:
     """Where the base is at an instant, and how it moves.
-
-    Args:
-        data: The MjData.
-        base: Id of the base.
 
     Attributes:
         yaw: Its heading in rad.

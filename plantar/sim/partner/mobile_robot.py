@@ -42,7 +42,6 @@ class MobileRobot(Partner):
         seed: Of its sensor's noise.
 
     Attributes:
-        settings: Its settings.
         law: Its impedance controller, whose axis points at the robot.
         moved: How far in m it has truly come, towards the robot.
         force: True force on its hand in N, towards the robot: negative where the robot pushes it away.
@@ -94,9 +93,6 @@ class MobileRobot(Partner):
 
     def bind(self, world: World) -> tuple[int, ...]:
         """Find it in the compiled world.
-
-        Args:
-            world: The world.
 
         Returns:
             Id of its hand's geom.

@@ -34,9 +34,6 @@ class Partner(Protocol):
     def bind(self, world: World) -> tuple[int, ...]:
         """Find it in the compiled world.
 
-        Args:
-            world: The world.
-
         Returns:
             Ids of the geoms that the skin measures.
         """
@@ -95,11 +92,9 @@ class Touch:
     Args:
         world: The world, with the partners in it.
         skin: The skin, on the base and what it carries.
-        partners: Who touches it.
         seed: Of the skin's noise.
 
     Attributes:
-        sensor: The skin.
         partners: Who touches it.
     """
 
@@ -117,11 +112,7 @@ class Touch:
         mujoco.mj_forward(self._world.model, self._world.data)
 
     def read(self) -> SkinReading:
-        """Read the skin.
-
-        Returns:
-            Its latest sample.
-        """
+        """Read the skin."""
         return self.sensor.read(self._world.data)
 
     @property

@@ -65,7 +65,6 @@ class IntentionalContact:
         goal: Tasks that lead to the goal, tau_g of T 3.40.
         contact: Tasks that yield to a contact, tau_c of T 3.41.
         avoidance: Tasks that keep away from what is near, tau_p of T 3.33.
-        settings: Thresholds and times.
 
     Attributes:
         arrangement: Which one counts.

@@ -51,11 +51,6 @@ class ContactForces:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
         """Share a generalized force (see `plantar.wholebody.fusion.hierarchy.joint_torques`).
 
-        Args:
-            robot: The robot.
-            force: Generalized force (n,).
-            support: Rows of the support task.
-
         Returns:
             Joint torques (k,) and the forces (s,) along those rows.
 

@@ -35,7 +35,6 @@ class BaseAvoidance(Task):
     Args:
         link: The base; its frame's x and y span the ground.
         half_size: Half lengths (x, y) of its rectangular footprint in m.
-        field: The field.
 
     Attributes:
         obstacles: Nearest points (m, 2) of the obstacles in the base's frame in m, as its sensors give them.

@@ -41,9 +41,7 @@ class CartesianPose(Task):
     """Draws a point of a link to its target, its speed bounded: x''* = x''_d + K e + D (x'_d - x') (A 4, T 3.42-3.44).
 
     Args:
-        link: The link.
         point: Point (3,) in the link's frame in m; its origin where None.
-        gains: Gains.
         rows: Which of it is held.
 
     Attributes:

@@ -34,10 +34,8 @@ class CompliantWrist(Task):
     """omega'* = (K Gamma - D omega) / Lambda with the moment Gamma on the patch about its middle (A 10 corrected).
 
     Args:
-        skin: The skin.
         patch: Name of the patch.
         point: Its middle (3,) in its link's frame in m.
-        gains: Gains.
 
     Attributes:
         weight: w of A 6: 0 uses proximity, 1 by force.

@@ -42,11 +42,9 @@ class ContactForce(Task):
     """x''* = (K (w (f_d - f_c) + (1 - w) k (d - d_d)) - D x') / Lambda along the outward normal of a patch (A 6, 9).
 
     Args:
-        skin: The skin.
         patch: Name of the patch that touches.
         point: Middle (3,) of the patch in its link's frame in m.
         normal: Direction (3,) out of the body in the link's frame: h_z of A.
-        gains: Gains.
 
     Attributes:
         weight: w of A 6: 0 holds the distance, 1 the force.

@@ -19,7 +19,6 @@ class DirectInteraction(SkinInteraction):
     """Yields to gain times the force on every taxel that measures its threshold or more (T 3.23).
 
     Args:
-        skin: The skin.
         gain: Factor on what is measured; 1 lets it act as it would on a robot without friction or gears.
         patches: Names of the patches that count; all where None.
     """

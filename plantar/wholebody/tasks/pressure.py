@@ -14,7 +14,6 @@ class PressureInteraction(DirectInteraction):
     """Yields to w_P = xi / (sum of active areas) w_f on each link (T 3.27).
 
     Args:
-        skin: The skin.
         sensitivity: xi in m^2: the area over which a force counts as it is.
         patches: Names of the patches that count; all where None.
     """

@@ -18,7 +18,6 @@ class ProximityInteraction(SkinInteraction):
     """Yields to f_i = k (d_range - d_i) of every taxel that sees something (T 3.30 corrected: along +z, into the body).
 
     Args:
-        skin: The skin.
         stiffness: k_prox of one taxel in N/m.
         sensing_range: d_range in m, at most the patches' own; theirs where None. May be changed at any time.
         patches: Names of the patches that count; all where None.

@@ -20,7 +20,6 @@ class Sphere(NamedTuple):
     """A sphere on a link.
 
     Attributes:
-        link: The link.
         center: Centre (3,) in the link's frame in m.
         radius: Radius in m.
     """

@@ -18,7 +18,6 @@ class SkinInteraction(Task):
     """Yields to forces on taxels: tau = sum J^T E w over the links that have an active one (T 3.22-3.24).
 
     Args:
-        skin: The skin.
         patches: Names of the patches that count; all where None.
 
     Attributes:

@@ -25,7 +25,6 @@ class Standing:
     """A contact that does not move: a link's point, and how much of its motion the ground takes.
 
     Attributes:
-        link: The link.
         point: Point (3,) in the link's frame in m, best where the force should be.
         flat: Whether it keeps the link from turning too; a point contact does not.
         area: What of the contact can carry, about the point, in m; counts where forces are distributed over contacts.

@@ -49,11 +49,8 @@ class TactileGuidance(Task):
     so that the pull, which by then balances what is misjudged of the weight, is there while the hand is guided too.
 
     Args:
-        skin: The skin.
         patches: Names of the patches on the arm.
-        link: The hand.
         point: Point (3,) in its frame in m.
-        gains: Gains.
         arm: Links from the shoulder to the wrist, whose origins are the ends of the arm's parts: the hand is not guided
             on where they come to lie in a line, for a straight arm cannot hold it. None for no such end.
 

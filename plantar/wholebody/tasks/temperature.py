@@ -17,7 +17,6 @@ class TemperatureInteraction(SkinInteraction):
     """Yields to kappa_i = gain (T_i - kappa_0) of every taxel that is at its threshold or above (T 3.34-3.35).
 
     Args:
-        skin: The skin.
         gain: Force of one taxel in N a kelvin above the threshold.
         threshold: kappa_0 in degC.
         patches: Names of the patches that count; all where None.

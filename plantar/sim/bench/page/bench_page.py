@@ -1,4 +1,4 @@
-"""The page of `plantar bench all`: what the benchmarks found, for somebody who has never seen the project."""
+"""The page of `plantar bench all`: what the benchmarks found, for readers who are new to the project."""
 
 from __future__ import annotations
 
@@ -8,11 +8,8 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-from plantar.pages.page import Section, number, page, row, table
-from plantar.sim.bench.page.charts import Point, bar, scatter
+from plantar.pages.page import Section, figure, number, page, row, table
 from plantar.sim.bench.room_times import ROOMS
-from plantar.sim.bench.scenes.scene_row import NOISE
-from plantar.sim.bench.scenes.scene_setting import OWN
 
 __all__ = ["bench_page"]
 
@@ -30,35 +27,33 @@ _HEADLINES = (
 )
 """Kernels that are shown first, in this order."""
 
-_CHARTED = ("hull + area", "concave outline", "inner offset", "rectangle inside, axis-aligned", "circle inside")
 
-
-def bench_page(result: Mapping[str, Any]) -> str:
+def bench_page(result: Mapping[str, Any], figures: Mapping[str, bytes] | None = None) -> str:
     """The page.
 
     Args:
         result: What the parts of `plantar bench` gave, by name: "kernels", "contact", "skip", "scenes" and "papers",
             each of which may be missing; "made" has date, version, machine and whether the run was quick.
+        figures: PNG files by part, for the parts that have one.
 
     Returns:
         HTML that refers to no other file and no network.
     """
-    sections = [
-        Section(key, name, content)
-        for key, name, content in (
-            ("kernels", "Kernels beside libraries", _kernels(result.get("kernels", {}))),
-            ("papers", "Walks beside the papers", _papers(result.get("papers", {}))),
-            ("contact", "Contact models", _contact(result.get("contact", {}))),
-            ("scenes", "Scenes: run time against error", _scenes(result.get("scenes", {}))),
-            ("time", "Where the time goes", _time(result.get("skip", {}))),
-        )
-        if content
-    ]
-    return page("Plantar, measured", _lead(result), sections, style=_style())
-
-
-def _style() -> str:
-    return files("plantar.sim.bench.page").joinpath("bench.css").read_text(encoding="utf-8")
+    parts = (
+        ("kernels", "Kernels compared with libraries", _kernels),
+        ("papers", "Walks compared with the papers", _papers),
+        ("contact", "Contact models", _contact),
+        ("scenes", "Scenes: run time against error", _scenes),
+        ("time", "Where the time goes", _time),
+    )
+    sections = []
+    for key, name, content in parts:
+        text = content(result.get("skip" if key == "time" else key, {}))
+        if text:
+            drawn = (figures or {}).get(key)
+            sections.append(Section(key, name, text + ("" if drawn is None else figure(drawn, name))))
+    style = files("plantar.sim.bench.page").joinpath("bench.css").read_text(encoding="utf-8")
+    return page("Plantar, measured", _lead(result), sections, style=style)
 
 
 def _lead(result: Mapping[str, Any]) -> str:
@@ -69,8 +64,8 @@ def _lead(result: Mapping[str, Any]) -> str:
         "comes to in simulation.</p>"
     )
     tiles = "".join(f"<div><dt>{name}</dt><dd>{figure}</dd></div>" for name, figure in _tiles(result))
-    told = ", ".join(html.escape(str(made[key])) for key in ("version", "date", "machine") if made.get(key))
-    note = f"{told}{quick}. Times belong to one machine and what else it did: trust ratios."
+    about_run = ", ".join(html.escape(str(made[key])) for key in ("version", "date", "machine") if made.get(key))
+    note = f"{about_run}{quick}. Times belong to one machine and what else it did: trust ratios."
     return f'{about}<dl class="tiles">{tiles}</dl><p class="about">{note}</p>'
 
 
@@ -129,8 +124,8 @@ def _short(route: str) -> str:
     return route.partition(",")[0]
 
 
-def _kernels(told: Mapping[str, Any]) -> str:
-    results = told.get("results", ())
+def _kernels(found: Mapping[str, Any]) -> str:
+    results = found.get("results", ())
     if not results:
         return ""
     fastest = _fastest(results)
@@ -145,36 +140,18 @@ def _kernels(told: Mapping[str, Any]) -> str:
     ]
     head = ("kernel, size", "faster by", "ours, µs", "fastest other way", "our error", "its error", "as a bar")
     parts = [
-        "<p>Each kernel beside the fastest other way to compute the same (a library, numpy or plain Python), at the "
+        "<p>Each kernel and the fastest other way to compute the same (a library, numpy or plain Python), at the "
         "size where that does best. Bars are logarithmic; blue where ours is faster. Errors are relative, against "
         "exact integers or fractions.</p>",
         table(
-            "kernels beside libraries",
+            "kernels compared with libraries",
             "Time of a call, median; size: active taxels, or frames and taxels",
             head,
             lines,
             ("fastest other way", "as a bar"),
         ),
     ]
-    points = [
-        Point(
-            r["median_us"],
-            max(r["error"], 1e-17),
-            r["kernel"],
-            f"{r['route']}, {r['size']}",
-            r["ours"],
-        )
-        for r in results
-        if r["kernel"] in _CHARTED and r["error"] is not None and r["size"] in ("20", "5", "51")
-    ]
-    label = "Kernels: time of a call against relative error; filled points are ours"
-    chart = scatter(label, ("time of a call, µs", "relative error (0 is drawn at 1e-17)"), points)
-    if chart:
-        parts.append(
-            "<h3>Run time against error</h3><p>Filled: ours. Hollow: others and approximations. Lower left is better."
-            f"</p>{chart}"
-        )
-    missed = [t for t in told.get("targets", ()) if not t["met"]]
+    missed = [t for t in found.get("targets", ()) if not t["met"]]
     if missed:
         items = "".join(
             f"<li>{html.escape(t['what'])}: {number(t['figure'])} {html.escape(t['unit'])}, wanted "
@@ -196,9 +173,14 @@ def _error(value: float | None) -> str:
     return "0" if value == 0.0 else f"{value:.0e}"
 
 
+def _bar(share: float, kind: str) -> str:
+    """A bar as long as a share of the longest, hidden from screen readers, which read the number next to it."""
+    return f'<span class="bar {kind}" style="width:{100 * min(max(share, 0.005), 1.0):.1f}%" aria-hidden="true"></span>'
+
+
 def _bars_row(name: str, cells: Sequence[str], bars: Sequence[tuple[float, str]]) -> str:
     """A row whose last cell has bars, one below the other."""
-    drawn = "".join(bar(share, kind) for share, kind in bars)
+    drawn = "".join(_bar(share, kind) for share, kind in bars)
     return row(name, cells).replace("</tr>", f'<td class="bars">{drawn}</td></tr>')
 
 
@@ -209,8 +191,8 @@ def _figure(value: float) -> str:
     return f"{value:.0f}" if value == round(value) else number(value)
 
 
-def _papers(told: Mapping[str, Any]) -> str:
-    rows = told.get("experiments", ())
+def _papers(found: Mapping[str, Any]) -> str:
+    rows = found.get("experiments", ())
     if not rows:
         return ""
     lines = []
@@ -233,73 +215,37 @@ def _papers(told: Mapping[str, Any]) -> str:
         "of real robots, measured by their ankles; ours are of a simulation, and the true ground forces within 50 ms "
         "of a touchdown. They show that the same is done and what comes out, not that a simulated robot is better than "
         "a real one. Counts over 30 seeds are in the project's benchmarks folder.</p>"
-        + table("walks beside the papers", "T: the thesis on plantar robot skin", head, lines, head[3:])
+        + table("walks compared with the papers", "T: the thesis on plantar robot skin", head, lines, head[3:])
     )
 
 
-def _contact(told: Mapping[str, Any]) -> str:
-    models = told.get("models", ())
-    points = [
-        Point(
-            m["step_us"] + 0.25 * m["read_us"],
-            max(m["cop_max_mm"], 1e-3),
-            m["name"],
-            m["name"],
-            m["name"] == told["chosen"],
-        )
-        for m in models
-        if m["cop_max_mm"] is not None
-    ]
-    label = "Contact models of a sole: cost of a simulated millisecond against error of the centre of pressure"
-    axes = ("physics step and a quarter of a skin reading, µs", "largest CoP error, mm (less: 0.001)")
-    chart = scatter(label, axes, points)
-    if not chart:
+def _contact(found: Mapping[str, Any]) -> str:
+    if not found.get("models"):
         return ""
     return (
-        f"<p>Ways to simulate a sole and what its taxels feel, against the simulator's own contact wrench. Chosen: "
-        f"<b>{html.escape(told['chosen'])}</b>, filled.</p>{chart}"
+        "<p>Ways to simulate a sole and what its taxels measure, compared with the simulator's own contact wrench. "
+        f"Chosen: <b>{html.escape(found['chosen'])}</b>.</p>"
     )
 
 
-def _scenes(told: Mapping[str, Any]) -> str:
-    rows = told.get("rows", ())
+def _scenes(found: Mapping[str, Any]) -> str:
+    rows = found.get("rows", ())
     if not rows:
         return ""
     parts = [
-        "<p>The same walk, computed more finely or more coarsely, or with another skin. Error: how far the true centre "
-        "of mass is from that of a fine reference (root mean square, without sensor noise, as long as the walks stay "
-        "together). The dashed line is what the sensors' noise does to the same walk: below it, an error is none that "
-        "anybody would see.</p>"
+        "<p>The same walk, computed more finely or more coarsely, or with another skin. Error: distance of the true "
+        "center of mass from that of a fine reference (root mean square, without sensor noise). Errors below the "
+        "dashed line are smaller than what sensor noise does to the walk.</p>"
     ]
-    for scene, robot in dict.fromkeys((r["scene"], r["robot"]) for r in rows):
-        mine = [r for r in rows if (r["scene"], r["robot"]) == (scene, robot) and r["com_mm"] is not None]
-        noise = next((r["com_mm"] for r in mine if r["setting"] == NOISE), None)
-        points = [
-            Point(
-                r["ratio"] or 0.0,
-                r["com_mm"],
-                "as it is" if r["setting"] == OWN.name else r["knob"],
-                r["setting"],
-                r["setting"] == OWN.name,
-                r["value"],
-            )
-            for r in mine
-            if r["setting"] not in (r["against"], NOISE)
-            and r["walked"]
-            and (r["setting"] != OWN.name or r["against"] == "reference")
-        ]
-        label = f"{scene}, {robot}: run time against error of the centre of mass"
-        axes = ("CPU time, times that of the scene as it is", "error of the centre of mass, mm")
-        chart = scatter(label, axes, points, None if noise is None else (noise, "sensor noise"))
-        fallen = [r["setting"] for r in mine if not r["walked"]]
-        lost = f"<p>Not walked with: {html.escape(', '.join(fallen))}.</p>" if fallen else ""
-        parts.append(f"<h3>{html.escape(scene)}, {html.escape(robot)}</h3>{chart}{lost}")
+    fallen = [f"{r['scene']}, {r['robot']}: {r['setting']}" for r in rows if not r["walked"]]
+    if fallen:
+        parts.append(f"<p>Not walked with: {html.escape('; '.join(fallen))}.</p>")
     lines = [
         row(
             html.escape(f"{v['scene']}, {v['robot']}: {v['knob']}"),
             ["kept" if v["stays"] else "<b>a better one</b>", html.escape(v["reason"])],
         )
-        for v in told.get("verdicts", ())
+        for v in found.get("verdicts", ())
     ]
     if lines:
         head = ("scene and knob", "default", "reason")
@@ -307,8 +253,8 @@ def _scenes(told: Mapping[str, Any]) -> str:
     return "".join(parts)
 
 
-def _time(told: Mapping[str, Any]) -> str:
-    rows = told.get("scenes", ())
+def _time(found: Mapping[str, Any]) -> str:
+    rows = found.get("scenes", ())
     if not rows:
         return ""
     lines = []

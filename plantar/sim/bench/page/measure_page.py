@@ -18,6 +18,8 @@ from plantar.sim.bench.scenes.scenes_report import measure_scenes
 
 __all__ = ["measure_page"]
 
+_FIGURES = {"kernels": "kernels.png", "contact": "contact_models.png", "scenes": "scenes.png"}
+
 Progress = Callable[[float, str], None]
 
 
@@ -43,7 +45,9 @@ def measure_page(
         "papers": measure_papers(progress[1], quick=quick),
         "made": {"version": _version(), "date": time.strftime("%Y-%m-%d"), "machine": _machine(), "quick": quick},
     }
-    write_text(folder / "bench.html", bench_page({**result, **added}))
+    drawn = {part: folder / name for part, name in _FIGURES.items() if (folder / name).is_file()}
+    figures = {part: path.read_bytes() for part, path in drawn.items()}
+    write_text(folder / "bench.html", bench_page({**result, **added}, figures))
     added["made"]["files"] = ["bench.html"]
     return added
 

@@ -67,7 +67,6 @@ class ChangedRun(Simulation):
     Args:
         scene: Name of the scene.
         robot: Name of the robot.
-        setting: What is changed.
         seed: Seed of the run.
         walk: Settings of the scene that hold in every run, such as a number of steps.
         noisy: Whether sensors have the scene's noise; without, two runs differ by nothing but the setting.
@@ -178,11 +177,7 @@ class TracedRun(ChangedRun):
             self._wrench, self._force, self._looks = np.zeros(6), np.zeros(2), 0
 
     def keep_landings(self, summary: Mapping[str, Any]) -> None:
-        """Keep the landings that the summary of the run shows.
-
-        Args:
-            summary: What `run` gave.
-        """
+        """Keep the landings that the summary of the run shows."""
         told = (summary["landing_sides"], summary["landings_s"], summary["impacts_N"])
         self._landings = tuple(zip(*told, strict=True))
 

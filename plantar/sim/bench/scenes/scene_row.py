@@ -28,7 +28,6 @@ class SceneRow:
         walk: Settings of the scene in all runs.
         setting: Name of the setting.
         knob: What it changes.
-        value: To what.
         against: Name of the setting that it is compared with.
         machine: Whether it is another robot, not another way to compute the same one.
         cpu: CPU time in s of a simulated second.
@@ -78,9 +77,6 @@ class SceneRow:
 
 def scene_rows(runs: Runs) -> list[SceneRow]:
     """Sum up runs.
-
-    Args:
-        runs: Rows of `SceneRuns`.
 
     Returns:
         A row for each scene, robot, setting and reference that has a run without noise.
@@ -152,7 +148,6 @@ class KnobVerdict(NamedTuple):
     Attributes:
         scene: Name of the scene.
         robot: Name of the robot.
-        knob: The knob.
         stays: Whether the scene's own value is confirmed.
         reason: Why, in words.
     """
@@ -170,9 +165,6 @@ def knob_verdicts(rows: Sequence[SceneRow]) -> list[KnobVerdict]:
     A value is good enough where it walks and is no farther from its reference than noise moves the walk. The scene's
     own is kept where it is good enough and no such value saves a twentieth of the time. Knobs of the machine are
     always kept, as the papers' robots have them.
-
-    Args:
-        rows: What `scene_rows` gave.
 
     Returns:
         A verdict for each knob of each scene and robot that has a row of noise.

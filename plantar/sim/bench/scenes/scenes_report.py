@@ -90,14 +90,7 @@ _SHOWN = {"ratio": (".2f", 7), "com_mm": (".3f", 9), "zmp_mm": (".2f", 9), "forc
 
 
 def scenes_text(result: Mapping[str, Any]) -> str:
-    """The main figures for people.
-
-    Args:
-        result: What `measure_scenes` gave.
-
-    Returns:
-        Lines.
-    """
+    """The main figures for people."""
     lines = [f"{'scene':10}{'robot':9}{'setting':34}{'time':>7}{'CoM mm':>9}{'ZMP mm':>9}{'force':>8}  walked"]
     for row in result["rows"]:
         if row["setting"] == row["against"]:

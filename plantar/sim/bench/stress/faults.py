@@ -42,14 +42,7 @@ class Faults:
 
     @classmethod
     def drawn(cls, rng: np.random.Generator) -> Faults:
-        """Draw faults: each is there in one of five runs.
-
-        Args:
-            rng: Source of chance.
-
-        Returns:
-            The faults.
-        """
+        """Draw faults: each is there in one of five runs."""
         shares = {name: (float(rng.random() ** 2) if rng.random() < 0.2 else 0.0) for name in _SHARES}
         return cls(
             **shares,
@@ -66,7 +59,6 @@ class FaultySensors:
     """Makes of what the sensors show what arrives of it.
 
     Args:
-        faults: The faults.
         limit: Force in N at which a taxel of each sole is saturated.
         seed: Seed of what is left to chance.
     """

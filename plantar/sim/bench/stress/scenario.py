@@ -87,14 +87,7 @@ class Scenario:
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Scenario:
-        """A scenario from what `as_dict` gave.
-
-        Args:
-            values: Its fields.
-
-        Returns:
-            The scenario.
-        """
+        """A scenario from what `as_dict` gave."""
         told = dict(values)
         told["settings"], told["place"] = tuple(told.get("settings", ())), tuple(told.get("place", (0.0, 0.0, 0.0)))
         return cls(**told | {"faults": Faults(**told.get("faults", {}))})

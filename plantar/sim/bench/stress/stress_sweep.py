@@ -64,14 +64,7 @@ def measure_stress(
 
 
 def stress_loop_text(result: dict[str, Any]) -> str:
-    """What came of the runs, for people.
-
-    Args:
-        result: What `measure_stress` gave.
-
-    Returns:
-        Lines.
-    """
+    """What came of the runs, for people."""
     lines = [f"{result['scenarios']} scenarios from number {result['first']} on, {result['simulated_s']} s simulated"]
     lines += [f"{count:8} {outcome}" for outcome, count in result["outcomes"].items()]
     lines += [f"FAILED {r['number']}, {r['scene']}, {r['robot']}: {r['detail']}" for r in result["failures"]]

@@ -98,12 +98,9 @@ class HandController:
 
     Args:
         machine: The machine: a mobile base, and patches "hand" on the hand's link and others on the arm.
-        skin: Its skin.
-        settings: Gains and switches.
 
     Attributes:
         force: First task: force or distance.
-        wrist: Second task.
         posture: Posture of the lowest level; its target and target velocity may be changed.
         wanted_force: f_d in N.
         phases: Which arrangement of tasks counts.
@@ -206,12 +203,7 @@ class HandController:
 
 
 class _BentElbow(Task):
-    """A torque that keeps the elbow off the ends of its range, damped critically for an inertia of 1 kg m^2.
-
-    Args:
-        joint: The elbow's place among the joints.
-        settings: Range and stiffness.
-    """
+    """A torque that keeps the elbow off the ends of its range, damped critically for an inertia of 1 kg m^2."""
 
     def __init__(self, joint: int, settings: HandControl) -> None:
         self._joint = joint
@@ -231,11 +223,7 @@ class _BentElbow(Task):
 
 
 class _Still(Task):
-    """A wrist that only keeps its orientation: what a robot without the compliant task would do.
-
-    Args:
-        wrist: The compliant task, which goes on showing the moment.
-    """
+    """A wrist that only keeps its orientation: what a robot without the compliant task would do."""
 
     def __init__(self, wrist: CompliantWrist) -> None:
         self._wrist = wrist

@@ -76,8 +76,6 @@ class ReachController:
 
     Args:
         machine: The machine; the joints of a mobile base are held.
-        skin: Its skin.
-        settings: Gains and switches.
         tip: Link of the tip, and the tip (3,) in its frame in m.
         force_limit: Tolerable force in N.
 

@@ -26,7 +26,6 @@ class ReachRecord:
 
     Args:
         machine: The machine, whose links are drawn.
-        layout: What stood around.
         limit: Tolerable force in N.
     """
 

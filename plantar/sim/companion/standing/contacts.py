@@ -23,7 +23,6 @@ class PlannedContact:
     """One pad that presses from a time on for a while; its force swells and fades.
 
     Attributes:
-        pad: The pad.
         begin: Time in s at which it begins to press.
         hold: Time in s for which it presses.
         force: Its force in N.

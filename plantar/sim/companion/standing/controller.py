@@ -56,12 +56,9 @@ class StandingController:
         stance: The feet that stand; they are taken to be where they are at the first step.
         levels: Tasks by priority, below the support.
         balance: The task among them that holds the centre of mass, and leans against contacts; None for none.
-        skin: The machine's skin.
-        settings: Its settings.
         before: Called with the machine and the filtered reading before each step, to change targets or levels.
 
     Attributes:
-        stack: The stack.
         active: Instances that were active at each step.
         took: How long each step took in us.
         torque: Torque (k,) of the last step in N m.

@@ -99,7 +99,6 @@ class LeanController:
 
     Args:
         experiment: The experiment, for its stance and first posture; not for what is true of the table.
-        skin: The skin.
 
     Attributes:
         began: When each phase began in s by its name.

@@ -127,9 +127,6 @@ class PressedExperiment(StandingExperiment):
 
         They grow slowly; torso and hips are pressed so hard that feet cannot hold the moment about them by the place of
         their centre of pressure alone: the robot has to lean against it.
-
-        Args:
-            names: Of the instances.
         """
         over = max(c.begin + c.hold for c in self.contacts)
         self.duration = over + _TOGETHER + 0.5

@@ -37,7 +37,6 @@ class Stance:
         sides: Feet that stand: "left", "right" or both.
 
     Attributes:
-        model: The model.
         feet: Point (3,) in the middle of each standing sole by its link, in the link's frame in m.
         places: Where (3,) that point is in the world in m.
 

@@ -114,9 +114,6 @@ class StandingExperiment(Experiment):
 
         Args:
             axes: Which axes of the centre of mass are held.
-
-        Returns:
-            The tasks.
         """
         stiff = self.control.balance
         gains = PoseGains(turn_stiffness=stiff, turn_damping=2.0 * math.sqrt(stiff))

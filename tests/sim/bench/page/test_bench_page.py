@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from plantar.sim.bench.page.bench_page import bench_page
-from plantar.sim.bench.page.charts import Point, scatter
 from plantar.sim.bench.page.paper_figures import EXPERIMENTS
 from plantar.sim.run.scene import load_scene
 
@@ -92,7 +91,7 @@ def test_what_is_not_good_is_told() -> None:
         "tick &lt;: 50.0 us, wanted at most 40",
         "0.80 ×",
         "a better one",
-        "Not walked with: solver",
+        "Not walked with: flat, h1: solver",
         "<b>no</b>",
     ):
         assert words in text
@@ -116,22 +115,11 @@ def test_parts_that_were_not_measured_are_left_out() -> None:
         assert bench_page({part: RESULT[part]}).count("<section") == 1
 
 
-@pytest.mark.parametrize("low", [1e-17, 3.0, 0.02, 990.0])
-@pytest.mark.parametrize("span", [1.0, 1.001, 7.0, 1e3, 1e16])
-def test_every_point_is_inside_the_axes(low: float, span: float) -> None:
-    text = scatter(
-        "it", ("x", "y"), [Point(low, low * span, "a", "p"), Point(low * span, low, "b", "q", True)], (low, "l")
-    )
-    places = [(float(x), float(y)) for x, y in re.findall(r'cx="([\d.-]+)" cy="([\d.-]+)"', text)]
-    assert len(places) == 2
-    assert all(69.0 < x < 661.0 and 13.0 < y < 355.0 for x, y in places)
-    assert 2 <= text.count('text-anchor="middle"') - 2 <= 12
-
-
-def test_points_without_place_are_left_out() -> None:
-    bad = [Point(0.0, 1.0, "a", "p"), Point(1.0, float("nan"), "a", "p"), Point(-1.0, 1.0, "a", "p")]
-    assert scatter("it", ("x", "y"), bad) == ""
-    assert scatter("it", ("x", "y"), [*bad, Point(1.0, 1.0, "a", "<p>")]).count("<circle") == 1
+def test_figures_are_embedded_where_a_part_has_one() -> None:
+    figure = (Path(__file__).resolve().parents[4] / "benchmarks" / "kernels.png").read_bytes()
+    text = bench_page(RESULT, {"kernels": figure})
+    assert text.count("<figure") == 1
+    assert text.index('id="kernels"') < text.index("<figure") < text.index('id="papers"')
 
 
 def test_every_experiment_is_a_scene_of_its_paper() -> None:
