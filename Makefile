@@ -63,7 +63,7 @@ clean:
 	rm -rf $(VENV) $(OUT) build dist plantar/kernels/*/*.so plantar/kernels/*/*.pyd *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
-# Made anew when the dependencies change; the stamp is written last, so a stopped installation is taken up again.
+# Made again when the dependencies change; the stamp is written last, so a stopped installation is taken up again.
 $(INSTALLED): pyproject.toml setup.py constraints.txt
 	@sh tools/make-venv $(VENV)
 	@touch $@

@@ -5,7 +5,7 @@ left shoe of each foot in so many rotations (the first is none), and writes the 
 `... difficult_feet.py 0` writes the table. The feet are those of tests/shoes/foot_family.py, and each shoe that passes
 its own checks is looked at by tests/shoes/shoe_witness.py, which shares no code with what makes it.
 
-An outcome is `holds`; `refused`, not a foot; `told`, a shoe whose checks do not hold (exit code 1);
+An outcome is `holds`; `refused`, not a foot; `reported`, a shoe whose checks do not hold (exit code 1);
 `hidden`, one whose checks hold and the witness finds a fault; or `crashed`, any other exception.
 """
 
@@ -35,7 +35,7 @@ from shoe_witness import Witness  # noqa: E402
 TABLE = FOLDER / "difficult_feet.csv"
 COLUMNS = ("foot", "turn", "outcome", "taxels", "bound", "flat_percent", "half_percent", "undercut_mm2", "blind_rim_mm")
 COLUMNS += ("seconds", "commit", "reason")
-OUTCOMES = ("holds", "refused", "told", "hidden", "crashed")
+OUTCOMES = ("holds", "refused", "reported", "hidden", "crashed")
 LONG_BED = {"large": {"bed_length": 500.0}}
 """Parameters of feet that the usual printer has no room for."""
 
@@ -54,7 +54,7 @@ def shoe_of(name: str, turn: int) -> dict[str, Any]:
         checked, share = report.checks["left"], build.load_share
         failed = [f"{c.name}: {c.value} ({c.allowed})" for c in checked.checks if not c.holds]
         row |= {
-            "outcome": "told" if failed else "hidden" if faults else "holds",
+            "outcome": "reported" if failed else "hidden" if faults else "holds",
             "taxels": len(build.shoes[0].layout),
             "bound": build.fit.bound,
             "flat_percent": round(100.0 * share.flat, 1),
@@ -93,7 +93,7 @@ def run(turns: int, names: list[str]) -> None:
 
 def report() -> None:
     """Write the table."""
-    lines = ["| foot | turns | holds | refused | told | hidden | crashed | taxels / bound | flat, half % | s |"]
+    lines = ["| foot | turns | holds | refused | reported | hidden | crashed | taxels / bound | flat, half % | s |"]
     lines.append("|---|---|---|---|---|---|---|---|---|---|")
     found = rows()
     for name in sorted({name for name, _ in found}):

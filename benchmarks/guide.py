@@ -19,8 +19,8 @@ STIFF = ("arm.spring=8", "arm.damper=0.15", "arm.gain=0")
 LINES: dict[str, tuple[str, ...]] = {
     "led by its arm": (),
     "an arm that does not give way": STIFF,
-    "nobody feels the hand": ("sensing.body_skin=false",),
-    "felt, but the steps stay": ("confidence=1", "yielding=0"),
+    "skin not read": ("sensing.body_skin=false",),
+    "measured, but the steps stay": ("confidence=1", "yielding=0"),
 }
 BENCHMARK = Benchmark(
     "guide",

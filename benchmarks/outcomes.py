@@ -1,7 +1,7 @@
 """Make the tables of outcomes: `python benchmarks/outcomes.py MINUTES [TABLE...]`.
 
 Runs what the tables still lack, a row of TABLE.csv a run, the runs that tell most first, and writes the tables;
-stopped, it goes on where it was. `... anew TABLE...` first drops the rows that were made at another commit than the one
+stopped, it goes on where it was. `... drop TABLE...` first drops the rows that were made at another commit than the one
 that is checked out; `... report [TABLE...]` only writes the tables. Without names it means all of them. A row's commit
 is what is checked out, so run it in a worktree that nobody changes: `git worktree add ../tables`. `... again COUNT
 [TABLE...]` runs so many rows, drawn by chance, once more, and says which have another outcome or figure: those of
@@ -106,14 +106,14 @@ def main(arguments: Sequence[str]) -> None:
     count, names = (names[0], names[1:]) if first == "again" and names else ("", names)
     names = names or TABLES
     odd = [name for name in names if name not in TABLES]
-    known = first in ("anew", "report") or first.replace(".", "", 1).isdigit() or (first == "again" and count.isdigit())
+    known = first in ("drop", "report") or first.replace(".", "", 1).isdigit() or (first == "again" and count.isdigit())
     if odd or not known:
         sys.exit(
-            f"outcomes.py: minutes, `anew`, `report` or `again COUNT`, then tables of {', '.join(TABLES)}; "
+            f"outcomes.py: minutes, `drop`, `report` or `again COUNT`, then tables of {', '.join(TABLES)}; "
             f"got {list(arguments)}"
         )
     scripts = [import_module(name) for name in names]
-    if first == "anew":
+    if first == "drop":
         for script in scripts:
             print(f"{script.__name__}: {drop_other_commits(script.BENCHMARK, commit())} rows dropped")
         return

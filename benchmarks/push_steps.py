@@ -15,7 +15,7 @@ ANY = ("push.dv=0.25",)
 LINES: list[tuple[str, str, tuple[str, ...], bool]] = [
     ("steps in place, 16 and 40 N s", "push-step", (), False),
     ("the same, no step moves", "push-step", ANKLES, True),
-    ("the same, felt by the skin", "push-step", ("control.push_estimate=skin",), True),
+    ("the same, measured by the skin", "push-step", ("control.push_estimate=skin",), True),
     ("the same, push not estimated", "push-step", ("control.push_estimate=off",), True),
     ("at the shoulders", "push-height", (), False),
     ("at the CoM", "push-height", ("push.place=com",), False),
@@ -29,7 +29,7 @@ LINES: list[tuple[str, str, tuple[str, ...], bool]] = [
     ("box step, 16 pushes of 25 N s", "box-step", (), False),
     *((f"box step, {v} N s", "box-step", (f"push.impulse={v}",), True) for v in (10, 15, 25, 30)),
     ("on half a foothold, 10 N s", "push-partial", (), False),
-    ("the same, taken for a whole one", "push-partial", ("footholds=off",), True),
+    ("the same, as a whole one", "push-partial", ("footholds=off",), True),
     ("along a beam, 20 N s", "push-beam", (), False),
 ]
 CASES = [

@@ -33,7 +33,7 @@ LENGTHS = {"in place": 0.0, "0.2 m/s": 0.2}
 VARIANTS: dict[str, tuple[str, ...]] = {
     "as it is": (),
     "ankle only": ("control.step_adjustment=false", "control.step_timing=false"),
-    "push felt by the skin": ("control.push_estimate=skin",),
+    "push measured by the skin": ("control.push_estimate=skin",),
     "push not estimated": ("control.push_estimate=off",),
 }
 
