@@ -15,7 +15,7 @@ PYTEST_OPTIONS ?= -n logical --dist loadfile --no-loadscope-reorder
 KERNELS := $(wildcard plantar/kernels/*.py plantar/kernels/*/*.py plantar/kernels/*/*.pxd)
 BUILT := $(VENV)/.kernels
 
-.PHONY: help setup demo test test-all bench docs lint format clean
+.PHONY: help setup demo test test-all bench docs pictures lint format clean
 
 help:
 	@echo "make demo      build the H1 shoe, walk on plantar feedback, analyse the recording (into $(OUT)/)"
@@ -23,6 +23,7 @@ help:
 	@echo "make test-all  run every test"
 	@echo "make bench     measure run time against error, and show it on a page (into $(OUT)/bench/); BENCH_OPTIONS=--quick"
 	@echo "make docs      build the site (into $(OUT)/site/), and open every page of it in Chromium"
+	@echo "make pictures  draw the pictures of README and docs again (into docs/images/)"
 	@echo "make lint      ruff, mypy and the layering test"
 	@echo "make format    let ruff format the code"
 	@echo "make setup     only create .venv (about 2.5 GB: cadquery brings VTK)"
@@ -48,6 +49,13 @@ docs: $(DOCS_INSTALLED)
 	$(PYTHON_IN_VENV) -m mkdocs build --strict --quiet
 	@sh tools/fetch-axe $(VENV)/axe || echo "axe-core cannot be fetched: it does not check the pages" >&2
 	$(PYTHON_IN_VENV) tools/check_site.py --axe $(VENV)/axe/axe.min.js || [ $$? = 2 ]
+
+pictures: export MUJOCO_GL = egl
+pictures: $(BUILT)
+	$(PYTHON_IN_VENV) examples/walk_picture.py docs/images/walk.png
+	$(PYTHON_IN_VENV) examples/walk_picture.py docs/images/beam.png beam
+	$(PYTHON_IN_VENV) tools/walk_loop.py docs/images/beam.webp
+	$(PYTHON_IN_VENV) examples/gallery.py docs/images
 
 lint: $(BUILT)
 	$(PYTHON_IN_VENV) -m ruff check .

@@ -1,4 +1,4 @@
-"""Draw the README's picture: the robot in mid step, what its soles feel, and the walk in the plane.
+"""Draw the README's picture: the robot in mid step, the forces on its taxels, and the walk in the plane.
 
 MUJOCO_GL=egl python examples/walk_picture.py docs/images/walk.png
 MUJOCO_GL=egl python examples/walk_picture.py docs/images/beam.png beam
@@ -67,7 +67,7 @@ def main(path: str, scene: str = "flat") -> None:
         if cop is not None:
             axes[1].plot(-(cop + shift)[1], (cop + shift)[0], "o", color=COLOURS["truth"], ms=5)
     axes[1].set_aspect("equal")
-    axes[1].set_title("what the soles feel: taxel forces,\nsupport polygon (dashed), CoP (dot)", fontsize=9)
+    axes[1].set_title("taxel forces of both soles,\nsupport polygon (dashed), CoP (dot)", fontsize=9)
     axes[1].set_xticks([])
     axes[1].set_ylabel("x in sole [m]")
 
