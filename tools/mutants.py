@@ -14,6 +14,7 @@ import importlib.abc
 import importlib.util
 import os
 import random
+import resource
 import subprocess
 import sys
 import tempfile
@@ -23,7 +24,8 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).parents[1]
-LONGEST = 300  # s that the tests of one mutant may take: one that hangs is noticed, too
+LONGEST = 300  # s of processor time that the tests of one mutant may take: one that hangs is noticed, too
+WAITED = 3600  # s of waiting, in which a busy machine may give less of it: then the campaign stops
 MODULE, SOURCE = "PLANTAR_MUTANT_MODULE", "PLANTAR_MUTANT_SOURCE"
 
 _JUDGED = ("verdict", "step_count", "joint_limits", "push_truth", "recovery", "summary_truth")
@@ -243,12 +245,15 @@ def passes(tests: Sequence[str], mutant: Mutant | None = None) -> bool:
             source = Path(folder) / "mutant.py"
             source.write_text(mutant.source)
             environment |= {MODULE: mutant.path.removesuffix(".py").replace("/", "."), SOURCE: str(source)}
-        try:
-            ended = subprocess.run(
-                [*command, *tests], cwd=ROOT, env=environment, capture_output=True, timeout=LONGEST, check=False
-            )
-        except subprocess.TimeoutExpired:
-            return False
+        ended = subprocess.run(
+            [*command, *tests],
+            cwd=ROOT,
+            env=environment,
+            capture_output=True,
+            timeout=WAITED,
+            check=False,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST)),
+        )
     return ended.returncode == 0
 
 
