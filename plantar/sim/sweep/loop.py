@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from plantar.sim.sweep.figures import figures_of
 from plantar.sim.sweep.inputs import inputs_of
 from plantar.sim.sweep.plan import Plan
 from plantar.sim.sweep.results import open_results
-from plantar.sim.sweep.runs import Key, key_of
+from plantar.sim.sweep.runs import Key, Rows, key_of
 from plantar.sim.sweep.stopping import StopNote, SweepStopped, stop_noted
 from plantar.sim.sweep.task import Row, Task, columns_of
 from plantar.sim.sweep.workers import LocalWorkers, Workers
@@ -62,46 +62,22 @@ def run_sweep(
         raise InputError(f"number of workers is {workers}; allowed: 1 or more")
     folder = Path(folder)
     checked = plan.checked
-    axes, points = checked.axes, checked.points()
+    points = checked.points()
     columns = columns_of(checked.opened(points[0]))
     inputs = {robot: inputs_of(checked.scene, robot) for robot in dict.fromkeys(map(checked.robot_of, points))}
     with (
         stop_noted() as note,
         _workers(workers, scheduler) as pool,
-        open_results(folder, plan.identity(), inputs, axes, columns) as results,
+        open_results(folder, plan.identity(), inputs, checked.axes, columns) as results,
     ):
         before = len(results.rows)
-        wanted: dict[Task, Key] = {}
-        count = 0
-
-        def tasks() -> Iterator[Task | None]:
-            """What is to be run of the plan; a run that has its row already is passed over."""
-            nonlocal count
-            for run in plan.runs(results.rows):
-                if run is None:
-                    yield None
-                    continue
-                count += 1
-                if key_of(*run) in results.rows:
-                    continue
-                point, seed = run
-                robot = checked.robot_of(point)
-                task = Task(
-                    scene=_anywhere(checked.scene),
-                    robot=_anywhere(robot),
-                    settings=(*checked.settings, *point),
-                    seed=seed,
-                    inputs=tuple(inputs[robot].items()),
-                )
-                wanted[task] = key_of(*run)
-                yield task
-
+        tasks = _Tasks(plan, inputs, results.rows)
         try:
             with note.held():
-                for task, row in _rows_of(tasks(), pool, note):
-                    values, seed = wanted[task]
+                for task, row in _rows_of(iter(tasks), pool, note):
+                    values, seed = tasks.keys[task]
                     empty = dict.fromkeys(columns, "")
-                    results.append({**empty, **dict(zip(axes, values, strict=True)), "seed": seed, **row})
+                    results.append({**empty, **dict(zip(checked.axes, values, strict=True)), "seed": seed, **row})
                     if progress is not None:
                         progress(*plan.progress(results.rows))
             found = plan.found(results.rows)
@@ -115,7 +91,37 @@ def run_sweep(
                 raise SweepStopped(note.number or signal.SIGINT, kept) from None
             raise type(error)(f"{error}: {kept}") from None
         ran = len(results.rows) - before
-    return {**found, "runs": ran, "resumed": count - ran, "files": [str(results.path), *figures]}
+    return {**found, "runs": ran, "resumed": tasks.count - ran, "files": [str(results.path), *figures]}
+
+
+class _Tasks:
+    """The runs of a plan that have no row yet, as tasks; None while the next one depends on rows to come.
+
+    Attributes:
+        keys: Key of each task's row.
+        count: Number of runs of the plan so far, those with a row too.
+    """
+
+    def __init__(self, plan: Plan, inputs: Mapping[str, Mapping[str, str]], rows: Rows) -> None:
+        self._plan, self._inputs, self._rows = plan, inputs, rows
+        self.keys: dict[Task, Key] = {}
+        self.count = 0
+
+    def __iter__(self) -> Iterator[Task | None]:
+        checked = self._plan.checked
+        for run in self._plan.runs(self._rows):
+            if run is None:
+                yield None
+                continue
+            self.count += 1
+            if key_of(*run) in self._rows:
+                continue
+            point, seed = run
+            robot, settings = checked.robot_of(point), (*checked.settings, *point)
+            inputs = tuple(self._inputs[robot].items())
+            task = Task(_anywhere(checked.scene), _anywhere(robot), settings, seed, inputs)
+            self.keys[task] = key_of(*run)
+            yield task
 
 
 @contextmanager
