@@ -201,8 +201,8 @@ class _Replaced(ast.NodeTransformer):
 def files_of(room: str) -> list[str]:
     """The files of a room that hold logic, from the root of the repository."""
     path = ROOT / room
-    found = [path] if path.is_file() else sorted(p for p in path.glob("*.py") if p.name != "__init__.py")
-    return [str(p.relative_to(ROOT)) for p in found]
+    found = [path] if path.is_file() else sorted(path.glob("*.py"))
+    return [str(p.relative_to(ROOT)) for p in found if sites_of(p.read_text())]
 
 
 def sampled(count: int, seed: int) -> list[tuple[str, Mutant]]:
