@@ -207,18 +207,10 @@ def possible_rate(rate: float, what: str) -> float:
 def sampling(
     time: NDArray[np.float64], stated_hz: float | None, given_hz: float | None = None
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
-    """Check the times of frames, and repair single damaged ones.
+    """Check the times of frames `time` (n,) in s, 1 or more, NaN where unreadable, and repair single damaged ones.
 
-    Args:
-        time: Times (n,) in s from the file, 1 or more; NaN where unreadable.
-        stated_hz: Rate in the file, if any.
-        given_hz: Rate from the user, which replaces the file's rate and times.
-
-    Returns:
-        Increasing times (n,) in s, the rate in Hz, and warnings.
-
-    Raises:
-        FormatError: If there is no rate, or one outside RATES.
+    The user's rate `given_hz` replaces times and the file's rate `stated_hz`, in Hz or None. Returns increasing times
+    (n,) in s, the rate in Hz, and warnings; a FormatError if there is no rate, or one outside RATES.
     """
     if given_hz is not None:
         return np.arange(len(time)) / given_hz, given_hz, ()

@@ -205,17 +205,10 @@ class Recorder:
         self._flush_at = 0.0
 
     def channel(self, topic: str, fields: Sequence[tuple[str, int]]) -> Channel[NDArray[np.float64]]:
-        """Declare a topic of numbers; messages are copied.
+        """Declare a new topic of numbers; messages are copied.
 
-        Args:
-            topic: New name that starts with "/".
-            fields: Names (lower case, as ROS 2 allows) and numbers of values, 1 or more each.
-
-        Returns:
-            The channel to write to.
-
-        Raises:
-            RecordingError: If the topic exists, or a field's name or width is invalid.
+        Field names of `fields` are lower case, as ROS 2 allows, with 1 value or more each. Returns its channel; a
+        RecordingError if `topic` exists or does not start with "/", or a field is invalid.
         """
         names = [name for name, _ in fields]
         if not names or len(set(names)) != len(names):
@@ -244,19 +237,10 @@ class Recorder:
         template: Template,
         values: Callable[[NDArray[np.float64]], NDArray[np.float64]] = np.asarray,
     ) -> Channel[NDArray[np.float64]]:
-        """Declare a new topic of messages that differ in their numbers alone, encoded a chunk at once.
+        """Declare a new `topic` of messages of a `schema` that fill a `template`, encoded a chunk at once. Returns its
+        channel.
 
-        Args:
-            topic: New name that starts with "/".
-            schema: Name of their schema in `foxglove.SCHEMAS`.
-            template: The message.
-            values: Maps the written rows (m, j) to the template's slot values (m, k).
-
-        Returns:
-            The channel to write to.
-
-        Raises:
-            RecordingError: If the topic exists or the schema is unknown.
+        `values` maps the written rows (m, j) to the template's slot values (m, k). Errors as of `message_channel`.
         """
         return self._drawn(topic, schema, lambda times, rows: template.filled_all(times, values(np.array(rows))))
 

@@ -95,15 +95,8 @@ class DrawnRun:
         self._latest = readings
 
     def tick(self, time: float, command: Command, plan: PlanView, truth: GroundTruth, loads: Sequence[float]) -> None:
-        """Draw one control tick, if due.
-
-        Args:
-            time: Time in s.
-            command: The controller's command.
-            plan: The plan of the walk.
-            truth: The judge's truth.
-            loads: Vertical ground force in N on the left and the right foot.
-        """
+        """Draw the control tick at `time` in s, if due: `command`, `plan`, `truth` and vertical `loads` in N on left
+        and right foot."""
         if self._next_frame == -math.inf:
             self._draw_shapes(time)
         if time >= self._next_frame:
@@ -157,7 +150,7 @@ class DrawnRun:
     def _sole(self, side: Side, number: int) -> list[Part]:
         """Entities of a sole in its own frame: its taxels, and its CoP with the force there.
 
-        Slots are first three a taxel of the left sole, then of the right one, then four for each sole's force.
+        Slots: three a taxel of the left sole, then of the right one, then four for each sole's force.
         """
         layout = self._layouts[side]
         first = 3 * len(self._layouts["left"]) * number

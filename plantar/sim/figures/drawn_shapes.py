@@ -116,11 +116,8 @@ def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Part:
 def coarse_mesh(
     vertices: NDArray[np.float64], faces: NDArray[np.int64], most: int
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """A mesh of at most `most` faces, 4 or more: vertices in one cell of a lattice merge at their mean.
-
-    (Vertex clustering; Rossignac and Borrel, 1993.) Returns corners and triangles of `vertices` (v, 3) in m and `faces`
-    (f, 3); unchanged where they are few enough.
-    """
+    """Returns corners and triangles of a mesh `vertices` (v, 3) in m, `faces` (f, 3) with at most `most` faces, 4 or
+    more: vertices in one cell of a lattice merge (vertex clustering; Rossignac and Borrel, 1993)."""
     size = float(np.ptp(vertices, axis=0).max())
     cells = 128
     coarse, kept = vertices, faces

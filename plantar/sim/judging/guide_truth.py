@@ -76,7 +76,7 @@ class GuideTruth:
         self.turned = max(self.turned, float(np.abs(data.qpos[self._places] - self._posture).max()))
 
     def reasons(self) -> list[dict[str, Any]]:
-        """Criteria that failed, as `plantar.sim.judging.verdict.reasons`."""
+        """Failed criteria, as `verdict.reasons`."""
         found = []
         for name, what, value, share in (
             ("yielded", "the arm gave way by", self.yielded, YIELDED),

@@ -192,15 +192,8 @@ class Judge:
         moved: Sequence[MovedStep] = (),
         pushed: bool = False,
     ) -> None:
-        """Compare the controller's estimates, after the physics step that began with a control tick.
-
-        Args:
-            time: Time of the tick in s.
-            com: The controller's estimate of the CoM (3,) in m.
-            zmp: The controller's estimate of the ZMP (2,) in m, or None.
-            moved: Footsteps that the controller reports to have just planned again.
-            pushed: Whether the robot is truly pushed.
-        """
+        """Take the controller's estimates of the CoM `com` (3,) and `zmp` (2,) or None in m at the tick at `time` in s,
+        the footsteps `moved` just then, and whether the robot is truly `pushed`."""
         if pushed:
             self._pushed.append(time)
         self._estimates.update(com.tolist(), None if zmp is None else zmp.tolist())

@@ -12,12 +12,10 @@ before they touch and to a partner that swings back towards where it rests."""
 
 
 def partner_reasons(role: str, way: float, moved: float) -> list[dict[str, Any]]:
-    """Returns the criteria that failed, as `plantar.sim.judging.verdict.reasons`.
+    """Returns the failed criteria, as `verdict.reasons`, of a robot with a planned `way` in m towards its partner.
 
-    Args:
-        role: The partner's role: with a "leader" only a completed walk is asked.
-        way: Planned way of the robot towards it in m.
-        moved: How far the partner came towards the robot in m; negative for one that was pushed back.
+    With a `role` "leader" of the partner only a completed walk is asked; `moved` is the partner's way in m towards the
+    robot.
     """
     needed = LED * way
     if role == "leader" or -moved >= needed:

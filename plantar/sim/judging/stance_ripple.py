@@ -58,7 +58,7 @@ class StanceRipple:
         }
 
     def reasons(self) -> list[dict[str, Any]]:
-        """Criteria that failed, as `plantar.sim.judging.verdict.reasons`."""
+        """Failed criteria, as `verdict.reasons`."""
         value = self.rms
         if value is None or value <= RIPPLE:
             return []

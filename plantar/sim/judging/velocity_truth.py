@@ -101,7 +101,7 @@ class VelocityTruth:
         }
 
     def reasons(self, landings: list[float]) -> list[dict[str, Any]]:
-        """Criteria that failed, as `plantar.sim.judging.verdict.reasons`; `landings` are touchdowns in s."""
+        """Failed criteria, as `verdict.reasons`; `landings` are touchdowns in s."""
         figures, found = self.summary(landings), []
         for name, words in (("speed_ratio", "speed"), ("turn_ratio", "rate of turn")):
             ratio = figures[name]

@@ -1,7 +1,7 @@
-"""The goal of a walk: its footsteps as planned at the start, which of them were planned again, and why.
+"""The goal of a walk: its footsteps as planned at the start, which of them were moved, and why.
 
-The judge keeps the goal. A controller cannot shorten it, and can move a footstep only by a report before the foot
-lands, with a reason, to a place that a detour explains. Step counting asks whether ground or a push justified the move.
+The judge keeps the goal. A controller can move a footstep only by a report before the foot lands, with a reason, to a
+place that a detour explains; step counting asks whether ground or a push justified it.
 """
 
 from __future__ import annotations
@@ -53,16 +53,14 @@ class WalkGoal:
     """Where feet must be put down, in which order.
 
     Args:
-        feet: Where the feet stand at the start.
+        feet: Where the feet are at the start.
         steps: The footsteps as planned at the start.
         leg: Length of the robot's legs in m, the scale of distances.
-        led: How far in m the robot is led off its way, by which any footstep may be moved further.
+        led: How far in m the robot is led off its way; steps may be moved by as much more.
 
     Attributes:
-        steps: The footsteps as planned at the start.
         near: Distance in m within which a foot has reached a place.
-        leg: Length of the robot's legs in m.
-        refused: Number of refused moves: without a reason, not finite, or further than a detour explains.
+        refused: Number of refused moves: without a reason, not finite, or too far.
     """
 
     def __init__(
@@ -123,15 +121,10 @@ class WalkGoal:
         return math.dist(there, planned) <= detour and away <= most and turned <= _DETOUR_YAW
 
     def ways(self, step: int, time: float, before: float) -> tuple[Way, Way | None]:
-        """How a step may lead on from the foothold before it.
+        """How a `step` may lead on from the foothold before it: as planned at the start, and as moved last or None.
 
-        Args:
-            step: Its index.
-            time: Its touchdown in s; later reports do not count.
-            before: Touchdown of the foot before it, likewise for that foot's place.
-
-        Returns:
-            The way as planned at the start, and as planned last where that differs.
+        Moves that are reported after `time` in s, its touchdown, do not count, nor those of the step before after
+        `before`. Returns both ways.
         """
         planned = _way(self._before(step), self.steps[step])
         if self._last_move(step, time) is None:
@@ -168,15 +161,8 @@ class WalkGoal:
     def end(
         self, centers: Mapping[Side, NDArray[np.float64]], *, at_start: bool = False
     ) -> tuple[NDArray[np.float64], float]:
-        """Where the walk ends.
-
-        Args:
-            centers: Centre (2,) of each sole in its frame in m.
-            at_start: As planned at the start instead of as planned last.
-
-        Returns:
-            Point (2,) between the soles' centres in m, and the heading in rad.
-        """
+        """Returns the walk's end: point (2,) in m between the soles' `centers` (2,) in their frames, and heading in
+        rad; as planned last, or `at_start`."""
         last, steps = dict(self._feet), self.steps if at_start else self._now
         for step in steps:
             last[step.side] = step

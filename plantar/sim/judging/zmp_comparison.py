@@ -32,7 +32,7 @@ class ZmpComparison:
         layouts: Sole layout of each side.
         noise: Standard deviation of a taxel's noise in N.
         period: Control period in s.
-        begin: Time in s from which differences count: filters and estimator have settled.
+        begin: Time in s from which differences count.
 
     Attributes:
         latest: World ZMP (2,) in m from the skin and from the ankles at the last tick, None without load.

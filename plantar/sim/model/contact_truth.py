@@ -115,19 +115,11 @@ def foot_contacts(model: Any, data: Any, geom_ids: Collection[int]) -> ContactSe
 
 
 def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tuple[ContactSet, ...]:
-    """The contacts of several feet and the forces that the world exerts on them, in one pass.
+    """The contacts of several `feet`, ids of each foot's geoms, and the world's forces on them. Returns a set for each.
 
-    MuJoCo's contact normal points from geom 1 to geom 2 and `mj_contactForce` gives the force on geom 2 in the contact
-    frame; where the foot is geom 1 the force changes sign. Contacts between two geoms of a foot are left out; one
-    between two feet belongs to both.
-
-    Args:
-        model: The MjModel.
-        data: The MjData after `mj_step` or `mj_forward`.
-        feet: Ids of each foot's geoms.
-
-    Returns:
-        The contacts of each foot.
+    MuJoCo's contact normal points from geom 1 to geom 2 and `mj_contactForce` gives the force on geom 2; where the foot
+    is geom 1 the force changes sign. Contacts within a foot are left out; one between two feet belongs to both. `model`
+    and `data` are MuJoCo's after a step.
     """
     return tuple(_set_of(foot) for foot in ContactReader(model, data, feet).read())
 
@@ -150,25 +142,18 @@ def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) ->
 def contact_wrench_in_frame(
     contacts: ContactSet, position: NDArray[np.float64], rotation_to_world: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Returns the wrench (6,) in N and N m of a foot's `contacts` about a frame's origin, along the frame's axes.
-
-    Args:
-        contacts: The foot's contacts.
-        position: Origin (3,) of the frame in the world in m: `data.site_xpos[site]` for the sole frame.
-        rotation_to_world: Rotation (3, 3) or (9,) from the frame to the world: `data.site_xmat[site]`.
-    """
+    """Returns the wrench (6,) in N and N m of a foot's `contacts` about a frame's origin `position` (3,) in m, along
+    its axes, the columns of `rotation_to_world` (3, 3) or (9,)."""
     world = contact_wrench_in_world(contacts, position)
     return (world.reshape(2, 3) @ rotation_to_world.reshape(3, 3)).reshape(6)
 
 
 def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH) -> NDArray[np.float64]:
-    """True support polygon: hull of the contact points that carry a force or could, seen from above.
+    """True support polygon (m, 2) in m of all `feet`, counter-clockwise: hull of points that carry or could, seen from
+    above.
 
-    A rigid sole under an eccentric load lifts a corner by micrometres, where any real one stays pressed; points with a
-    gap up to `reach` in m therefore count. MuJoCo reports them only for geoms with a `gap` of at least that.
-
-    Returns the convex polygon (m, 2) of the contacts of all `feet` in m, counter-clockwise; empty in the air, one or
-    two points for a point or line contact.
+    A rigid sole under an eccentric load lifts a corner by micrometres, where a real one stays pressed: points with a
+    gap up to `reach` in m count. Returns no point in the air, one or two for a point or line contact.
     """
     points: list[tuple[float, float]] = []
     for contacts in feet:
@@ -181,16 +166,16 @@ def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH
 def ground_truth(
     feet: Sequence[FootContacts], plane_height: float | None = None, minimum_force: float = 1.0, reach: float = REACH
 ) -> GroundTruth:
-    """Wrench, ZMP, support polygon and the margin between the last two, of all feet together (T 4.5-4.8).
+    """Wrench, ZMP, support polygon and margin of all feet together (T 4.5-4.8), in the world frame.
 
     Args:
         feet: Contacts of each foot.
-        plane_height: Height in m of the plane of the ZMP; None takes the mean contact height weighted by force.
+        plane_height: Height in m of the ZMP's plane; None takes the mean contact height weighted by force.
         minimum_force: Vertical force in N below which there is no ZMP.
         reach: Largest gap in m of a point that could carry a force.
 
     Returns:
-        The truth, in the world frame.
+        The truth.
     """
     height = math.nan if plane_height is None else plane_height
     reaction = GroundReaction(height, minimum_force, reach)

@@ -51,14 +51,7 @@ DIVERGED = (
 
 
 def check_stable(warnings: NDArray[np.int32]) -> None:
-    """Stop where MuJoCo's state diverged, which it answers by a restart from the model's pose.
-
-    Args:
-        warnings: MuJoCo's counts of its warnings: `data.warning.number`.
-
-    Raises:
-        SceneError: If positions, velocities, accelerations or controls were not finite or too large.
-    """
+    """A SceneError where MuJoCo's `data.warning.number` shows a diverged state, which MuJoCo answers by a restart."""
     if warnings[list(DIVERGED)].any():
         raise SceneError(
             "the simulated physics became unstable: forces too large for its time step (control.physics_period); "
@@ -210,7 +203,7 @@ def build_world(
     plant: TruePlant | None = None,
     others: Sequence[Visitor] = (),
 ) -> World:
-    """Build and compile the world, in its reference configuration.
+    """Build and compile the world, in its reference configuration; the runner puts the robot on its feet.
 
     Args:
         robot: The robot.
@@ -220,7 +213,7 @@ def build_world(
         others: Other bodies; their coordinates come after the robot's.
 
     Returns:
-        The world; the runner puts the robot on its feet.
+        The world.
 
     Raises:
         RobotError: If the model cannot be read or simulated.

@@ -57,15 +57,8 @@ def is_word(key: str) -> bool:
 
 
 def canonical(text: str, *, word: bool = False) -> str:
-    """The one text for all TOML values or bare words `text` with the same meaning; a setting gets the same value from
-    it.
-
-    Args:
-        text: A TOML value or a bare word.
-        word: Whether the setting takes its text unchanged (`is_word`): only quotes around it are removed.
-
-    Returns:
-        The value's text.
+    """Returns the one text for all TOML values or bare words `text` with the same meaning; of a `word` (`is_word`) only
+    quotes are removed.
 
     Raises:
         InputError: If the text begins like a TOML value and is none, or is not printable.

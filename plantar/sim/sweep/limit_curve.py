@@ -64,11 +64,10 @@ class LimitCurve:
 
     @property
     def interval_of_search(self) -> tuple[float, float]:
-        """The values between which the limit is in 95 of 100 searches that ended because this interval was narrow
-        enough.
+        """The same in 95 of 100 searches that ended because this interval was narrow enough, by a probability of 98 %.
 
         Such a search ends early where chance makes the curve look too steep: `interval` holds the limit in only 90 of
-        100. This one has a probability of 98 % (`tests/sim/sweep/test_limit_search.py` counts).
+        100 (`tests/sim/sweep/test_limit_search.py` counts).
         """
         return self.quantile(0.01), self.quantile(0.99)
 
@@ -88,17 +87,11 @@ class LimitCurve:
         return rising if self.rising else 1.0 - rising
 
     def agreement(self, values: Sequence[float], completed: Sequence[bool]) -> float:
-        """Probability that runs of this very curve are as far from it as these: tiny where no curve explains them.
+        """Probability, 0 to 1, that runs of this very curve are as far from it as these: tiny where no curve explains
+        them.
 
-        So it is where the seed chooses what the limit depends on, such as the side of a push. Pearson's chi square of
-        groups of ten runs or more, by value.
-
-        Args:
-            values: The setting's value in each run.
-            completed: Whether it was completed.
-
-        Returns:
-            The probability, 0 to 1; 1 with less than 40 runs, which are too few.
+        So it is where the seed chooses what the limit depends on. Pearson's chi square of groups of ten runs or more by
+        `values`, with whether each was `completed`; returns 1 below 40 runs, too few.
         """
         if len(values) < 4 * _GROUP:
             return 1.0
@@ -112,16 +105,8 @@ class LimitCurve:
         return float(chdtrc(len(groups) - 3, square))  # limit, width and lapse were chosen by the runs
 
     def turned(self, part: float, low: float, high: float) -> float:
-        """The value at which a `part` of the change from all to none, or none to all, is expected.
-
-        Args:
-            part: The part, 0 to 1: one half at the limit. Lapses are left out.
-            low: Smallest allowed value.
-            high: Largest one.
-
-        Returns:
-            The value, to a thousandth of the range.
-        """
+        """Returns the value between `low` and `high` at which a `part` (0 to 1, one half at the limit) of the change
+        from all to none, or none to all, is expected; to a thousandth of the range."""
         weights = self.joint.sum(2)
         step = high - low
         for _ in range(10):
@@ -133,20 +118,8 @@ class LimitCurve:
 
 
 def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, high: float) -> LimitCurve:
-    """What the outcomes of runs show of a limit.
-
-    Args:
-        values: The setting's value in each run.
-        completed: Whether it was completed.
-        low: Smallest value that is tried, in the setting's unit.
-        high: Largest one.
-
-    Returns:
-        The curve; where outcomes do not show its direction, the likelier one.
-
-    Raises:
-        ValueError: If `low` is not below `high`.
-    """
+    """Returns what `values` and whether each run was `completed` show of a limit, tried from `low` to `high`; a
+    ValueError where `low` is not below `high`. Where the direction is unclear, the likelier one."""
     if not low < high:
         raise ValueError(f"range {low} to {high} is empty")
     span = high - low

@@ -106,12 +106,8 @@ class Sweep:
         """A sweep from the command line's texts.
 
         Args:
-            scene: Name or file of the scene.
+            scene: As of the class, like `seeds`, `robot`, `settings` and `first_seed`.
             grid: Texts "key=a,b,c"; values are TOML, bare words texts, as in "size=[1, 2],[3, 4]".
-            seeds: Number of seeds.
-            robot: Robot to use instead of the scene's.
-            settings: Texts "key=value" for all runs.
-            first_seed: The first of the seeds.
 
         Returns:
             The checked sweep; errors as of the class.
@@ -233,12 +229,8 @@ class Sweep:
 
 
 def point_result(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:
-    """The result of a `point` over its rows `ran`.
-
-    Returns:
-        Its settings, runs, completed, the 95 % Wilson interval of their share, how many runs failed each criterion
-        ("reasons"), and the errors of impossible runs.
-    """
+    """Returns the result of a `point` over its rows `ran`: settings, runs, completed, the 95 % Wilson interval of their
+    share, how many failed each criterion ("reasons"), and the errors of impossible runs."""
     completed = sum(row["completed"] == "True" for row in ran)
     return {
         "settings": settings_of(point),

@@ -30,12 +30,8 @@ def plan_from_texts(
     """Make and check a plan from the command line's texts.
 
     Args:
-        scene: Name or file of the scene.
-        grid: Texts "key=a,b,c".
+        scene: As of `Sweep.from_texts`, like `grid`, `robot`, `settings` and `first_seed`.
         seeds: Number of seeds; with a limit the most at each grid point. None for 1, or 1000 with a limit.
-        robot: Robot to use instead of the scene's.
-        settings: Texts "key=value" for all runs.
-        first_seed: The first of the seeds.
         limit: Text "key=from:to" of the setting whose limit is searched.
         within: Width of the limit's 95 % interval, as a share of the limit, at which the search ends.
         random: Texts "key=from:to" of settings that are drawn.
@@ -45,8 +41,6 @@ def plan_from_texts(
 
     Raises:
         InputError: If a text is malformed, something comes twice, or a limit is searched along random points.
-        SceneError: If a setting is unknown or not allowed.
-        RobotError: If the robot is unknown or invalid.
     """
     if limit is not None and random:
         raise InputError("a limit is searched along one setting; leave out --random, or use --grid along with --limit")

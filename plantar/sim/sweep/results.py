@@ -116,10 +116,7 @@ def open_results(
         columns: Columns after those and the seed.
 
     Yields:
-        The open table.
-
-    Raises:
-        InputError: If the folder cannot be used, holds another sweep, or is in use.
+        The table; an InputError if the folder cannot be used, holds another sweep, or is in use.
     """
     path, plan = folder / "results.csv", folder / "sweep.json"
     with ExitStack() as stack:

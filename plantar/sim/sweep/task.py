@@ -71,7 +71,7 @@ def columns_of(scene: Scene | CompanionScene) -> tuple[str, ...]:
 
 
 def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -> Row:
-    """One run as a flat row; an error of the scenario becomes a row too.
+    """One run as a flat row; an error of the scenario becomes a row too, a missing library a DependencyError.
 
     Args:
         scene: Name or file of the scene.
@@ -81,9 +81,6 @@ def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -
 
     Returns:
         Values of the result columns.
-
-    Raises:
-        DependencyError: If a library is missing.
     """
     try:
         loaded = open_scene(scene, settings, robot)
