@@ -27,7 +27,7 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
         turn_rate: Largest rate of that in rad/s; close to the ground it is less (see `SwingCompliance.turn_rate`).
     """
 
-    damping: float = share(0.162, "beat", 0.001, 1)
+    damping: float = share(0.243, "beat", 0.001, 1)
     touch_speed: float = share(0.000824, "leg/beat", 0.0001, 0.1)
     margin: float = share(1 / 3000, "leg", 0, 0.01)
     top_speed: float = share(0.124, "leg/beat", 0.01, 2)
@@ -40,7 +40,7 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     steepness: ClassVar[float] = 3.0
     crawl_time: float = fixed(1.21, "beat")  # Time in s before the plan puts weight on the foot at which it is there
     reserve: float = share(0.323, "beat", 0, 1)
-    late_speed_ratio: float = number(2.5, "1", 1, 20)
+    late_speed_ratio: float = number(4.0, "1", 1, 20)
     turning: float = share(0.162, "beat", 0.005, 1)
     turn_rate: float = share(0.371, "rad/beat", 0.01, 20)
 

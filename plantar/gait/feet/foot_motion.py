@@ -33,12 +33,12 @@ _CLOSE_BY = 0.1  # before its place from which a swing turns its sole to the gro
 _NEARLY_THERE = 0.02  # before its place from which a swing judges the ground that it will land on
 _TOUCHING = 1 / 60  # from the ground that it sees within which less than a blind foot's load is taken for a touch
 _AHEAD = 1 / 60  # below where it is estimated to be at which a foot that comes down is commanded at most
-_ELSEWHERE = 1 / 150  # between ground and where it was expected from which the next steps expect the like
+_ELSEWHERE = 1 / 150  # between ground and where it was expected from which the next steps come down slowly
 _SAME_PLACE = 1 / 6000  # between two places that are one
 _AT_THE_GROUND = 1 / 300  # from it within which the least load is
 
 _LEAST_TIME = 0.404  # beats before touchdown from which a foot would have to be thrown to reach another place
-_WARY = 6  # steps after ground that was elsewhere in which a swing comes down slowly
+_WARY = 6  # steps after ground that was elsewhere in which a swing that does not see it comes down slowly
 
 
 class SoleSense(Record, frozen=True):
@@ -68,8 +68,9 @@ class Landing(Part, table="landing", given_by={n: f"walk.{n}" for n in ("approac
             forces tell what it stands on; 0 leaves it as it comes.
         probing: Whether such a foot, once it has load, turns until its centre of pressure is in the middle of what it
             is believed to stand on: taxels there carry, or deny it, before it gets the body's weight.
-        approach_height: Height in m above the expected ground from which a swing goes down slowly (see
-            `SwingTrajectory`) for some steps after ground that was not where it was expected; 0 comes down in one move.
+        approach_height: Height in m above the expected ground from which a swing that does not see the ground goes down
+            slowly (see `SwingTrajectory`) for some steps after ground that was not where it was expected; 0 comes down
+            in one move.
         approach_speed: Speed of that in m/s.
     """
 
@@ -279,6 +280,8 @@ class FootMotion:
             # On its way up a sole still carries what the ground that it leaves gives back.
             if self.comes_down and load > self._landing.contact_force:
                 self.landed = True
+                if abs(self.footholds[self._side][0].item(2) - self._expected) > _ELSEWHERE * self._leg:
+                    self._wary = _WARY
             if not self.landed:
                 self.footholds[self._side] = self._swing.at(time - self._start)
                 return
@@ -322,6 +325,7 @@ class FootMotion:
             self._expected += self._landing.ground_share * (landed - self._expected)
         position, yaw = self.footholds[side]
         place = np.array([*frame.to_command(target.position[:2]), self._expected - self._landing.depth])
+        sees = self._compliance is not None
         start = SwingStart(
             position=position.copy(),
             yaw=yaw,
@@ -331,7 +335,8 @@ class FootMotion:
             duration=times[1] - times[0],
             period=self._period,
             least_time=_LEAST_TIME * self._landing.body.beat,
-            approach_height=self._landing.approach_height if self._wary > 0 else 0.0,
+            sees_ground=sees,
+            approach_height=self._landing.approach_height if self._wary > 0 and not sees else 0.0,
             approach_speed=self._landing.approach_speed,
             rises_first=side in self._rises_first,
         )
@@ -351,7 +356,6 @@ class FootMotion:
     def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
         """Lift the foot that has landed again and take its step once more, to another place."""
         expected, height = self._expected, self._height
-        self._wary = _WARY
         # It has to clear only what it has just met, in what is left of the step.
         self._height = min(height, _RETAKE_HEIGHT * self._leg)
         self._begin(self._step, (time, touchdown), target, frame)
@@ -379,10 +383,7 @@ class FootMotion:
             if self.comes_down and compliance.update_load(load) and self._may_touch(compliance, view, load):
                 self.landed = True
                 self._touch = (time, float(sense.position[2]))
-                rise = self._touch[1] - frame.offset[2] - self._expected
-                self.surprise = max(self.surprise, rise)
-                if abs(rise) > _ELSEWHERE * self._leg:
-                    self._wary = _WARY
+                self.surprise = max(self.surprise, self._touch[1] - frame.offset[2] - self._expected)
                 compliance.ground.touched()
                 self._distance = compliance.ground.distance
                 self._distance.flags.writeable = False

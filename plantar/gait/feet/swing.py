@@ -30,7 +30,7 @@ _HIGH_SHARE = 0.34
 """Share of such a swing after which it comes down: what moves under the foot meanwhile has to pass below it."""
 
 _FIRST_SHARE = 0.14
-"""Share of such a swing after which one that rises first moves horizontally: half of its height."""
+"""Share of a swing after which one that rises first moves horizontally: half of its height."""
 
 _SKEW = 0.8
 """Exponent below 1 that moves the horizontal motion of such a swing forward, so that it brakes gently."""
@@ -48,12 +48,12 @@ class SwingTrajectory:
         height: Clearance in m of the highest point above the higher end.
         duration: Single support time in s.
         lift_share: Share of the duration spent rising, 0..1.
-        lateral_hold: Share of the duration at both ends in which the foot moves only up or down.
+        lateral_hold: Share of the duration at its begin in which the foot moves only up.
+        lateral_end: The same at its end, in which it moves only down.
         approach_height: Height in m above the end at which a slow approach begins, 0.44 of the duration before its end;
             0 comes down in one move.
         approach_speed: Speed in m/s of the approach, which goes on below the end; raised where it would not reach it.
-        rises_first: Whether the foot is up before it moves horizontally, for something that stands beside it; only
-            of a swing with a slow approach.
+        rises_first: Whether the foot is up before it moves horizontally, for something that stands beside it.
     """
 
     start: NDArray[np.float64]
@@ -64,6 +64,7 @@ class SwingTrajectory:
     duration: float
     lift_share: float = 0.45
     lateral_hold: float = 0.06
+    lateral_end: float = 0.06
     approach_height: float = 0.0
     approach_speed: float = 0.06
     rises_first: bool = False
@@ -77,18 +78,16 @@ class SwingTrajectory:
     def arrived(self) -> float:
         """Time in s since lift-off at which the foot is above its place and moves only downwards."""
         if self.approach_height == 0.0:
-            return self.duration * (1.0 - self.lateral_hold)
+            return self.duration * (1.0 - self.lateral_end)
         return self.duration * _ARRIVED_SHARE
 
     def at(self, time: float) -> tuple[NDArray[np.float64], float]:
         """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside 0..duration."""
         time = min(self.duration, max(0.0, time))
-        first = self.lateral_hold * self.duration
+        slow = self.approach_height > 0.0
+        first = self.duration * (_FIRST_SHARE if self.rises_first else 0.0 if slow else self.lateral_hold)
         share = (time - first) / (self.arrived - first)
-        if self.approach_height > 0.0:
-            first = _FIRST_SHARE * self.duration if self.rises_first else 0.0
-            share = max(0.0, (time - first) / (self.arrived - first)) ** _SKEW
-        blend, _ = minimum_jerk(share)
+        blend, _ = minimum_jerk(max(0.0, share) ** _SKEW if slow else share)
         (x, y, _), (to_x, to_y, _) = self.start.tolist(), self.end.tolist()
         position = vector(x + blend * (to_x - x), y + blend * (to_y - y), self._height(time))
         turn = math.remainder(self.yaw_end - self.yaw_start, 2.0 * math.pi)

@@ -29,6 +29,7 @@ class SwingStart(Record, frozen=True):
         duration: Time in s from lift-off to touchdown.
         period: Control period in s.
         least_time: Time in s before touchdown from which the foot would have to be thrown to reach another place.
+        sees_ground: Whether the sole sees the ground before it touches it, and should be near to it early.
         approach_height: Height in m above the end from which it goes down slowly; 0 for one move.
         approach_speed: Speed of that in m/s.
         rises_first: Whether an obstacle is next to the foot, which therefore rises before it moves horizontally.
@@ -42,6 +43,7 @@ class SwingStart(Record, frozen=True):
     duration: float
     period: float
     least_time: float
+    sees_ground: bool = False
     approach_height: float = 0.0
     approach_speed: float = 0.06
     rises_first: bool = False

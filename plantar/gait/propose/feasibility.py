@@ -59,7 +59,7 @@ class FeasibilityRules(
     area_ratio: float = number(0.8, "1", 0, 2)
     # epsilon_t in N m: a foothold that makes this moment at the ankle is refused
     ankle_moment: float = fixed(0.0411, "weight sole")
-    surprise: float = share(1 / 60, "leg", 0.001, 0.1)
+    surprise: float = share(1 / 30, "leg", 0.001, 0.1)
     hold: float = share(2.83, "beat", 0.01, 10)
     probe_force: float = share(0.154, "weight", 1, 10000)
     probe_time: float = fixed(0.485, "beat")  # For how long in s it is probed, once it is there

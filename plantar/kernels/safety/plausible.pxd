@@ -26,6 +26,7 @@ cdef class SoleCheck:
     cdef readonly double right
     cdef readonly int left_same
     cdef readonly int right_same
+    cdef bint steady
     cdef readonly bint swapped
 
     @cython.locals(new_left=double, new_right=double, old_left=double, old_right=double, near=double)

@@ -99,6 +99,7 @@ class SoleCheck:
         self.weight = weight
         self.left = self.right = -1.0
         self.left_same = self.right_same = 0
+        self.steady = False
         self.swapped = False
 
     def update(self, left, left_count, right, right_count):
@@ -111,8 +112,9 @@ class SoleCheck:
         if self.swapped:
             new_left, new_right = new_right, new_left
         old_left, old_right, near = self.left, self.right, 0.06 * self.weight
+        # Soles that are connected the wrong way jump from steady loads; loads that change in every tick are a shock.
         if (
-            old_left >= 0.0
+            self.steady
             and math.fabs(old_left - old_right) > 0.25 * self.weight
             and math.fabs(new_left - old_right) < near
             and math.fabs(new_right - old_left) < near
@@ -121,6 +123,7 @@ class SoleCheck:
             new_left, new_right = new_right, new_left
         self.left_same = self.left_same + 1 if new_left == old_left else 0
         self.right_same = self.right_same + 1 if new_right == old_right else 0
+        self.steady = old_left >= 0.0 and math.fabs(new_left - old_left) < near and math.fabs(new_right - old_right) < near
         self.left, self.right = new_left, new_right
         return 0
 
