@@ -39,7 +39,7 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     # Power of the time that is left with which a descent that has time to spare comes to the ground
     steepness: ClassVar[float] = 3.0
     crawl_time: float = fixed(1.21, "beat")  # Time in s before the plan puts weight on the foot at which it is there
-    reserve: float = share(0.323, "beat", 0, 1)
+    reserve: float = share(0.485, "beat", 0, 1)
     late_speed_ratio: float = number(4.0, "1", 1, 20)
     turning: float = share(0.162, "beat", 0.005, 1)
     turn_rate: float = share(0.371, "rad/beat", 0.01, 20)

@@ -18,12 +18,8 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Mapping
-<<<<<<< HEAD
-from typing import ClassVar, NamedTuple
-=======
 from itertools import islice
-from typing import NamedTuple
->>>>>>> 2c5d299 (Bring a foot that sees the ground down earlier and more gently, and turn soles by what late sensors have seen)
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,16 +58,10 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
     largest_rate: float = share(0.148, "rad/beat", 0, 10)
     least_load: float = fixed(0.0178, "weight")  # Vertical force in N from which a centre of pressure means something
     press: float = share(0.0948, "weight", 0, 10000)
-<<<<<<< HEAD
     # Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground
     follows: float = fixed(4.33, "sole/rad")
-    watch: int = whole(10, "ticks", 1, 1000)
-    least_turn: ClassVar[float] = 0.002  # Turn in rad from which it is
-=======
-    follows: float = share(4.33, "sole/rad", 0, 100)
     watch: int = whole(16, "ticks", 1, 1000)
-    least_turn: float = number(0.002, "rad", 0, 0.5)
->>>>>>> 2c5d299 (Bring a foot that sees the ground down earlier and more gently, and turn soles by what late sensors have seen)
+    least_turn: ClassVar[float] = 0.0016  # Turn in rad, in the first half of them, from which it is
     carries: float = share(0.00948, "weight", 0, 1000)
     gap: float = share(1 / 300, "leg", 0, 0.05)
 

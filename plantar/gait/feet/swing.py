@@ -50,6 +50,7 @@ class SwingTrajectory:
         lift_share: Share of the duration spent rising, 0..1.
         lateral_hold: Share of the duration at its begin in which the foot moves only up.
         lateral_end: The same at its end, in which it moves only down.
+        spare: Share of the duration left when the foot is down.
         approach_height: Height in m above the end at which a slow approach begins, 0.44 of the duration before its end;
             0 comes down in one move.
         approach_speed: Speed in m/s of the approach, which goes on below the end; raised where it would not reach it.
@@ -65,6 +66,7 @@ class SwingTrajectory:
     lift_share: float = 0.45
     lateral_hold: float = 0.06
     lateral_end: float = 0.06
+    spare: float = 0.0
     approach_height: float = 0.0
     approach_speed: float = 0.06
     rises_first: bool = False
@@ -102,7 +104,7 @@ class SwingTrajectory:
             rise, _ = minimum_jerk(time / rising)
             return start + rise * (top - start)
         if self.approach_height == 0.0:
-            fall, _ = minimum_jerk((time - lifted) / (self.duration - lifted))
+            fall, _ = minimum_jerk((time - lifted) / ((1.0 - self.spare) * self.duration - lifted))
             return top + fall * (end - top)
         lasting = _APPROACH_SHARE * self.duration
         speed = max(self.approach_speed, self.approach_height / lasting)

@@ -54,6 +54,17 @@ def test_a_foot_that_rolls_over_an_edge_turns_faster() -> None:
     assert max(turns) <= GAINS.largest_rate * PERIOD + 1e-12
 
 
+def test_a_foot_whose_load_follows_its_turns_late_does_not_turn_faster() -> None:
+    foot, tilts = FootTurn(GAINS, PERIOD), [0.0] * 12  # 55 ms from a turn until the load that it moved is read
+    rates = []
+    for _ in range(60):
+        cop = np.array([0.06 + 9.5 * tilts[-12], 0.0])
+        turn = float(foot.stance(200.0, cop, np.zeros(2))[1])
+        tilts.append(tilts[-1] + turn)
+        rates.append(-turn / (GAINS.firm * 200.0 * PERIOD * abs(cop[0])))
+    assert max(rates) <= 1.0 + 1e-9
+
+
 def test_a_standing_sole_turns_about_what_carries_it() -> None:
     feet, _ = straight_plan(2)
     layout = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from plantar.gait.command import Sensors
+from plantar.kernels.safety.plausible import SoleCheck
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
@@ -125,3 +126,18 @@ def test_what_comes_first_may_be_anything() -> None:
     command = parts.controller.step(nothing)
     assert command.com[2] == pytest.approx(parts.settings.com_height, abs=0.05)
     assert parts.controller.step(nothing).feet["left"].force[2] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("loads", "swapped"),
+    [
+        ([(130, 660), (130, 655), (655, 132), (650, 135)], True),
+        # A shock that passes the load from foot to foot within ticks, as measured:
+        ([(156, 654), (155, 645), (282, 630), (476, 542), (720, 313), (199, 690), (133, 616)], False),
+    ],
+)
+def test_exchanged_soles_differ_from_a_shock(loads: list[tuple[int, int]], swapped: bool) -> None:
+    check = SoleCheck(86.0 * 9.81)
+    for left, right in loads:
+        check.update(np.array([left], dtype=float), 1, np.array([right], dtype=float), 1)
+    assert check.swapped == swapped
