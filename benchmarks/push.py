@@ -24,11 +24,11 @@ COLUMNS = {
 # robot and impulse in N s
 LINES = (("h1", 20), ("h1", 25), ("h1", 30), ("h1", 40), ("hrp2kai", 20), ("hrp2kai", 25))
 
-_NO_STEPS = ("control.step_adjustment=false", "lean=true")  # the trunk leans as it does where steps may move
+_NO_STEPS = ("control.step_adjustment=false",)
 WAYS: dict[str, tuple[str, ...]] = {
     "steps": (),
     "no step moves": _NO_STEPS,
-    "no lean": ("step_adjustment.lean=0",),
+    "no lean": ("lean=false",),
     "feedback off": (*_NO_STEPS, "feedback=false"),
 }
 """What balances, with its settings. Each changes one thing of the first, the last one of the second."""

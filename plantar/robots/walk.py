@@ -51,7 +51,8 @@ class Walk(Settings):
         crouch: How much lower than its own CoM height the robot walks, to reach further and ground that is lower than
             expected; as far as the robot can (its `largest_crouch`; over a foothold that carries a part of the sole,
             its `largest_crouch_partial`).
-        approach_height: Height above the expected ground from which the swing foot goes down slowly; it then aims as
+        approach_height: Height above the expected ground from which a swing foot that does not see it goes down slowly,
+            after ground that was elsewhere (`landing`); it then aims as
             far below it, for ground that is lower than expected.
         approach_speed: Speed of that in m/s.
         start: Duration of the first weight shift.

@@ -67,10 +67,6 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
         pause: Time in s between two changes.
         price_time: What a second costs in m/s of DCM error.
         price_place: What a metre of footstep costs in metres of DCM error, with confidence 1; with none a tenth of it.
-        lean: Roll of the trunk over the stance foot in rad per metre of the CoM's way there, at least, while steps may
-            move: a push needs of the hip roll joint what carrying the body leaves of its torque. (Upright, hrp2kai's
-            bears its body with 0.78 of it, and 16 N s hold it at its limit for 0.3 s, in which its foot stands on its
-            edge whatever the ZMP is wanted to be; leaning, for 0.07 s.)
     """
 
     method: str = choice("search", "ssp_opt")
@@ -88,7 +84,6 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
     price_place: float = number(0.5, "1", 0, 10)
     # Distance in m from its place at which a foot that has landed stands elsewhere
     misplaced: float = fixed(0.0333, "leg")
-    lean: float = share(0.48, "rad/leg", 0, 5)
 
 
 class _Foot(NamedTuple):

@@ -24,8 +24,6 @@ class BodyTargets:
 
     def __init__(self, settings: ControllerSettings, footing: Footing) -> None:
         self._settings, self._footing = settings, footing
-        adjustment = settings.step_adjustment
-        self.least_lean = max(settings.trunk_lean, 0.0 if adjustment is None else adjustment.lean)
         ground = float(np.mean([footing.motion.footholds[side][0].item(2) for side in SIDES]))
         self._ground = CoMHeight(ground, settings.period, _FOLLOWS_GROUND / settings.body.beat)
 
@@ -51,13 +49,14 @@ class BodyTargets:
         A pelvis that stays level carries the body on the stance leg's hip roll joint at a lever of half its width; the
         lean brings hip and CoM together, as people do whose hip abductors are weak.
         """
-        reach, footholds = self._settings.lean_reach, self._footing.motion.footholds
+        settings, footholds = self._settings, self._footing.motion.footholds
         (lx, ly, _), (rx, ry, _) = footholds["left"][0].tolist(), footholds["right"][0].tolist()
         x, y, _ = com.tolist()
         c, d = math.cos(torso), math.sin(torso)
         dx, dy = x - 0.5 * (lx + rx), y - 0.5 * (ly + ry)
         left = -d * dx + c * dy
-        roll = -max(self.least_lean, lean) * min(reach, max(-reach, left))
+        reach = settings.lean_reach
+        roll = -max(settings.trunk_lean, lean) * min(reach, max(-reach, left))
         e, f = math.cos(roll), math.sin(roll)
         return matrix(c, -d * e, d * f, d, c * e, -c * f, 0.0, f, e)
 

@@ -123,7 +123,9 @@ class SoleCheck:
             new_left, new_right = new_right, new_left
         self.left_same = self.left_same + 1 if new_left == old_left else 0
         self.right_same = self.right_same + 1 if new_right == old_right else 0
-        self.steady = old_left >= 0.0 and math.fabs(new_left - old_left) < near and math.fabs(new_right - old_right) < near
+        self.steady = (
+            old_left >= 0.0 and math.fabs(new_left - old_left) < near and math.fabs(new_right - old_right) < near
+        )
         self.left, self.right = new_left, new_right
         return 0
 

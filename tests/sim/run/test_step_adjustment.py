@@ -48,11 +48,11 @@ def test_small_pushes_move_no_step_and_large_ones_do(seed: int) -> None:
 def test_a_trunk_that_leans_leaves_the_hip_what_a_push_needs(seed: int) -> None:
     # Pushed over the foot that stands, after which the other one lands close beside it.
     share = []
-    for lean in ("0.48 rad/leg", "0"):
-        sets = ["push.dv=0.25", *STEPS, f"step_adjustment.lean={lean}"]
+    for lean in ("true", "false"):
+        sets = ["push.dv=0.25", *STEPS, f"walk.lean={lean}"]
         _, out = run("push", seed, *sets, robot="hrp2kai")
         share.append(out["torque_limit"]["share_of_time"])
-        assert lean == "0" or out["completed"], out["reasons"]
+        assert lean == "false" or out["completed"], out["reasons"]
     assert share[0] < 0.7 * share[1]
 
 
