@@ -52,8 +52,7 @@ class Walk(Settings):
             expected; as far as the robot can (its `largest_crouch`; over a foothold that carries a part of the sole,
             its `largest_crouch_partial`).
         approach_height: Height above the expected ground from which a swing foot that does not see it goes down slowly,
-            after ground that was elsewhere (`landing`); it then aims as
-            far below it, for ground that is lower than expected.
+            after ground that was elsewhere; it then aims as far below it.
         approach_speed: Speed of that in m/s.
         start: Duration of the first weight shift.
         end: Duration of the last weight shift.
