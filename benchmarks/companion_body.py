@@ -51,9 +51,9 @@ def report(folder: Path) -> None:
         for row in rows:
             kept = {name: row[name] for name in COLUMNS[case.scene]}
             gathered.append([case.folder, row["seed"], row["completed"], json.dumps(kept), row["reasons"]])
-        told = "; ".join(f"{name} {median_and_range(rows, name)}" for name in COLUMNS[case.scene])
+        shown = "; ".join(f"{name} {median_and_range(rows, name)}" for name in COLUMNS[case.scene])
         name = f"`{case.scene}`, {case.what}" if case.what else f"`{case.scene}`"
-        lines.append(f"| {name} | {completed(rows)} | {told} |")
+        lines.append(f"| {name} | {completed(rows)} | {shown} |")
     write_rows(HERE / "companion_body.csv", ("case", "seed", "completed", "figures", "reasons"), gathered)
     write_table(HERE / "companion_body.md", lines)
 

@@ -2,7 +2,7 @@
 
 Finds the push from each side, over the one foot and the other, and the beam's width at which half of the runs are
 completed, on fresh seeds, to a tenth at 95 %, and writes limits.md beside this file. FOLDER keeps the rows: what was
-stopped goes on there. Runs as many processes as there are cores; runs and processor time are told, since a machine's
+stopped goes on there. Runs as many processes as there are cores; runs and processor time are outcome, since a machine's
 other work does not change these.
 """
 
@@ -53,16 +53,16 @@ def main(folder: Path, names: list[str]) -> None:
         found = run_sweep(plan, folder / name, workers=os.cpu_count() or 1)
         used = processor_time() - before
         print(f"{name}: {found['runs']} runs took {used:.0f} s of processor time", file=sys.stderr)
-        for told in found["limits"]:
-            low, high = told["interval"] or (float("nan"), float("nan"))
+        for outcome in found["limits"]:
+            low, high = outcome["interval"] or (float("nan"), float("nan"))
             cells = (
-                " ".join([f"`{scene}`", *told["settings"].values()]),
+                " ".join([f"`{scene}`", *outcome["settings"].values()]),
                 robot,
-                f"{told['limit']:.3g} {unit}" if told["reached"] else "not known so well",
+                f"{outcome['limit']:.3g} {unit}" if outcome["reached"] else "not known so well",
                 f"{low:.3g} to {high:.3g}",
-                f"{told['width']:.1%}" if told["width"] is not None else "-",
-                str(told["runs"]),
-                str(told["completed"]),
+                f"{outcome['width']:.1%}" if outcome["width"] is not None else "-",
+                str(outcome["runs"]),
+                str(outcome["completed"]),
                 f"{used / found['runs']:.2f}" if found["runs"] else "-",
             )
             lines.append(f"| {' | '.join(cells)} |")

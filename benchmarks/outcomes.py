@@ -60,10 +60,10 @@ def run(scripts: Sequence[ModuleType], minutes: float) -> None:
             row = add_row(script.BENCHMARK, case, job, made)
             done += 1
             hours = (len(jobs) - i - 1) * (time.monotonic() - began) / done / 3600.0
-            told = f"{row['completed']} {row['failed']}".strip()
+            outcome = f"{row['completed']} {row['failed']}".strip()
             place = f"[{len(jobs) - i - 1} to come, {hours:.1f} h]"
             print(
-                f"{place} {script.__name__}: {case.name} {case.robot} {job[0]} {job[1]}: {told}",
+                f"{place} {script.__name__}: {case.name} {case.robot} {job[0]} {job[1]}: {outcome}",
                 file=sys.stderr,
                 flush=True,
             )
@@ -92,9 +92,9 @@ def again(scripts: Sequence[ModuleType], count: int) -> bool:
         other = differences(row, run_row(benchmark, case, job, row["commit"]) | {"plant": row.get("plant", "")})
         held += not {"completed", "failed"} & set(other)
         same += not other
-        told = f"differs in {', '.join(other)}" if other else "the same"
+        outcome = f"differs in {', '.join(other)}" if other else "the same"
         place = f"[{len(drawn) - i - 1} to come]"
-        print(f"{place} {key[0]}: {case.name} {case.robot} {row['seed']}: {told}", file=sys.stderr, flush=True)
+        print(f"{place} {key[0]}: {case.name} {case.robot} {row['seed']}: {outcome}", file=sys.stderr, flush=True)
     figures = f"{same} of them in every figure; drawn from {len(known)}"
     print(f"{held} of {len(drawn)} rows have the same outcome at {commit()}, {figures}")
     return held == len(drawn)

@@ -68,7 +68,7 @@ def outcome(rows: Sequence[dict[str, str]], name: str, robot: str) -> tuple[int,
     return sum(mine), len(mine)
 
 
-def limit_told(item: str) -> str:
+def limit_text(item: str) -> str:
     """What an item is drawn from at level 2, with its unit."""
     limit, unit, _ = RANGES[item]
     return f"{limit:.3g} {unit}".removesuffix(" 1")
@@ -84,7 +84,7 @@ def table_alone(rows: Sequence[dict[str, str]]) -> list[str]:
                 found = [outcome(rows, _alone(item, level, scene), robot) for level in LEVELS]
                 if any(runs for _, runs in found):
                     cells = " | ".join(f"{good}/{runs}" if runs else "" for good, runs in found)
-                    lines.append(f"| `{item}`, {limit_told(item)} | `{scene}` | {robot} | {cells} |")
+                    lines.append(f"| `{item}`, {limit_text(item)} | `{scene}` | {robot} | {cells} |")
     return lines
 
 
@@ -127,12 +127,12 @@ def draw(rows: Sequence[dict[str, str]], path: Path) -> None:
             for column, (good, runs) in enumerate(counts[k]):
                 if runs:
                     dark = good / runs in (0.0, 1.0)
-                    told = f"{good}/{runs}"
-                    axis.text(column, row, told, ha="center", va="center", fontsize=7, color="w" if dark else "k")
+                    text = f"{good}/{runs}"
+                    axis.text(column, row, text, ha="center", va="center", fontsize=7, color="w" if dark else "k")
         axis.set_title(title, fontsize=9)
         axis.set_xticks(range(len(LEVELS)), [f"{level:g}" for level in LEVELS], fontsize=8)
         axis.set_xlabel("level [1]", fontsize=8)
-        axis.set_yticks(range(len(items)), [f"{i.replace('_', ' ')} ({limit_told(i)})" for i in items], fontsize=8)
+        axis.set_yticks(range(len(items)), [f"{i.replace('_', ' ')} ({limit_text(i)})" for i in items], fontsize=8)
     axes[0][0].set_ylabel("item (its limit at level 2)", fontsize=8)
     bar = figure.colorbar(image, ax=axes[0].tolist(), location="right", ticks=[0.0, 0.5, 1.0])
     bar.set_label("completed runs [1], white: not run", fontsize=8)

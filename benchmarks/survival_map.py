@@ -241,18 +241,18 @@ def report() -> None:
                     lifted = [known[c.name(goal(c), j)][0] for j in (joint, ALL) if c.name(goal(c), j) in known]
                     strong += [any(lifted)] if any(lifted) or len(lifted) == 2 else []
             middle = f"{np.median(shares):.2f} of {len(asked)}" if asked else "-"
-            told = ", ".join(
+            ended_by = ", ".join(
                 f"{joint}: {len(alone)} (lifted {alone.count(True)} of {len(alone) - alone.count(None)} tried)"
                 for joint, alone in held.items()
             )
             saved = f"{sum(strong)} of {len(strong)}" if strong else "-"
             lines.append(
-                f"| {variant} | {walk} | {sum(reached)} of {len(cells)} | {middle} | {saved} | {told or '-'} |"
+                f"| {variant} | {walk} | {sum(reached)} of {len(cells)} | {middle} | {saved} | {ended_by or '-'} |"
             )
             if variant == "as it is":
                 missed = {(c.angle, c.phase) for c, good in zip(cells, reached, strict=True) if not good}
-                told_shares = {(c.angle, c.phase): s for c, s in zip(asked, shares, strict=True)}
-                figure.colorbar(draw(axis, walk, told_shares, missed), ax=axis, shrink=0.8)
+                known_shares = {(c.angle, c.phase): s for c, s in zip(asked, shares, strict=True)}
+                figure.colorbar(draw(axis, walk, known_shares, missed), ax=axis, shrink=0.8)
     save_figure(figure, FOLDER / "survival_map.png")
     left = sum(1 for _ in missing())
     lines += ["", f"{origin(BENCHMARK, left)} That counts cells with runs still to come."]

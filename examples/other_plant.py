@@ -16,7 +16,7 @@ seed = int(sys.argv[1]) if len(sys.argv) > 1 else 0
 SHORT = ["steps=2", "settle=0.5"]
 
 
-def told(summary):
+def outcome_text(summary):
     """How a walk went, in a line."""
     outcome = "completed" if summary["completed"] else ", ".join(reason["criterion"] for reason in summary["reasons"])
     return (
@@ -29,7 +29,7 @@ def told(summary):
 for level in (0, 0.2, 0.5):
     scene = load_scene("flat", [*SHORT, "plant=random", f"plant.level={level}"])
     summary = Simulation(scene, seed).run()
-    print(f"level {level:g}: {told(summary)}")
+    print(f"level {level:g}: {outcome_text(summary)}")
     for name, value in summary.get("plant", {}).items():
         print(f"    {name}: {np.round(value, 4).tolist()}")
 
@@ -37,7 +37,7 @@ for level in (0, 0.2, 0.5):
 simulation = Simulation(load_scene("flat", [*SHORT, "mass_ratio=1.05"]), seed)
 true_mass = float(simulation.world.model.body_subtreemass[simulation.world.torso])
 print(f"the controller takes it for {simulation.legs.mass:.1f} kg, the ground carries {true_mass:.1f} kg")
-print(f"mass alone: {told(simulation.run())}")
+print(f"mass alone: {outcome_text(simulation.run())}")
 
 # What the seed draws is known without a run, for example to see what a hundred robots of one make would be like.
 plant = load_scene("flat", ["com_offset=random"]).plant

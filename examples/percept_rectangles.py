@@ -14,16 +14,16 @@ beam = np.abs(y - 0.35 * x) < 0.03  # the sole stands across a beam that runs at
 percept = Percept(sole, Reading(0.0, np.where(beam, 10.0, 0.0)))
 
 
-def told(name, ring):
+def sizes(name, ring):
     print(f"{name}: {1e4 * abs(polygon.area(ring)):.1f} cm^2, corners {np.round(ring, 3).tolist()}")
 
 
 print(f"cells {1e4 * percept.contact_area:.1f} cm^2, their hull {1e4 * percept.support_area:.1f} cm^2")
-told("box along the sole", percept.bounding_box_in_sole)
-told("box at any angle", percept.oriented_box_in_sole)
-told("largest rectangle inside, along the sole", percept.inscribed_rectangle_in_sole)
-told("largest rectangle inside, at any angle", percept.inscribed_rectangle_any_angle_in_sole)
-told("the same, 5 mm from every edge", percept.safe_rectangle_in_sole(0.005))
+sizes("box along the sole", percept.bounding_box_in_sole)
+sizes("box at any angle", percept.oriented_box_in_sole)
+sizes("largest rectangle inside, along the sole", percept.inscribed_rectangle_in_sole)
+sizes("largest rectangle inside, at any angle", percept.inscribed_rectangle_any_angle_in_sole)
+sizes("the same, 5 mm from every edge", percept.safe_rectangle_in_sole(0.005))
 outlined = percept.outline_rectangle_any_angle_in_sole
-told("within the exact outline of the cells, at any angle", outlined.corners)
+sizes("within the exact outline of the cells, at any angle", outlined.corners)
 print(f"no other rectangle in it is larger by more than {100 * outlined.gap:.2g} %")

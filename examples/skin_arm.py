@@ -45,8 +45,8 @@ for k in range(3000):  # 3 s; the ball comes 8 cm nearer and goes back
     sensor.apply(data)
     robot.update(data.qpos, data.qvel, data.time)
     reading = sensor.read(data)
-    felt = touch.demand(robot, reading)
-    external = None if felt is None else felt.jacobian.T @ felt.force / touch.gain
+    measured = touch.demand(robot, reading)
+    external = None if measured is None else measured.jacobian.T @ measured.force / touch.gain
     data.ctrl[:] = stack.step(robot, reading, external).torque
     mujoco.mj_step2(model, data)
     largest = max(largest, float(np.linalg.norm(data.body("link4").xpos - elbow)))

@@ -28,9 +28,9 @@ for name in ("square", "fsr_402", "sheet"):
     face = [tuple(corner) for corner in layout.outline]
     percept = Percept(layout, Reading(0.0, SolePressure(layout).spread(face, LOAD, COP)))
     x, y = percept.position_cop_in_sole
-    felt = 100.0 * layout.areas.sum() / layout.sole_area
+    measured = 100.0 * layout.areas.sum() / layout.sole_area
     print(
-        f"{name}: {len(layout)} cells feel {felt:.0f} % of the sole and carry {percept.vertical_force:.1f} N; "
+        f"{name}: {len(layout)} cells feel {measured:.0f} % of the sole and carry {percept.vertical_force:.1f} N; "
         f"CoP {1e3 * x:.1f} mm forward, {1e3 * y:.1f} mm left; support polygon {1e4 * percept.support_area:.0f} cm^2"
     )
 

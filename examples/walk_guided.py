@@ -13,8 +13,8 @@ short = ["steps=8", "way=0.15", "toward=backward", "within=0"]  # 0.15 m, beginn
 
 for name, arm in (("an arm that yields", []), ("a stiff arm", ["arm.gain=0", "spring=8", "damper=0.15"])):
     summary = run_scene(load_scene("guide", [*short, *arm]), seed)
-    told = summary["guide"]
+    guided = summary["guide"]
     print(
-        f"{name} gave way by {1e3 * told['arm_yielded_m']:.0f} mm under at most {told['largest_force_N']:.0f} N, "
-        f"and the feet followed by {1e3 * told['feet_followed_m']:.0f} mm in {summary['steps_taken']} steps"
+        f"{name} gave way by {1e3 * guided['arm_yielded_m']:.0f} mm under at most {guided['largest_force_N']:.0f} N, "
+        f"and the feet followed by {1e3 * guided['feet_followed_m']:.0f} mm in {summary['steps_taken']} steps"
     )

@@ -96,14 +96,15 @@ def main(path: str, scene: str = "flat") -> None:
             plane.fill(*ring[:, turn].T, color=COLOURS["edge"], alpha=0.04, lw=0.0)
             if n == 0:
                 plane.fill([], [], color=COLOURS["edge"], alpha=0.4, label="support found")
-    low, high = com[:, turn].min(axis=0) - 0.25, com[:, turn].max(axis=0) + 0.25
+    around = np.array([0.25, 0.15])
+    low, high = com[:, turn].min(axis=0) - around, com[:, turn].max(axis=0) + around
     plane.set_xlim(low[0], high[0])
     plane.set_ylim(*((low[1], high[1]) if turn == [0, 1] else (high[1], low[1])))
     plane.set_aspect("equal")
     plane.set_xlabel(f"{'xy'[turn[0]]} [m]")
     plane.set_ylabel(f"{'xy'[turn[1]]} [m]")
     plane.set_title("the walk in the plane", fontsize=9)
-    plane.legend(fontsize=7, ncol=5, loc="upper center", bbox_to_anchor=(0.5, -0.32), frameon=False)
+    plane.legend(fontsize=7, ncol=6, loc="upper center", bbox_to_anchor=(0.5, -0.32), frameon=False)
     save_figure(figure, path)
 
 

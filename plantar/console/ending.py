@@ -46,7 +46,7 @@ INTERRUPTED = 128 + signal.SIGINT
 """Exit code after Ctrl-C."""
 
 _AGAIN = 0.01  # s until an interruption that Python ignored comes once more
-_NOBODY_READS = 128 + 13  # SIGPIPE, which Windows has not
+_OUTPUT_CLOSED = 128 + 13  # SIGPIPE, which Windows does not have
 _ENDED_BY = {"SIGTERM": "ended (SIGTERM)", "SIGHUP": "ended: its terminal was closed (SIGHUP)"}
 
 
@@ -151,23 +151,23 @@ def run(command: Callable[[], int | None]) -> int:
             if sys.stdout is not None:
                 sys.stdout.flush()
         except WorkerError as error:
-            return _told(error, FAILED)
+            return _ended(error, FAILED)
         except PlantarError as error:
-            return _told(error, BAD_INPUT)
+            return _ended(error, BAD_INPUT)
         except KeyboardInterrupt:
             code = INTERRUPTED
         except Terminated as end:
-            return _told(end.text, int(str(end.code)))
+            return _ended(end.text, int(str(end.code)))
         except BrokenPipeError:
             _drop_output()
-            return _NOBODY_READS
+            return _OUTPUT_CLOSED
         except MemoryError:
-            return _told("not enough memory for this input", BAD_INPUT)
+            return _ended("not enough memory for this input", BAD_INPUT)
         except OSError as error:
             where = "cannot write the output" if error.filename is None else one_line(os.fsdecode(error.filename))
             _drop_output()
-            return _told(f"{where}: {error.strerror or error}", BAD_INPUT)
-    return _told("interrupted", code) if code == INTERRUPTED else code
+            return _ended(f"{where}: {error.strerror or error}", BAD_INPUT)
+    return _ended("interrupted", code) if code == INTERRUPTED else code
 
 
 @contextmanager
@@ -190,7 +190,7 @@ def ignore_further_interrupts() -> Iterator[None]:
         raise
 
 
-def _told(text: object, code: int) -> int:
+def _ended(text: object, code: int) -> int:
     with suppress(OSError):
         print(f"plantar: {one_line(text)}", file=sys.stderr, flush=True)
     return code

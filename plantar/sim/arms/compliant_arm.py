@@ -108,24 +108,24 @@ class CompliantArm:
         self.read()
         self.step(None)
 
-    def step(self, felt: SkinReading | None) -> None:
+    def step(self, measured: SkinReading | None) -> None:
         """Set the motors' torques for a control period, by the last reading of the encoders.
 
         Args:
-            felt: What the skin states; None where no one reads it.
+            measured: What the skin states; None where no one reads it.
         """
         external = None
-        if felt is not None and self._skin is not None:
-            self._force = self._force + self._share * (np.nan_to_num(felt.force) - self._force)
-            felt = SkinReading(felt.time, self._force, felt.distance)
-            external = self._external(self._skin, felt)
-        torque = self._stack.step(self._robot, felt, external).torque
+        if measured is not None and self._skin is not None:
+            self._force = self._force + self._share * (np.nan_to_num(measured.force) - self._force)
+            measured = SkinReading(measured.time, self._force, measured.distance)
+            external = self._external(self._skin, measured)
+        torque = self._stack.step(self._robot, measured, external).torque
         self._world.data.ctrl[self._motors] = np.clip(torque, -self._efforts, self._efforts)
 
-    def _external(self, skin: BodySkin, felt: SkinReading) -> NDArray[np.float64] | None:
+    def _external(self, skin: BodySkin, measured: SkinReading) -> NDArray[np.float64] | None:
         """Generalized force (k,) of what the arm's skin feels; None for nothing."""
         total: NDArray[np.float64] | None = None
-        for link, wrench, _ in link_wrenches(skin, felt.force, self._own & (felt.force >= skin.thresholds)):
+        for link, wrench, _ in link_wrenches(skin, measured.force, self._own & (measured.force >= skin.thresholds)):
             turned = (wrench.reshape(2, 3) @ self._robot.pose(link)[1].T).ravel()
             own = turned @ self._robot.jacobian(link)
             total = own if total is None else total + own

@@ -15,7 +15,7 @@ from plantar.errors import InputError
 from plantar.optional_library import need_libraries
 from plantar.sim.libraries import LIBRARIES
 
-__all__ = ["BenchOptions", "Told", "measure"]
+__all__ = ["BenchOptions", "Measured", "measure"]
 
 Progress = Callable[[float, str], None]
 
@@ -45,7 +45,7 @@ class BenchOptions:
     seeds: int = 100
 
 
-class Told(NamedTuple):
+class Measured(NamedTuple):
     """What was measured.
 
     Attributes:
@@ -58,7 +58,7 @@ class Told(NamedTuple):
     failures: tuple[str, ...] = ()
 
 
-def measure(what: str, options: BenchOptions, output: Path) -> Told:
+def measure(what: str, options: BenchOptions, output: Path) -> Measured:
     """Measure a kind, or all of them.
 
     Args:
@@ -77,20 +77,20 @@ def measure(what: str, options: BenchOptions, output: Path) -> Told:
     if what not in allowed:
         raise InputError(f"cannot measure '{what}'; allowed: {', '.join(allowed)}")
     _check(what, options)
-    with progress_bar() as tell:
+    with progress_bar() as progress:
         if what in _TABLES:
-            told = _TABLES[what](output, options, tell)
-            told.result["files"] = [str(output / name) for name in told.result["files"]]
-            return told
-        return _measure_parts(what, options, output, tell)
+            measured = _TABLES[what](output, options, progress)
+            measured.result["files"] = [str(output / name) for name in measured.result["files"]]
+            return measured
+        return _measure_parts(what, options, output, progress)
 
 
 def _check(what: str, options: BenchOptions) -> None:
     """Refuse options that would do nothing."""
-    for told in fields(options):
-        takers = _TAKEN_BY[told.name]
-        if getattr(options, told.name) != told.default and what not in takers:
-            raise InputError(f"--{told.name} is for {' and '.join(takers)}, not '{what}': plantar bench {takers[0]}")
+    for option in fields(options):
+        takers = _TAKEN_BY[option.name]
+        if getattr(options, option.name) != option.default and what not in takers:
+            raise InputError(f"--{option.name} is for {' and '.join(takers)}, not '{what}': plantar bench {takers[0]}")
 
 
 _TAKEN_BY: Mapping[str, tuple[str, ...]] = {
@@ -105,35 +105,35 @@ _TAKEN_BY: Mapping[str, tuple[str, ...]] = {
 }
 
 
-def _scenes(output: Path, options: BenchOptions, tell: Progress) -> Told:
+def _scenes(output: Path, options: BenchOptions, progress: Progress) -> Measured:
     """Walks over the settings that trade run time against error."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.scenes.scenes_report import measure_scenes, scenes_text
 
-    result = measure_scenes(output, tell, options.scene, options.robot, options.quick)
-    return Told(result, scenes_text(result) + file_lines(str(output / name) for name in result["files"]))
+    result = measure_scenes(output, progress, options.scene, options.robot, options.quick)
+    return Measured(result, scenes_text(result) + file_lines(str(output / name) for name in result["files"]))
 
 
-def _stress(output: Path, options: BenchOptions, tell: Progress) -> Told:
+def _stress(output: Path, options: BenchOptions, progress: Progress) -> Measured:
     """The whole loop in random scenarios."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
 
-    result = measure_stress(output, options.scenarios, options.first, tell)
+    result = measure_stress(output, options.scenarios, options.first, progress)
     failures = [f"{len(result['failures'])} of {options.scenarios} scenarios failed"] if result["failures"] else []
-    return Told(result, stress_loop_text(result), tuple(failures))
+    return Measured(result, stress_loop_text(result), tuple(failures))
 
 
-def _footholds(output: Path, options: BenchOptions, tell: Progress) -> Told:
+def _footholds(output: Path, options: BenchOptions, progress: Progress) -> Measured:
     """Any controller or policy on beams, stones, slopes, steps and under pushes."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.footholds.measure_footholds import footholds_text, measure_footholds
 
-    result = measure_footholds(output, options.policy, options.robot, options.seeds, options.scene, tell)
-    return Told(result, footholds_text(result) + "\n" + file_lines(str(output / name) for name in result["files"]))
+    result = measure_footholds(output, options.policy, options.robot, options.seeds, options.scene, progress)
+    return Measured(result, footholds_text(result) + "\n" + file_lines(str(output / name) for name in result["files"]))
 
 
-_TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Told]] = {
+_TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
     "scenes": _scenes,
     "stress": _stress,
     "footholds": _footholds,
@@ -141,37 +141,37 @@ _TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Told]] = {
 """Kinds whose tables grow in the folder itself and are gone on with."""
 
 
-def _kernels(folder: Path, options: BenchOptions, tell: Progress) -> Told:
+def _kernels(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
     """Kernels beside libraries."""
     need_libraries("sim", "scipy", "cv2")
     from plantar.bench.report import kernel_text, measure_kernels
 
-    result = measure_kernels(folder, tell, rounds=3 if options.quick else 9)
-    return Told(result, kernel_text(result))
+    result = measure_kernels(folder, progress, rounds=3 if options.quick else 9)
+    return Measured(result, kernel_text(result))
 
 
-def _contact(folder: Path, options: BenchOptions, tell: Progress) -> Told:
+def _contact(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
     """Contact models beside MuJoCo's exact wrench."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.contact_models.report import contact_text, measure_contact
 
-    result = measure_contact(folder, options.layout, tell)
+    result = measure_contact(folder, options.layout, progress)
     failed = () if result["holds"] else ("the chosen contact model is not as right as it must be",)
-    return Told(result, contact_text(result), failed)
+    return Measured(result, contact_text(result), failed)
 
 
-def _skip(folder: Path, options: BenchOptions, tell: Progress) -> Told:
+def _skip(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
     """Walks that skip what they do not need, and walks that skip nothing."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.skipping import SCENES, measure_skipping, skip_text
 
     few, rounds = (SCENES[:1], 1) if options.quick else (SCENES, 3)
-    result = measure_skipping(folder, tell, few, rounds)
+    result = measure_skipping(folder, progress, few, rounds)
     same = "a run that skips what its scene does not need moves otherwise than one that does not"
-    return Told(result, skip_text(result), () if result["same_motion"] else (same,))
+    return Measured(result, skip_text(result), () if result["same_motion"] else (same,))
 
 
-_PARTS: Mapping[str, Callable[[Path, BenchOptions, Progress], Told]] = {
+_PARTS: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
     "kernels": _kernels,
     "contact": _contact,
     "skip": _skip,
@@ -179,20 +179,20 @@ _PARTS: Mapping[str, Callable[[Path, BenchOptions, Progress], Told]] = {
 """Kinds that write all their files at their end, in the order of `all`."""
 
 
-def _measure_parts(what: str, options: BenchOptions, output: Path, tell: Progress) -> Told:
+def _measure_parts(what: str, options: BenchOptions, output: Path, progress: Progress) -> Measured:
     """One part, or all of them with scenes, the papers' experiments and the page; and bench.json."""
     names = tuple(_PARTS) if what == "all" else (what,)
     count = len(names) + (2 if what == "all" else 0)
-    shares = [part_of(tell, i / count, 1 / count) for i in range(count)]
+    shares = [part_of(progress, i / count, 1 / count) for i in range(count)]
     result: dict[str, Any] = {}
     texts: list[str] = []
     failures: list[str] = []
     with output_folder(output) as folder:
         for name, share in zip(names, shares, strict=False):
-            told = _PARTS[name](folder, options, share)
-            result[name] = told.result
-            texts.append(told.text)
-            failures += told.failures
+            measured = _PARTS[name](folder, options, share)
+            result[name] = measured.result
+            texts.append(measured.text)
+            failures += measured.failures
         if what == "all":
             from plantar.sim.bench.page.measure_page import measure_page
 
@@ -200,4 +200,4 @@ def _measure_parts(what: str, options: BenchOptions, output: Path, tell: Progres
         files = [str(output / name) for part in result.values() for name in part.pop("files")]
         result["files"] = [*files, str(output / "bench.json")]
         write_text(folder / "bench.json", json.dumps(result, indent=1) + "\n")
-    return Told(result, "\n".join(texts) + file_lines(result["files"]), tuple(failures))
+    return Measured(result, "\n".join(texts) + file_lines(result["files"]), tuple(failures))

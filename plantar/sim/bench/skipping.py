@@ -142,7 +142,7 @@ def _counts(run: WatchedSimulation, summary: Mapping[str, Any]) -> dict[str, dic
     shapes = [name for name in Percept.members() if any(word in name for word in _SHAPES)]
     others = [name for name in Percept.members() if name not in shapes]
     skins = [sensor.skin for sensor in run.sensors.skins.values()]
-    told = summary["skipped"]
+    counted = summary["skipped"]
     computed = {
         "polygons and other shapes": sum(run.members[name] for name in shapes),
         "other percept members": sum(run.members[name] for name in others),
@@ -156,10 +156,10 @@ def _counts(run: WatchedSimulation, summary: Mapping[str, Any]) -> dict[str, dic
         "polygons and other shapes": len(shapes) * run.percepts - computed["polygons and other shapes"],
         "other percept members": len(others) * run.percepts - computed["other percept members"],
         "taxel forces": sum(len(skin) * skin.in_air for skin in skins),
-        "proximity rays": int(told.get("proximity_rays", 0)),
+        "proximity rays": int(counted.get("proximity_rays", 0)),
         "steps of the IK with projectors": run.legs.inverse.plain,
-        "recorded ticks": int(told["recorded_ticks"]),
-        "rendered frames": int(told["rendered_frames"]),
+        "recorded ticks": int(counted["recorded_ticks"]),
+        "rendered frames": int(counted["rendered_frames"]),
     }
     return {"skipped": skipped, "computed": computed}
 

@@ -100,15 +100,15 @@ class SkinElectronics:
         s, levels = self.settings, self._levels
         noise = self._rng.standard_normal((2, len(self._skin))) * s.noise
         pressed = np.rint((force / (force + self._half_force) + noise[0]) * levels).clip(0.0, levels - 1.0)
-        told_force = s.half_force * pressed / (levels - pressed)
+        measured_force = s.half_force * pressed / (levels - pressed)
         near = np.maximum(distance, 0.0)
         seen = np.rint((self._half_distance / (near + self._half_distance) + noise[1]) * levels).clip(1.0, levels)
-        told_distance = s.half_distance * (levels - seen) / seen
-        told_distance[told_distance >= self._skin.ranges] = np.inf
+        measured_distance = s.half_distance * (levels - seen) / seen
+        measured_distance[measured_distance >= self._skin.ranges] = np.inf
         warmth = None
         if temperature is not None:
             warmth = temperature + self._rng.standard_normal(len(temperature)) * s.temperature_noise
-        for told in (told_force, told_distance, warmth):
-            if told is not None:
-                told[self._dead] = np.nan
-        return SkinReading(time, told_force, told_distance, warmth)
+        for values in (measured_force, measured_distance, warmth):
+            if values is not None:
+                values[self._dead] = np.nan
+        return SkinReading(time, measured_force, measured_distance, warmth)

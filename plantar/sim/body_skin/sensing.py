@@ -24,7 +24,7 @@ from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 __all__ = ["LIFT", "SkinSensing", "SkinSensor"]
 
 LIFT = 0.02
-"""Depth in m below the surface from which rays start: what sinks in deeper is not felt."""
+"""Depth in m below the surface from which rays start: what sinks in deeper is not measured."""
 
 _CONTACT_BIT = 1 << 20  # MuJoCo's bit of contacts among obstacles and what has no skin
 _LONGEST_STEP = 0.02  # s between two physics steps over which an obstacle's velocity is taken

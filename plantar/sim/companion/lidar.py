@@ -13,7 +13,7 @@ from plantar.settings.schema import Settings, number, whole
 
 __all__ = ["Lidar", "LidarSettings"]
 
-_NOTHING = 1e6  # m: distance of a ray that meets nothing
+_NO_ECHO = 1e6  # m: distance of a ray that meets nothing
 
 
 class LidarSettings(Settings):
@@ -64,12 +64,12 @@ class Lidar:
         rotation = data.xmat[self._base].reshape(3, 3)
         origin = data.xpos[self._base] + rotation @ np.array([0.0, 0.0, s.height])
         distances = self._distances(data, origin, self._ways @ rotation.T) + self._rng.normal(0.0, s.noise, s.rays)
-        distances[~((distances > 0.0) & (distances < s.reach))] = _NOTHING
+        distances[~((distances > 0.0) & (distances < s.reach))] = _NO_ECHO
         group = np.cumsum(np.abs(np.diff(distances, prepend=distances[0])) > s.gap)
         if abs(distances[0] - distances[-1]) <= s.gap:  # one thing across the scan's beginning
             group[group == group[-1]] = group[0]
         nearest = [own[np.argmin(distances[own])] for own in (np.flatnonzero(group == g) for g in np.unique(group))]
-        return np.array([self._ways[i, :2] * distances[i] for i in nearest if distances[i] < _NOTHING]).reshape(-1, 2)
+        return np.array([self._ways[i, :2] * distances[i] for i in nearest if distances[i] < _NO_ECHO]).reshape(-1, 2)
 
     def _distances(self, data: Any, origin: NDArray[np.float64], ways: NDArray[np.float64]) -> NDArray[np.float64]:
         """Distance (rays,) along each ray to what is not the machine; inf where nothing is."""

@@ -96,10 +96,10 @@ class ContactForce(Task):
 
     def _error(self, skin: SkinReading, time: float) -> float:
         """What is missing, in N; sums it up over time while the force counts."""
-        felt = np.nan_to_num(skin.force[self._own], nan=0.0, posinf=0.0)
+        measured = np.nan_to_num(skin.force[self._own], nan=0.0, posinf=0.0)
         seen = skin.distance[self._own]
         seen = seen[np.isfinite(seen)]
-        self.force = float(self._push @ felt)
+        self.force = float(self._push @ measured)
         self.distance = float(seen.mean()) if len(seen) else np.inf
         far = min(self.distance, self._reach) - self.target_distance
         missing = self.target_force - self.force

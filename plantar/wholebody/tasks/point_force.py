@@ -1,4 +1,4 @@
-"""A force at a point of the robot that is given, not felt (T 3.4, 3.29)."""
+"""A force at a point of the robot that is given, not measured (T 3.4, 3.29)."""
 
 from __future__ import annotations
 

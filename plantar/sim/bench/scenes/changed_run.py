@@ -178,8 +178,8 @@ class TracedRun(ChangedRun):
 
     def keep_landings(self, summary: Mapping[str, Any]) -> None:
         """Keep the landings that the summary of the run shows."""
-        told = (summary["landing_sides"], summary["landings_s"], summary["impacts_N"])
-        self._landings = tuple(zip(*told, strict=True))
+        named = (summary["landing_sides"], summary["landings_s"], summary["impacts_N"])
+        self._landings = tuple(zip(*named, strict=True))
 
     def trace(self) -> Trace:
         """What happened; after the run."""

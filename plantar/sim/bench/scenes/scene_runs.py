@@ -91,15 +91,15 @@ class SceneRuns:
                 return _costs(ChangedRun(*job.case[:2], job.setting, job.seed, job.case.walk))
             if job.kind == "noise":
                 run = TracedRun(*job.case[:2], OWN, job.seed, job.case.walk)
-                told = _costs(run)
+                outcome = _costs(run)
                 trace = run.trace()
             else:
-                told, trace = self._traced(job.case, job.setting, job.seed)
+                outcome, trace = self._traced(job.case, job.setting, job.seed)
             error = trace_error(trace, self._traced(job.case, setting_named(job.against), job.seed)[1])
         except PlantarError as failure:
             return {"completed": f"no: {failure}"}
         return {
-            **told,
+            **outcome,
             "com_mm": f"{1e3 * error.com_m:.4f}",
             "zmp_mm": f"{1e3 * error.zmp_m:.3f}",
             "force": f"{error.force:.5f}",
@@ -113,8 +113,8 @@ class SceneRuns:
         if key not in self._traces:
             self._traces = {k: v for k, v in self._traces.items() if k[0] == case and k[2] == seed}
             run = TracedRun(*case[:2], setting, seed, case.walk, noisy=False)
-            told = _costs(run)
-            self._traces[key] = told, run.trace()
+            outcome = _costs(run)
+            self._traces[key] = outcome, run.trace()
         return self._traces[key]
 
 

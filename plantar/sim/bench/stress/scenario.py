@@ -88,9 +88,9 @@ class Scenario:
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Scenario:
         """A scenario from what `as_dict` gave."""
-        told = dict(values)
-        told["settings"], told["place"] = tuple(told.get("settings", ())), tuple(told.get("place", (0.0, 0.0, 0.0)))
-        return cls(**told | {"faults": Faults(**told.get("faults", {}))})
+        known = dict(values)
+        known["settings"], known["place"] = tuple(known.get("settings", ())), tuple(known.get("place", (0.0, 0.0, 0.0)))
+        return cls(**known | {"faults": Faults(**known.get("faults", {}))})
 
 
 def draw_scenario(number: int) -> Scenario:
@@ -133,11 +133,11 @@ def draw_scenario(number: int) -> Scenario:
 def _drawn(kind: type[Any], rng: np.random.Generator, chance: float) -> dict[str, str]:
     """Some of a table's numbers, each anywhere in its range: at either end now and then."""
     found: dict[str, str] = {}
-    for told in fields(kind):
-        low, high = (float(told.metadata.get(end, math.nan)) for end in ("low", "high"))
+    for setting in fields(kind):
+        low, high = (float(setting.metadata.get(end, math.nan)) for end in ("low", "high"))
         if not (math.isfinite(low) and math.isfinite(high)) or rng.random() >= chance:
             continue
         at = rng.choice([0.0, 1.0, rng.random(), rng.random() ** 4])
         value = low + float(at) * (high - low)
-        found[told.name] = str(round(value)) if isinstance(told.default, int) else f"{value:.6g}"
+        found[setting.name] = str(round(value)) if isinstance(setting.default, int) else f"{value:.6g}"
     return found

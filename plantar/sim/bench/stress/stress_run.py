@@ -106,7 +106,7 @@ def run_scenario(scenario: Scenario, longest: float = LONGEST) -> Outcome:
         except PlantarError as error:
             return Outcome("refused", str(error), 0.0)
         except Exception as error:
-            return Outcome("raised", _told(error), 0.0)
+            return Outcome("raised", _described(error), 0.0)
         try:
             summary: Mapping[str, Any] = run.run()
         except _Faulty as fault:
@@ -114,16 +114,16 @@ def run_scenario(scenario: Scenario, longest: float = LONGEST) -> Outcome:
             return Outcome(kind, str(fault), float(run.world.data.time))
         except PlantarError as error:
             kind = "unstable" if "unstable" in str(error) else "raised"
-            return Outcome(kind, _told(error), float(run.world.data.time))
+            return Outcome(kind, _described(error), float(run.world.data.time))
         except Exception as error:
-            return Outcome("raised", _told(error), float(run.world.data.time))
+            return Outcome("raised", _described(error), float(run.world.data.time))
     time = float(summary["sim_time_s"])
     if run.controller.safe_state is not None:
         return Outcome("stopped", run.controller.safe_state, time)
     return Outcome("fell", summary["reasons"][0]["text"], time) if summary["fell"] else Outcome("ended", "", time)
 
 
-def _told(error: Exception) -> str:
+def _described(error: Exception) -> str:
     """An error with the line of the program that raised it."""
     last = traceback.extract_tb(error.__traceback__)[-1]
     own = [f for f in traceback.extract_tb(error.__traceback__) if "site-packages" not in f.filename]

@@ -91,7 +91,7 @@ class Feather(StandingExperiment):
         self._closest = {v.name: _FARTHEST for v in self.visitors}
         self._moved = {v.name: 0.0 for v in self.visitors}
         self._early = 0.0
-        self._felt = 0.0
+        self._measured = 0.0
         self._trace: list[tuple[float, float, float]] = []
 
     def add_to(self, spec: Any) -> None:
@@ -116,7 +116,7 @@ class Feather(StandingExperiment):
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
         super().judge(world, sensor, time)
-        self._felt = max(self._felt, float(sensor.force.max()))
+        self._measured = max(self._measured, float(sensor.force.max()))
         if self._steps % _LOOK_EVERY:
             return
         hand = int(world.model.body(self._link).geomadr[0])
@@ -137,8 +137,8 @@ class Feather(StandingExperiment):
     def verdict(self) -> Verdict:
         reasons = self.balance_reasons()
         closest, s = min(self._closest.values()), self.settings
-        if closest <= 0.0 or self._felt > 0.0:
-            text = f"the hand was touched: nearest distance {1e3 * closest:.1f} mm, force {self._felt:.2f} N"
+        if closest <= 0.0 or self._measured > 0.0:
+            text = f"the hand was touched: nearest distance {1e3 * closest:.1f} mm, force {self._measured:.2f} N"
             reasons.append(failed("touched", closest, 0.0, text))
         for name, moved in self._moved.items():
             if moved < s.moved:
@@ -152,7 +152,7 @@ class Feather(StandingExperiment):
             "distance_min_mm": round(1e3 * closest, 2),
             "distances_min_mm": {name: round(1e3 * d, 2) for name, d in self._closest.items()},
             "moved_mm": round(1e3 * min(self._moved.values()), 1),
-            "force_max_N": round(self._felt, 3),
+            "force_max_N": round(self._measured, 3),
         }
         return Verdict(reasons, figures)
 

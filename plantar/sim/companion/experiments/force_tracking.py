@@ -129,7 +129,7 @@ class ForceTracking(Experiment):
         self._visitor = Visitor(self._visits())
         self._hand: HandController
         self.record = ForceRecord()
-        self._felt = 0.0
+        self._measured = 0.0
         self._errors: dict[str, list[float]] = {"free": [], "disturbed": [], "distance": []}
         self._lost = self._highest = self._tilt = self._moved = 0.0
         self._nearest, self._bumped = math.inf, 0.0
@@ -200,7 +200,7 @@ class ForceTracking(Experiment):
             self._hand.enter_contact(time)
         self._command_base(time)
         self._place_object(world, time)
-        self._fist.act(world, time, self._felt)
+        self._fist.act(world, time, self._measured)
         self._visitor.act(world, time)
 
     def _command_base(self, time: float) -> None:
@@ -229,7 +229,7 @@ class ForceTracking(Experiment):
         mujoco.mju_mat2Quat(world.data.mocap_quat[place], rotation.ravel())
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
-        self._felt = math.sqrt(float(np.square(sensor.on_obstacles["fist"][:3]).sum()))
+        self._measured = math.sqrt(float(np.square(sensor.on_obstacles["fist"][:3]).sum()))
         force = sensor.patch_force("hand")
         self._bumped += 1e-3 * (world.data.ncon > 0)  # skin has no contacts of MuJoCo's, so it is the base or the arm
         if self._in_contact(time):

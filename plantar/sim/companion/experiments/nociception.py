@@ -125,11 +125,11 @@ class Nociception(StandingExperiment):
         self._control.after = self._after
         return self._control
 
-    def _before(self, robot: MujocoDynamics, felt: SkinReading) -> None:
+    def _before(self, robot: MujocoDynamics, measured: SkinReading) -> None:
         """Let the reflex choose the tasks that count."""
         control = self._control
         assert control is not None
-        strongest = [float(np.linalg.norm(w.wrench[:3])) for w in self._pressure.wrenches(felt)]
+        strongest = [float(np.linalg.norm(w.wrench[:3])) for w in self._pressure.wrenches(measured)]
         before, self._virtual = self._virtual, max(strongest, default=0.0)
         if self.control.reflex and self.reflex.update(self._virtual, robot.time):
             control.stack.levels = [list(level) for level in self.reflex.levels]

@@ -123,10 +123,10 @@ class Stove(StandingExperiment):
         self._control.after = self._transition.blend
         return self._control
 
-    def _before(self, robot: MujocoDynamics, felt: SkinReading) -> None:
+    def _before(self, robot: MujocoDynamics, measured: SkinReading) -> None:
         """Move the hand's target, and change the tasks smoothly when heat begins or ends."""
         self._hand.target_position = self._target(robot.time)
-        silent = not self.control.temperature or not self._heat.wrenches(felt)
+        silent = not self.control.temperature or not self._heat.wrenches(measured)
         if silent != self._silent:
             self._transition.begin(robot.time)
             self._control.stack.levels = self._working if silent else self._shunning

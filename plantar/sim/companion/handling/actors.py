@@ -91,13 +91,13 @@ class Fist:
         shape = body.add_geom(name="fist", size=[FIST, 0.0, 0.0], group=OBSTACLE_GROUP, rgba=[0.9, 0.7, 0.55, 1.0])
         shape.contype = shape.conaffinity = 0  # it pushes skin alone
 
-    def act(self, world: World, time: float, felt: float) -> None:
+    def act(self, world: World, time: float, measured: float) -> None:
         """Move for a physics step.
 
         Args:
             world: The world.
             time: Time in s.
-            felt: Force in N that it measures itself.
+            measured: Force in N that it measures itself.
         """
         push = next((p for p in self.pushes if p.start <= time < p.end), None)
         place = world.model.body("fist").mocapid[0]
@@ -106,12 +106,12 @@ class Fist:
             world.data.mocap_pos[place] = [0.0, 0.0, 5.0]
             return
         period, wanted = float(world.model.opt.timestep), push.wanted(time)
-        if felt == 0.0 and time > 0.5 * (push.start + push.end):
+        if measured == 0.0 and time > 0.5 * (push.start + push.end):
             self._depth -= 0.3 * period
-        elif felt == 0.0:  # it comes near, and touches slowly
+        elif measured == 0.0:  # it comes near, and touches slowly
             self._depth += period * (0.3 if self._depth < -0.005 else 0.03)
         else:
-            self._depth += period * _YIELD * (wanted - felt)
+            self._depth += period * _YIELD * (wanted - measured)
         origin, rotation = world.pose(push.link)
         away = push.radius + FIST - self._depth
         offset = np.array([away * math.cos(push.angle), away * math.sin(push.angle), push.along])

@@ -100,7 +100,7 @@ class ReachController:
         self._near = ProximityInteraction(skin, s.proximity, s.range)
         self._watch = ProximityInteraction(skin, s.proximity, s.range)  # sees the whole range always
         touch = DirectInteraction(skin)
-        self._felt = touch
+        self._measured = touch
         self._yielding = DirectInteraction(skin, s.yielding)
         base = 3 if machine.base.kind == "mobile" else 0
         joints = len(machine.posture)
@@ -154,7 +154,7 @@ class ReachController:
         near = sum(float(np.linalg.norm(w.wrench[:3])) for w in self._watch.wrenches(reading))
         self._velocity += share * (velocity - self._velocity)
         self._seen += share * (near - self._seen)
-        felt = max((float(np.linalg.norm(w.wrench[:3])) for w in self._felt.wrenches(reading)), default=0.0)
+        measured = max((float(np.linalg.norm(w.wrench[:3])) for w in self._measured.wrenches(reading)), default=0.0)
         arrived = float(np.linalg.norm(self.goal.position_error(robot))) < _ARRIVED
         seen = self._seen if self._seen > _SEEN else 0.0
-        return ContactSigns(float(np.linalg.norm(self._velocity)), seen, felt, arrived)
+        return ContactSigns(float(np.linalg.norm(self._velocity)), seen, measured, arrived)

@@ -74,10 +74,10 @@ class ReachRecord:
         plan = figure.add_subplot(axes[0, 0].get_gridspec()[:, 0])
         self._draw_plan(plan)
         plan.set_title(title)
-        time, force, felt, near, speed, share = np.array(self._rows).T
+        time, force, measured, near, speed, share = np.array(self._rows).T
         over = axes[:, 1]
         over[0].plot(time, force, color=COLOURS["left"], label="true force", linewidth=1.0)
-        over[0].plot(time, felt, color=COLOURS["right"], label="felt", linewidth=0.7)
+        over[0].plot(time, measured, color=COLOURS["right"], label="measured", linewidth=0.7)
         over[0].axhline(self._limit, color="black", linestyle="--", linewidth=0.8, label="tolerable")
         over[0].legend(fontsize=7, ncols=3)
         for axis, values, label in (

@@ -30,7 +30,7 @@ class PlannedContact:
         against: Link against which it is measured how far the pressed link yields; empty for the centre of mass, which
             leans into the contacts.
         yielded: How far in m the link yielded along the pad's first direction, at most.
-        felt: Largest true force in N.
+        measured: Largest true force in N.
     """
 
     pad: Pad
@@ -40,22 +40,22 @@ class PlannedContact:
     swell: float = 0.3
     against: str = ""
     yielded: float = 0.0
-    felt: float = 0.0
+    measured: float = 0.0
     _touched: float = field(default=math.inf, repr=False)
     _first: tuple[NDArray[np.float64], NDArray[np.float64]] | None = field(default=None, repr=False)
 
-    def act(self, time: float, felt: float) -> None:
+    def act(self, time: float, measured: float) -> None:
         """Set the pad's wanted force: it comes near as if for all of it, which then grows from the first touch on.
 
         Args:
             time: Time in s.
-            felt: Force in N with which it presses now.
+            measured: Force in N with which it presses now.
         """
         left = self.begin + self.hold - time
         if time <= self.begin or left <= 0.0:
             self.pad.wanted = 0.0
             return
-        if math.isinf(self._touched) and felt > 0.0:
+        if math.isinf(self._touched) and measured > 0.0:
             self._touched = time
         grown = 1.0 if math.isinf(self._touched) else max(_FIRST, (time - self._touched) / self.swell)
         self.pad.wanted = self.force * min(1.0, grown, left / max(0.6, self.swell))
@@ -69,7 +69,7 @@ class PlannedContact:
         """
         if force <= 0.0:
             return
-        self.felt = max(self.felt, force)
+        self.measured = max(self.measured, force)
         place, inward = self.pad.touching(world)
         if self.against:
             origin, rotation = world.pose(self.against)
@@ -83,7 +83,7 @@ class PlannedContact:
     @property
     def compliance(self) -> float:
         """Yield in mm/N; 0 for a pad that never pressed."""
-        return 1e3 * self.yielded / self.felt if self.felt > 0.0 else 0.0
+        return 1e3 * self.yielded / self.measured if self.measured > 0.0 else 0.0
 
 
 def outer_taxel(robot: MujocoDynamics, patch: SkinPatch, trunk: str, rng: np.random.Generator) -> int:

@@ -101,15 +101,15 @@ class StandingController:
         began = perf_counter()
         self.stance.locate(robot)
         external = None
-        felt: SkinReading | None = None
+        measured: SkinReading | None = None
         if self.settings.skin:
-            felt = self._filtered(reading)
-            external, moment = self._external(robot, felt)
+            measured = self._filtered(reading)
+            external, moment = self._external(robot, measured)
             if self._balance is not None:
                 self._lean(self._balance, moment)
         if self.before is not None:
-            self.before(robot, felt if felt is not None else reading)
-        self.torque = self.stack.step(robot, felt, external).torque
+            self.before(robot, measured if measured is not None else reading)
+        self.torque = self.stack.step(robot, measured, external).torque
         if self.after is not None:
             self.torque = self.after(self.torque, robot.time)
         self.took.append(1e6 * (perf_counter() - began))
@@ -129,11 +129,11 @@ class StandingController:
         return SkinReading(reading.time, self._force, reading.distance, self._warmth)
 
     def _external(
-        self, robot: MujocoDynamics, felt: SkinReading
+        self, robot: MujocoDynamics, measured: SkinReading
     ) -> tuple[NDArray[np.float64] | None, NDArray[np.float64]]:
         """Generalized force (n,) of what the skin measures, None for nothing, and its moments (2,) about x and y at
         the feet."""
-        wrenches = link_wrenches(self.skin, felt.force, felt.force >= self.skin.thresholds)
+        wrenches = link_wrenches(self.skin, measured.force, measured.force >= self.skin.thresholds)
         self.active.append(len(wrenches))
         if not wrenches:
             return None, np.zeros(2)

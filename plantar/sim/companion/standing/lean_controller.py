@@ -128,7 +128,7 @@ class LeanController:
         self._trunk = CartesianPose(base, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
         self._turn = CartesianPose(ARM, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
         self._hand = CartesianPose("left_hand", HAND, PoseGains(stiffness=40.0, damping=13.0), "position")
-        self._felt = self.wanted = 0.0
+        self._measured = self.wanted = 0.0
         self._com_aim, self._hand_aim = Aim(np.array([1.0, 1.0, 0.0])), Aim(np.ones(3))
         # Accelerations, not torques: what a level above releases must not let springs of the posture loose.
         self._posture = Posture(experiment.first[7:], self.control.posture_rate)
@@ -148,14 +148,14 @@ class LeanController:
         """
         self.stance.locate(robot)
         self._see_ground(reading)
-        felt = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
-        self._move(robot, felt, robot.time)
+        measured = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
+        self._move(robot, measured, robot.time)
         leaning = "lean" in self.began and self.control.skin
         tasks: list[Task] = [self._com, self._trunk, self._arm, self._hand, self._posture]
         if not leaning:
             tasks.insert(3, self._turn)
         demands = [[task.demand(robot, reading)] for task in tasks]
-        self._felt += 0.1 * (felt - self._felt)
+        self._measured += 0.1 * (measured - self._measured)
         split = self._split if leaning else self._carried
         return fuse(robot, demands, self._feet.demand(robot, reading), split=split).torque
 
@@ -166,12 +166,12 @@ class LeanController:
         torque, carried = self._planned(robot, force, self._all.demand(robot, None))
         assert self._planned.last is not None
         self.wanted = float(self._planned.last.wrenches[ARM][2])
-        missing = self.wanted - self._felt
+        missing = self.wanted - self._measured
         inward = robot.pose(ARM)[1][:, 0]
         more = self.control.press_gain * missing * inward @ robot.jacobian(ARM, UNDERSIDE)[:3]
         return torque - more[robot.joints], carried
 
-    def _move(self, robot: Any, felt: float, time: float) -> None:
+    def _move(self, robot: Any, measured: float, time: float) -> None:
         """Set the targets of this instant."""
         s = self.settings
         if "lean" not in self.began:
@@ -200,7 +200,7 @@ class LeanController:
         self._arm.target_position = _along(*self._paths["arm"], since / 2.0) - [0.0, 0.0, low]
         if since > 1.0:
             self._turn.target_rotation = LEVEL
-        if felt > self.control.touch * self._weight if self.control.skin else low >= 0.10:
+        if measured > self.control.touch * self._weight if self.control.skin else low >= 0.10:
             self.began["lean"] = time
             self._start_leaning(robot)
 

@@ -204,7 +204,7 @@ class PressedExperiment(StandingExperiment):
             "yield_least": round(least, 2),
             "yield_median": round(middle, 2),
             "compliance_mm_N": {c.pad.name: round(c.compliance, 3) for c in self.contacts},
-            "force_max_N": {c.pad.name: round(c.felt, 1) for c in self.contacts},
+            "force_max_N": {c.pad.name: round(c.measured, 1) for c in self.contacts},
             "most_active": max(self._control.active, default=0),
             "control_us_by_active": dict(by_active(self._control.took, self._control.active)),
         }
