@@ -1,8 +1,7 @@
 """Single arguments as callers hand them over, checked once where they come in: numbers, objects, lists of objects.
 
-`plantar.arrays` is the same for arrays, `plantar.plane_points` for points of the plane, `plantar.taxel_values` for what
-belongs to the taxels of a layout. Every public function takes its arguments through them, so that all accept and refuse
-the same, with an error that names the argument, what it is and what is allowed.
+All public functions check what callers hand over with these, `plantar.arrays`, `plantar.plane_points` and
+`plantar.taxel_values`.
 """
 
 from __future__ import annotations

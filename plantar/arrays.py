@@ -1,7 +1,7 @@
 """Arrays as callers hand them over, checked once where they come in, and arrays that are kept.
 
-An array is what numpy makes real numbers of, of any type, order and stride. Text, objects, complex numbers, dates, rows
-of different lengths and masked values are refused. What is float64 already is not copied.
+Real numbers of any type, order and stride; text, objects, complex numbers, dates, ragged rows and masked values are
+refused. float64 is not copied.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Files and folders that appear whole or not at all: write under a temporary name, then rename.
 
-Temporary names say which process of which machine they belong to. What a process that was killed could not remove, the
-next one that writes to the same folder removes.
+Temporary names hold process and machine; the next process that writes to the folder removes what a killed one left.
 """
 
 from __future__ import annotations

@@ -1,12 +1,9 @@
 """The percept's members over whole recordings: arrays of forces (..., taxels), without a loop over frames in Python.
 
-The dimensions before the taxels are whatever there are, such as environments and time; results have them too.
-Forces may be a memory-mapped array larger than memory. Rows that are float64 and contiguous are read where they are, in
-one pass; others are converted block by block (`BLOCK` frames), never as a whole. A taxel is active as in `Percept`:
-above the threshold, and below the layout's force limit where it saturates; a dead one (NaN) never is.
+The dimensions before the taxels are any, and those of the results. Memory-mapped arrays may be larger than memory:
+contiguous float64 is read in place, other rows block by block. Taxels are active as in `Percept`.
 
-`threads` lets several threads share the frames: the kernels release the interpreter lock. Each frame is computed by
-one of them as by a single one, so results are the same to the last bit.
+`threads` share the frames without the interpreter lock; results are the same to the last bit.
 """
 
 from __future__ import annotations
@@ -371,10 +368,7 @@ def _joined(parts: list[NDArray[np.float64]], threads: int | None) -> NDArray[np
 
 
 def _frames(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> tuple[NDArray[np.float64], tuple[int, ...]]:
-    """Forces (frames, n) of the layout's width, and the dimensions that the frames are of.
-
-    Not copied, but where the dimensions cannot be one otherwise.
-    """
+    """Forces (frames, n) of the layout's width, and the dimensions that the frames are of."""
     instance(layout, SoleLayout, "layout")
     array = held_numbers(force, name, ReadingError)
     if array.ndim < 1 or array.shape[-1] != len(layout):
@@ -420,8 +414,8 @@ def _workers(threads: int | None) -> int:
 def _shared(work: Callable[[slice], _Done], pieces: list[slice], threads: int | None) -> list[_Done]:
     """What some work gives of each piece, in their order, done by as many threads as there is work for.
 
-    The caller's thread is one of them, and each takes the next piece as it is done with one: nobody is woken between
-    two pieces, which on two cores costs a core of them as much as a third of a millisecond.
+    The caller's thread is one of them; each takes the next piece when it is done, as waking threads costs up to
+    0.3 ms.
     """
     others = min(_workers(threads), len(pieces)) - 1
     if others <= 0:

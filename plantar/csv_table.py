@@ -17,8 +17,8 @@ _GUARD = "'"
 def csv_text(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     """A table as CSV.
 
-    A text that a spreadsheet would run (it begins with =, +, -, @, a tab or a line end, and is no number) is written
-    after an apostrophe, and line ends as line feeds. None, NaN and infinite numbers are empty cells.
+    Text that a spreadsheet would run (=, +, -, @, tab, line end) follows an apostrophe. None, NaN and infinities
+    are empty cells.
 
     Args:
         names: Heads of the columns.

@@ -12,7 +12,7 @@
     ├── WorkerError              the workers of a sweep cannot run or went away; the command line exits 1
     └── DependencyError          an optional library is missing (holds the command that installs it) or cannot be loaded
 
-Each message says what is wrong and what is allowed, in one line.
+Each message is one line: what is wrong and what is allowed.
 """
 
 from __future__ import annotations

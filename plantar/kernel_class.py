@@ -13,8 +13,6 @@ _Class = TypeVar("_Class")
 def constructed_by_kernel(cls: type[_Class]) -> type[_Class]:
     """Leave the construction to the kernel that a class inherits from, and keep what its own `__init__` tells.
 
-    A constructor in Python would be run at each instance; types and help need only its parameters.
-
     Args:
         cls: The class; its `__init__` has parameters with types, and no body.
 

@@ -17,7 +17,7 @@ else:
         """A `cached_property` that takes no lock, as Python 3.11's does at each first use, and is compiled: a cheap
         member costs a third of that.
 
-        What is kept is handed out again: an array, also one in a tuple, is closed to writing.
+        Arrays that are kept are read-only.
 
         Example:
             >>> class Squares:

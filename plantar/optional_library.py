@@ -20,9 +20,8 @@ _INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 def optional_library(library: str, extra: str) -> Iterator[None]:
     """Guard the import of an optional library; nothing but imports belongs into the block.
 
-    Only the absence of that very module means that it is not installed. A library that is there and cannot be loaded,
-    for want of a system library or of a module of its own, is told with the reason. Ctrl-C waits until the library is
-    loaded: native modules turn what interrupts them there into an import error, swallow it, or crash.
+    Only the absence of that very module is "not installed"; a library that cannot be loaded is named with the
+    reason. Ctrl-C waits until it is loaded, since native modules turn it into an import error or crash.
 
     Args:
         library: Name of the module as it is imported.
@@ -98,8 +97,7 @@ def _interrupts_held_back() -> Iterator[None]:
 def unheard(text: str) -> None:
     """What hears a library's warnings so that nobody else does.
 
-    MuJoCo by itself prints each and writes MUJOCO_LOG.TXT into the working directory. A model that cannot be read
-    raises all the same, and what a simulation warns of stands in its data.
+    MuJoCo prints each, and writes MUJOCO_LOG.TXT into the working directory.
 
     Args:
         text: The warning.

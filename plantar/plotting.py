@@ -1,7 +1,6 @@
 """The only module that imports matplotlib: how figures are made, styled and saved.
 
-Other modules ask `new_figure` for axes, draw on them, and hand the figure to `save_figure`. Importing this module is
-cheap; matplotlib is loaded by the first figure.
+Axes come from `new_figure` and go to `save_figure`; the first figure loads matplotlib.
 """
 
 from __future__ import annotations

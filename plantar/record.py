@@ -1,7 +1,6 @@
 """Records that one room hands to the next at each control tick: fields by name, cheap to make, not to be changed.
 
-A tick makes some twenty of them. A named tuple takes 0.24 us, by keywords 0.45, a frozen dataclass 0.7 to 0.9 us, as
-both run Python to fill their fields; this one takes 0.06 us either way, and its fields are read in half the time.
+Made in 0.06 us, where a named tuple takes 0.24 and a frozen dataclass 0.7 to 0.9.
 """
 
 from __future__ import annotations

@@ -20,8 +20,8 @@ def safe_rectangle(
 ) -> NDArray[np.float64]:
     """Axis-aligned rectangle that stands for the contact in the wrench cone (T 4.32-4.41, corrected).
 
-    Either the largest rectangle inside the support polygon, all of which is contact, or its bounding box, faster but
-    reaching beyond the contact (T 4.4.4); in either case its sides are moved inwards by a safety offset.
+    Its sides move inwards by a safety offset. The bounding box is faster and reaches beyond the contact (T
+    4.4.4).
 
     Args:
         polygon: Convex support polygon (k, 2) in the contact frame in m.

@@ -1,8 +1,7 @@
 """Shapes around points: bounding box, oriented box and parallelogram of least area (T 4.2.5).
 
-Each takes the vertices of a convex polygon, in either direction and with repeated or collinear vertices, and returns
-corners (4, 2) in m, counter-clockwise; no corners (0, 2) for an empty polygon. A vertex that is not finite is
-refused.
+Convex polygons in either direction, with repeated or collinear vertices; corners (4, 2) in m, counter-clockwise, none
+(0, 2) for an empty polygon. Vertices that are not finite are refused.
 """
 
 from __future__ import annotations
@@ -54,9 +53,6 @@ def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
 
 def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
     """Parallelogram of least area around a convex polygon (T 4.2.5, [175]).
-
-    Both pairs of its sides lie along an edge of the polygon (Schwarz et al. 1995), so that trying all pairs of edges,
-    the strips around the polygon found by rotating calipers, is exact.
 
     Args:
         polygon: Convex polygon (k, 2) in m.

@@ -1,9 +1,8 @@
 """Largest shapes inside the contact: triangle, parallelogram, circle and rectangles (T 4.2.5, T 4.4.4).
 
-The functions of a convex polygon take its vertices (k, 2) in m in either direction, with repeated or collinear
-vertices; one that is not convex or not finite is refused. They return corners in m, counter-clockwise: none (0, 2)
-for an empty polygon, and a shape without area within it for a polygon without area. Inside means up to
-rounding: a corner may be outside by a few units in the last place of the coordinates.
+Convex polygons (k, 2) in m in either direction, with repeated or collinear vertices; others are refused. Corners in
+m, counter-clockwise: none (0, 2) for an empty polygon, a shape without area for one without area. They may be outside
+by rounding.
 """
 
 from __future__ import annotations
@@ -56,8 +55,6 @@ class Circle(NamedTuple):
 class BoundedRectangle(NamedTuple):
     """A rectangle and how much larger any other may be: corners (4, 2) in m, none (0, 2) of an empty outline.
 
-    No rectangle in the outline has more than (1 + gap) times its area. That is proven, up to rounding.
-
     Example:
         >>> BoundedRectangle(np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]), 1e-6).gap
         1e-06
@@ -70,8 +67,8 @@ class BoundedRectangle(NamedTuple):
 def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
     """Triangle of most area in a convex polygon (T 4.2.5, [173]).
 
-    Its corners are vertices. For every first corner the third one walks on as the second does, in O(k^2); the walk in
-    O(k) that [173] publishes misses the largest one on some polygons.
+    For every first corner the third one walks on as the second does, in O(k^2); the walk in O(k) of [173] misses
+    the largest one on some polygons.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
@@ -89,8 +86,8 @@ def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
 def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
     """Parallelogram of most area in a convex polygon (T 4.2.5, [174]).
 
-    One corner lies on a vertex, the others on the boundary (Jin and Matulef 2011). From every vertex one side walks
-    once round the boundary, in O(k) linear pieces on which the area is a parabola: exact, in O(k^2).
+    From every vertex one side walks once round the boundary, in O(k) pieces on which the area is a parabola (Jin
+    and Matulef 2011): exact, in O(k^2).
 
     Args:
         polygon: Convex polygon (k, 2) in m.
@@ -109,8 +106,7 @@ def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
 def inscribed_circle(polygon: ArrayLike) -> Circle | None:
     """Largest circle in a convex polygon.
 
-    The least distance to an edge is concave in x and y; cuts (tangents) of its maximum over y, and of that over x, end
-    on the deepest point after a few.
+    The least distance to an edge is concave in x and y; cuts (tangents) find its maximum.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
@@ -133,8 +129,8 @@ def inscribed_circle(polygon: ArrayLike) -> Circle | None:
 def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.float64]:
     """Rectangle of most area in a convex polygon whose sides stand at a given angle (T 4.4.4, [189]).
 
-    The height that a width allows is concave and piecewise linear in the width; both the best place of a width and
-    the best width are found with cuts (tangents), which end on the exact optimum after a few.
+    The height that a width allows is concave and piecewise linear; cuts (tangents) find the best width and its
+    place.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
@@ -153,8 +149,6 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 
 def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
     """Largest rectangle in a convex polygon that a scan of angles finds.
-
-    `rectangle_in_outline_any_angle` scans an outline and gives the proven bound on all other rectangles, too.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
@@ -178,8 +172,7 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
 def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.float64]:
     """Rectangle of most area in a concave outline whose sides stand at a given angle.
 
-    Exact, not from a raster: the outline is cut into trapezoids, and branch and bound over the first and last
-    trapezoid of a rectangle solves what is left as convex polygons.
+    The outline is cut into trapezoids; branch and bound over the first and last one of a rectangle.
 
     Args:
         outline: Outline with islands and holes in m.
@@ -203,9 +196,9 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
 def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> BoundedRectangle:
     """Largest rectangle in a concave outline that a scan of angles finds, and the proven bound on all others.
 
-    A rectangle turned by t about its middle holds one of d^2 sin(2 t) / 2 less at the angle before, d its diagonal: so
-    the largest rectangle at one angle bounds those near it. The interval of the largest bound is measured in its middle
-    and halved, again and again; the best angle is refined at the end.
+    A rectangle turned by t holds one of d^2 sin(2 t) / 2 less at the angle before, d its diagonal: the largest
+    rectangle at one angle bounds those near it. The interval of the largest bound is measured and halved, again
+    and again; the best angle is refined.
 
     Args:
         outline: Outline with islands and holes in m.

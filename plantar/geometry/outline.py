@@ -165,9 +165,6 @@ class Outline(Rings):
 def concave_outline(layout: SoleLayout, active: ArrayLike) -> Outline:
     """Exact outline of the contact on one sole, with islands and holes (T 4.2.5, where [172] only approximates it).
 
-    The boundary walk follows the edges that two active cells do not share. Where cells overlap, so that there are no
-    such edges, shapely unites them.
-
     Args:
         layout: The sole, n taxels.
         active: Active taxels (n,).

@@ -1,8 +1,7 @@
 """Convex polygons in a plane: hull, area, centroid, closest point, signed margin, inner offset.
 
-A polygon is an array (k, 2) of vertices in m without a repeated last point; an empty polygon has k = 0. What comes
-back is counter-clockwise; what is handed in may be clockwise. Points that coincide or lie on one line give a polygon of
-1 or 2 vertices and area 0. The work is done in `plantar.kernels`, compiled where a compiler was there.
+A polygon is an array (k, 2) of vertices in m without a repeated last point, counter-clockwise where it is returned.
+Points in one place or on one line give 1 or 2 vertices and area 0.
 """
 
 from __future__ import annotations
@@ -38,9 +37,8 @@ _NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to eac
 def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
     """Convex hull by Andrew's monotone chain, without vertices on straight edges.
 
-    Every turn is decided exactly, so the hull is exactly convex. A vertex that stands out of the line of its neighbours
-    by no more than the rounding of the coordinates (4 units in the last place of the largest one, at most 1e-13 of the
-    extent) is left out: on a hexagonal lattice whole rows of corners are collinear up to their last bits.
+    Every turn is decided exactly. A vertex out of the line of its neighbours by no more than rounding (4 units in
+    the last place, at most 1e-13 of the extent) is left out.
 
     Args:
         points: Points (n, 2) in m. Points that are not finite, or beyond 1e100 m, are left out.
@@ -94,8 +92,6 @@ def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
 def area(polygon: ArrayLike) -> float:
     """Signed area in m^2 (shoelace about the first vertex): positive for counter-clockwise.
 
-    Exact to a few 1e-16 of the squared extent, however far the polygon lies from the origin.
-
     Args:
         polygon: Simple polygon (k, 2) in m.
 
@@ -138,8 +134,8 @@ def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
 def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] | None:
     """Point of a convex polygon that is closest to a given one (T Algorithm 1, corrected).
 
-    The printed test "outside if (d x l)_z > 0" holds for counter-clockwise vertices; on clockwise vertices, as printed,
-    it moves inside points to the far side. Here its sign follows the polygon's.
+    The printed test (d x l)_z > 0 holds for counter-clockwise vertices alone; here its sign follows the
+    polygon's.
 
     Args:
         polygon: Convex polygon (k, 2), either orientation.

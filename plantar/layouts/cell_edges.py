@@ -22,8 +22,8 @@ WELD = 1e-6
 def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTable | None:
     """Table of the directed edges of cells that tile a part of the plane.
 
-    Cells may be of any shape and size and turn either way. Where they do not share vertices, corners within WELD of a
-    typical edge are treated as one, and an edge is cut where the corner of another cell lies on it.
+    Corners of cells that share no vertices are one within WELD of a typical edge; an edge is cut where the corner
+    of another cell lies on it.
 
     Args:
         vertices: Corner points (v, 2) in m.
@@ -140,9 +140,6 @@ def _cut_edges(
 
 def cells_overlap(tail: NDArray[np.float64], head: NDArray[np.float64], tolerance: float) -> bool:
     """Whether cells cover a place twice, recognised by the edges that they do not share.
-
-    The number of cells that cover a point is the winding number of the lone edges about it. Cells do not overlap when
-    these edges do not cross and there is one cell to the left of each and none to the right.
 
     Args:
         tail: Where the b lone edges start (b, 2), the cell on their left, in m.

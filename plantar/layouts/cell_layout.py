@@ -34,9 +34,8 @@ def layout_of_cells(
 ) -> SoleLayout:
     """A layout of polygonal cells, mixed shapes and sizes allowed (T 4.5).
 
-    Corners that agree within a thousandth of a small cell's size become one vertex. Where a corner of one cell lies on
-    the edge of another, that edge gets it as a vertex too: cells that touch along a part of an edge then share an edge,
-    are neighbours, and outlines of contacts stay exact.
+    Corners that agree within a thousandth of a small cell's size become one vertex, and a corner on another
+    cell's edge becomes a vertex of that edge: cells that touch share edges, so outlines are exact.
 
     Args:
         cells: Corners (k, 2) of each cell in the sole frame in m, either orientation, not self-crossing.

@@ -25,8 +25,7 @@ _STEP = 1e-5
 def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
     """A layout on a curved sole z(x, y), seen from above as before (soleT_i of T 4.23).
 
-    Each taxel is turned the shortest way that brings its z axis onto the surface's normal, into the body; a turn about
-    z that it has already stays.
+    Each taxel turns the shortest way that brings its z axis onto the surface's normal.
 
     Args:
         layout: The flat layout.

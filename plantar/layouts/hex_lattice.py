@@ -5,9 +5,8 @@ A cell (q, r) of a lattice whose rows run along x has its centre at
     x = w (q + r / 2)        w = flat-to-flat width
     y = 3/2 s r              s = side length = w / sqrt(3)
 
-so centres and corners are integer combinations of the half width w/2 and the half side s/2. Two cells that meet
-share corners with the *same* integer key, hence with bit-identical coordinates: corners computed cell by cell
-(centre + s cos) differ in the last bit and make polygon unions leak slivers.
+so cells that meet share corners with the same integer key and bit-identical coordinates; corners computed cell by
+cell differ in the last bit, and unions of them leak slivers.
 """
 
 from __future__ import annotations

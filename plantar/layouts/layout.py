@@ -1,7 +1,7 @@
 """Sole layout: where the taxels of one sole are.
 
-Frames: the sole frame lies on the outer contact face of the sole, x forward, y left, z up. A taxel's own frame has
-its z axis pointing INTO the body, so the force the world exerts on it is [0, 0, f] with f >= 0.
+The sole frame lies on the outer contact face, x forward, y left, z up. A taxel's z axis points into the body: the
+world exerts [0, 0, f] on it, f >= 0.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """What callers hand over for the taxels of one layout: readings and masks, checked once where they come in.
 
-A taxel that reads NaN or inf is dead. That is no error of the caller's: it is left out of every sum.
+A taxel that reads NaN or inf is dead: left out of every sum, no error.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Contacts of a robot with the world: feet, hands, any touches; each with a name, any number of them.
 
-Where several matter, they come as an ordered mapping from name to contact. What is computed from them keeps the order.
+Several come as a mapping from name to contact, whose order results keep.
 """
 
 from __future__ import annotations

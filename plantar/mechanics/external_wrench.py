@@ -5,9 +5,8 @@ F and a moment tau that the body, kept upright, hands on to the ground. Moments 
 
     x'' = w^2 (x - u_ref) + F / m + w^2 [tau_y, -tau_x] / (m g) = w^2 (x - u),    u = u_ref - (u_F + u_tau),
 
-so both parts push the CoM away from where a force above it leans: printed is u_F - u_tau, with which a force at
-shoulder height would push less than one at the hip. The vertical force is left out, as in K: it changes how much weight
-the ground carries, not where the pendulum falls.
+so both parts push the CoM away from where a force above it leans (printed: u_F - u_tau). The vertical force is left
+out, as in K.
 """
 
 from __future__ import annotations
@@ -68,9 +67,6 @@ def external_acceleration(
 ) -> NDArray[np.float64]:
     """Horizontal acceleration of the CoM by a wrench on the body, at a ZMP that stays (K 12 with its moment).
 
-    K 12 holds the force alone; by the moment balance the ZMP has to carry the moment too, which accelerates the CoM by
-    w^2 u_tau.
-
     Args:
         wrench: Wrench (..., 6) as in `vrp_offset`.
         mass: Mass of the robot in kg, above 0.
@@ -94,8 +90,6 @@ def external_acceleration(
 
 def push_of_dcm(impulse: ArrayLike, mass: float, omega: float, height: float = 0.0) -> NDArray[np.float64]:
     """By how much a short push moves the DCM: J (1 + w^2 height / g) / (m w).
-
-    It is what xi' = w (xi - u_ref + u_w) (K 8-9) adds up to while the pendulum has no time to move.
 
     Args:
         impulse: Horizontal impulse (..., 2) on the robot in N s.

@@ -68,7 +68,7 @@ def sine_vector(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
 def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     """Logarithm map: the shortest rotation vector of a rotation, exact to rounding for every angle.
 
-    From R - R^T = 2 sin a [n]x and, near half a turn, where that vanishes, R + R^T - 2 cos a I = 2 (1 - cos a) n n^T.
+    By R - R^T = 2 sin a [n]x and, near half a turn, R + R^T - 2 cos a I = 2 (1 - cos a) n n^T.
 
     Args:
         rotation: Rotation (3, 3).
@@ -96,8 +96,8 @@ def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
 def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:
     """Error of a rotation as a vector of the frame that both lead to, for feedback and Newton steps.
 
-    Its direction is the axis about which `actual` turns the shortest way into `wanted`. Its length is the sine of the
-    angle up to a quarter turn, the angle itself to first order, and 1 beyond: it never vanishes but where both agree.
+    Along the axis of the shortest way from `actual` to `wanted`; as long as the sine of the angle up to a quarter
+    turn, 1 beyond.
 
     Args:
         wanted: Rotation (3, 3) to a common frame.
@@ -156,8 +156,6 @@ def rotation_from_angles(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> N
 
 def orthonormalised(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     """One Newton step towards the nearest rotation, R (3 I - R^T R) / 2: an error e becomes 1.5 e^2.
-
-    Enough for a rotation that is updated at every tick and leaves orthonormality by rounding alone.
 
     Args:
         rotation: Matrix (3, 3), almost a rotation.

@@ -70,8 +70,6 @@ def nearest_within(
 ) -> tuple[Box, NDArray[np.float64]]:
     """What is nearest to the target in the directions `own` of what is left, so that some of the rest keeps the limits.
 
-    The solver finds which limits act; with these as equations the level is solved once more, to rounding.
-
     Args:
         box: The limits of y.
         y: What is settled already (n,).

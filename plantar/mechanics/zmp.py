@@ -94,8 +94,8 @@ def centroidal_moment_pivot(
 ) -> NDArray[np.float64] | None:
     """Centroidal moment pivot: where the line of the ground reaction force, put through the CoM, meets the ground.
 
-    It coincides with the ZMP where the wrench has no moment about the CoM that tips the robot (Popovic, Goswami and
-    Herr 2005), one of the metrics of balance that T names next to ZMP, GRF and DCM.
+    It is the ZMP where the wrench has no moment about the CoM that tips the robot (Popovic, Goswami and Herr
+    2005).
 
     Args:
         force: Ground reaction force (3,) or wrench (6,) of all feet in N.

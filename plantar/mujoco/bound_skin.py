@@ -167,7 +167,7 @@ class BoundSkin:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Read the skin along trajectories as `mujoco.rollout` returns them.
 
-        Each state is set and passed through `mj_forward`, which computes its contacts.
+        Each state is set and passed through `mj_forward`.
 
         Args:
             states: Full physics states (..., nstate), of `mujoco.mjtState.mjSTATE_FULLPHYSICS`.

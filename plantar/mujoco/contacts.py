@@ -21,9 +21,6 @@ _ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
 class ContactReader:
     """Gathers the contacts of several feet of one simulation again and again.
 
-    MuJoCo keeps all contacts at the head of one block of memory, which stays where it is as long as the data lives. So
-    the arrays that show it are made once for each number of contacts, not at each reading.
-
     Args:
         model: The MjModel, whose friction cones stay as they are.
         data: Its MjData.

@@ -38,9 +38,9 @@ _NEAR = 0.004  # m: how far a site may be from the face
 class Skin:
     """A plantar skin for a body of any MuJoCo model.
 
-    Its layout is a file, a `SoleLayout`, or fitted to the body's own collision shapes. The sole frame is found from
-    these shapes: its face is the lowest in the model's reference pose (first keyframe, or `qpos0`), its origin lies
-    below the body's origin, x is the world's x in that pose. What geometry shows to be wrong is refused.
+    The sole's face is the lowest one of the body's collision shapes in the reference pose (first keyframe, or
+    `qpos0`); its origin lies below the body's, x is the world's x there. Wrong set-ups that geometry shows are
+    refused.
 
     Args:
         layout: Layout, or path of a layout file; None fits hexagons to the body's shapes.
@@ -97,8 +97,6 @@ class Skin:
 
     def edit(self, spec: Any) -> None:
         """Add a site that shows the sole frame, "BODY_skin", to a `mujoco.MjSpec`; the physics stay as they are.
-
-        Without this step `bind` works, too: the site is for your own use, in viewers and MuJoCo's frame sensors.
 
         Args:
             spec: The specification, before it is compiled.

@@ -1,7 +1,4 @@
-"""The sole of a body in a MuJoCo model, found from its collision geoms: which face it has, and its outline.
-
-All of it in the frame of the body, in m.
-"""
+"""The sole of a body in a MuJoCo model, found from its collision geoms: which face it has, and its outline."""
 
 from __future__ import annotations
 

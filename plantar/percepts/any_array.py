@@ -1,9 +1,7 @@
 """Activation, wrench, contact area and centre of pressure of forces in arrays of any library: torch, JAX, CuPy, numpy.
 
-Whatever follows the array API standard, and torch, stays in its own library, on its own device and with its own type of
-numbers; it is differentiated, compiled and batched as that library does. The sums are differentiable in the forces of
-the taxels that are active: which ones these are does not change with a small change of forces. On a CPU `plantar.batch`
-is faster.
+Arrays of the array API standard, and torch's, keep library, device and type. Sums are differentiable in the forces of
+active taxels. On a CPU `plantar.batch` is faster.
 """
 
 from __future__ import annotations

@@ -58,8 +58,6 @@ def walking_tick(
 ) -> FootTick:
     """Active taxels, CoP, wrench, support polygon, safe polygon and clamped point of one foot, in one call.
 
-    Taxels count as in `Percept`: above the threshold, below the layout's force limit, never where they read NaN.
-
     Args:
         layout: The sole, n taxels.
         force: Normal forces (n,) in N.

@@ -33,9 +33,9 @@ __all__ = ["Percept"]
 class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     """A reading seen through its layout.
 
-    Nothing is computed before it is asked for, and nothing twice; what is kept is read-only. An unloaded sole has
-    defined answers: no CoP (None), area 0, an empty polygon, a zero wrench. A modality that the reading lacks gives
-    None. Taxels that are dead, saturated or stuck are left out of every sum, and reported by `health`.
+    Members are computed at first use, once, and read-only. An unloaded sole has no CoP (None), area 0, an empty
+    polygon and a zero wrench; a modality that the reading lacks gives None. Dead, saturated and stuck taxels are
+    left out of every sum; `health` lists them.
 
     Args:
         layout: The sole, n taxels.
@@ -201,8 +201,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     def surface_cop_in_sole(self) -> NDArray[np.float64] | None:
         """Centre of pressure (3,) on the sole's surface in the sole frame in m, or None without load.
 
-        Its height is that of the taxels and of their tangent planes, weighted as the centre of pressure is: exact on a
-        surface of second order, 0 on a flat one.
+        Exact on a surface of second order, 0 on a flat one.
         """
         cop = self.position_cop_in_sole
         if cop is None:

@@ -109,10 +109,7 @@ class SolePose:
         return Outline.of_rings([self.to_world(ring)[:, :2] for ring in corners])
 
     def wrench_to_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
-        """Wrenches (..., 6) about the sole's origin as wrenches about the world's origin, in N and N m.
-
-        The rotation is E of T 3.21; the moment of the force about the world's origin is added.
-        """
+        """Wrenches (..., 6) about the sole's origin as wrenches about the world's origin, in N and N m."""
         given = array(wrench, "wrench", (..., 6))
         turn, lever = self._wrench_maps
         with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
@@ -167,9 +164,8 @@ def zmp_of_soles(
 ) -> NDArray[np.float64] | None:
     """Composite ZMP of the soles in a horizontal plane of the world (T 4.7-4.8).
 
-    On level soles it is the mean of the soles' ZMPs weighted with their vertical forces, as T 4.7-4.8 print; taken from
-    the summed wrench it also holds for soles that are tilted or at different heights. A sole cannot pull: one whose
-    vertical force in the world is 0 or less is left out, so that the ZMP stays between the feet.
+    On level soles the mean of the soles' ZMPs weighted with their vertical forces (T 4.7-4.8); also right for
+    soles that are tilted or at different heights. A sole that pulls is left out.
 
     Args:
         wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air.

@@ -17,9 +17,7 @@ __all__ = ["TaxelActivation", "active_taxels", "hysteresis"]
 def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.inf) -> NDArray[np.bool_]:
     """Taxels whose force exceeds the activation threshold (T 4.22: |f_iz| > epsilon_f).
 
-    A taxel that reads NaN or inf is dead: it is never active. Force pulls do not exist at a sole, so a negative
-    reading is noise or drift and is not active either. A taxel at the end of its range is saturated: what it reads is
-    not the force, and it is not active where `saturation` is given.
+    Dead taxels (NaN, inf), negative readings and, where `saturation` is given, saturated taxels are not active.
 
     Args:
         force: Normal forces (..., n) in N.
@@ -46,8 +44,6 @@ def hysteresis(
     values: ArrayLike, high: float, low: float, initial: ArrayLike | bool = False, saturation: float = math.inf
 ) -> NDArray[np.bool_]:
     """Two-threshold switch over time: on above `high`, off at `low` or below, else as before.
-
-    With low = high it is `active_taxels` frame by frame. A value that is NaN, inf or saturated switches off.
 
     Args:
         values: Values (frames, ...) over time, for example forces (frames, n) in N.
@@ -86,8 +82,7 @@ def hysteresis(
 class TaxelActivation:
     """Activation with hysteresis of a sole's taxels, reading by reading.
 
-    A taxel becomes active above the activation threshold (T 4.22) and stays so until it falls to the release
-    threshold, so that noise about one threshold does not make it chatter.
+    Active above the activation threshold (T 4.22) until it falls to the release threshold.
 
     Args:
         threshold: Force in N above which a taxel becomes active.

@@ -1,8 +1,7 @@
 """Wrenches of any patch of skin from its force and proximity signals together: on the body (K) and on the hands (A).
 
-Skin cells are given by their positions and rotations in the frame the wrench is wanted in: a link, a patch, or the CoM.
-A cell's z axis points into the body, so what it feels pushes along +z. K 4-5 print [0, 0, -f], which is the same push
-written for a z axis that points out of it.
+Positions and rotations of cells are in the frame of the wrench. A cell's z axis points into the body: its force
+pushes along +z (K 4-5 print [0, 0, -f] for an axis out of it).
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ def active_cells(
 ) -> NDArray[np.bool_]:
     """Cells that feel force OR see something near (K 2 corrected).
 
-    Printed is AND, with which a cell that is about to be touched, force still 0, could never be active.
+    Printed is AND, with which a cell about to be touched could never be active.
 
     Args:
         force: Force signals (..., n), in N or normalised.

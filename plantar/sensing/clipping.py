@@ -1,12 +1,9 @@
 """Undo what clipping at zero does to the mean of a noisy sensor.
 
-A taxel cannot read less than nothing. Where it carries little, noise is cut off below and kept above, so a running mean
-of its readings comes out too high: by 0.4 sigma without load. Over a sole this adds up to some tens of newtons at
-places without load. With white noise of a known sigma the mean of the clipped reading of a force f is
+Noise of a taxel that carries little is cut off below 0, so its running mean comes out too high: by 0.4 sigma without
+load. With white noise of known sigma the mean of the clipped reading of a force f is
 
     g(f) = f P(f / sigma) + sigma p(f / sigma)
-
-with P and p the normal distribution and its density; the inverse of g takes the mean back to the force.
 """
 
 from __future__ import annotations
@@ -58,8 +55,7 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
 def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
     """Force behind the mean of a sensor's readings whose noise is clipped at zero: the inverse of `clipped_mean`.
 
-    A mean below that of no load gives a force below zero, along the tangent: cut off again, the forces of many unloaded
-    taxels would add up again.
+    A mean below that of no load gives a force below zero, along the tangent.
 
     Args:
         mean: Running means (...) of the readings in N.

@@ -1,7 +1,4 @@
-"""Forces of a sole: centre of pressure and ground reaction wrench.
-
-A wrench is [fx, fy, fz, tx, ty, tz] in N and N m, exerted BY the world ON the robot.
-"""
+"""Forces of a sole: centre of pressure and ground reaction wrench."""
 
 from __future__ import annotations
 

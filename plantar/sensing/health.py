@@ -110,9 +110,8 @@ def stuck_taxels(
 ) -> NDArray[np.bool_]:
     """Taxels that have not changed for a time although they read a load.
 
-    A value changes where it differs from the sample before by more than the tolerance, or comes from or goes to NaN. A
-    taxel at rest says nothing: a sound taxel in the air reads a constant 0 too. Sensors that resolve coarse steps need
-    a `hold` longer than the robot stands still.
+    A change is a difference of more than the tolerance, or NaN that comes or goes. Sensors of coarse steps need a
+    `hold` longer than the robot stands still.
 
     Args:
         times: Times (frames,) in s, increasing.

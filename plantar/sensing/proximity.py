@@ -1,7 +1,6 @@
 """What proximity sensors see before the sole touches: the inverse measure, near taxels, contours of height.
 
-A distance is measured from a taxel along its -z axis, out of the body, in m; inf where nothing is in range. A taxel
-that reads NaN is dead and sees nothing.
+Distances along a taxel's -z axis in m; inf beyond the range, NaN for a dead taxel.
 """
 
 from __future__ import annotations
@@ -75,7 +74,7 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
 def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
     """Taxels nearer to a surface than a threshold: d < epsilon_p (T 4.2.7 corrected).
 
-    Printed is d > epsilon_p, which would take the taxels over the deepest ground; Fig. 37 and 39 show the near ones.
+    Printed is d > epsilon_p, which would take the farthest taxels.
 
     Args:
         distance: Distances (..., n) in m; inf where nothing is in range, NaN for a dead taxel.

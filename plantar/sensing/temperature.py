@@ -47,8 +47,8 @@ def temperature_wrench(
 ) -> NDArray[np.float64]:
     """Virtual wrench that pushes the sole off a hot surface (T 3.35-3.37).
 
-    w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i]. Printed, the force is the excess itself; the
-    gain gives it its unit.
+    w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i]; the gain gives the printed excess its
+    unit.
 
     Args:
         layout: The sole, n taxels.

@@ -1,8 +1,4 @@
-"""Wrenches that nothing exerts: what proximity would push with, and when it stops a swing.
-
-Both follow the wrench convention of real contact: exerted BY the world ON the sole, along the taxel's z axis, which
-points into the body. So the virtual ground repels.
-"""
+"""Wrenches that nothing exerts: what proximity would push with, and when it stops a swing."""
 
 from __future__ import annotations
 
@@ -30,8 +26,8 @@ def virtual_ground_reaction_wrench(
 ) -> NDArray[np.float64]:
     """Virtual ground reaction wrench of proximity at the sole frame's origin (T 4.26; T 3.30 corrected, 3.31-3.32).
 
-    w_p = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, k_p rho_i]. Printed T 3.30 sets the force along the sensing
-    direction, which is out of the body and would attract.
+    w_p = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, k_p rho_i]; printed T 3.30 sets the force out of the
+    body, which would attract.
 
     Args:
         layout: The sole, n taxels.
@@ -93,8 +89,8 @@ def sole_wrenches(
     """Wrench for preemptive foot compliance over time: contact plus virtual in the air, contact alone on the ground
     (T 4.30 corrected).
 
-    Printed, the virtual part drops out where |w_f| > 0, which noise does at any time; here where the force reaches the
-    activation threshold, until it falls to the release threshold.
+    Printed, the virtual part drops out where |w_f| > 0, which noise does; here from the activation to the release
+    threshold.
 
     Args:
         contact: Wrenches (frames, 6) w_f of the taxels' forces in N and N m.

@@ -95,8 +95,6 @@ class FaceContacts:
     def cylinder(self, places, turns, sizes, ground, sole, margin, out, sign):
         """Contacts of a box on the end of a cylinder: the corners furthest along the box's diagonals; as `box`.
 
-        `places`, `turns`, `sizes`, `ground`, `sole`, `margin`, `out` and `sign` are those of `box`.
-
         Returns:
             How many there are; -1 where the box does not lie on an end.
         """

@@ -101,8 +101,7 @@ class FootContacts:
     def gather(self, listed, forces):
         """Gather the contacts between the foot's geoms and others, with forces turned into the world frame.
 
-        A contact's force is given in its own frame, whose rows are its axes, as the force on the second geom: it
-        changes sign where the foot is the first. Sums run in the order of the axes.
+        Each force is given in the contact's frame, whose rows are its axes, as that on the second geom.
 
         Args:
             listed: The `ContactList`.

@@ -38,9 +38,8 @@ def spread_whole(u, area, inverse, x, y, force, cells, out):
 def spread_part(u, area, x, y, force, active, cells, out):
     """Spread a normal load over covered cells of which a part lifts off: the pressure is max(0, a + b x + c y).
 
-    The cells that carry and the field they give determine each other. Starting from the cells that carried before,
-    which are mostly the same, one or two rounds find both; the result depends on the cells alone, not on the way there.
-    Each round solves the 3 x 3 system of the cells that carry, with a ridge of 1e-12 of its trace.
+    The cells that carry and their field determine each other; from the cells that carried before, one or two
+    rounds of a 3 x 3 system find both.
 
     Args:
         u: Coordinates (m, 3) of the cells: 1, and the scaled place of their covered part's centroid.

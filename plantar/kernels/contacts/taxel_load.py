@@ -216,8 +216,8 @@ class TaxelLoad:
     def _tilt(self, weights, force, x, y):
         """Set `normal` to weights times max(0, a + b x + c y), with a load and its place.
 
-        The field is found by Newton's method on a convex problem, minimise 1/2 sum w max(0, p)^2 - load . field, whose
-        gradient is the pressure's wrench minus the load. Weights, load and place are scaled first.
+        Newton's method on a convex problem: minimise 1/2 sum w max(0, p)^2 - load . field. Weights, load and
+        place are scaled first.
 
         Args:
             weights: Weight (n,) of each cell, none negative.

@@ -4,9 +4,6 @@ What counts of a ring is the convex hull of its vertices. A ring that is exactly
 neighbours within `_NEAR` of its size is that hull already, and is used as it is; rounding makes others: of vertices
 that should coincide and lie a unit in the last place apart the edge between them may point anywhere, and its line may
 cut the polygon in two. Of such a ring the hull is taken, with every turn decided exactly.
-
-Plain Python that also compiles ahead of time: `clean.pxd` beside it gives the C types. Polygons are float64 arrays
-(k, 2), strided or not.
 """
 
 from __future__ import annotations
@@ -26,8 +23,6 @@ _SMALLEST = 1e-100  # m: products of the edges of a smaller ring may underflow
 
 def turning(polygon, x0, y0, near):
     """Which way a clean ring goes round; 0 for a ring that has to be cleaned.
-
-    The coordinates are taken about a point, as the caller goes on with them: subtracting it rounds them.
 
     Args:
         polygon: Ring (k, 2) in m.
@@ -95,8 +90,7 @@ def extent(polygon):
 def clean_ring(polygon, x0, y0, near):
     """The clean ring that counts of a ring: the convex hull of its vertices, without near-duplicates.
 
-    Vertices that are not finite are left out. Reference: the hull in exact fractions, from which no vertex given stands
-    out by more than the tolerance.
+    Vertices that are not finite are left out.
 
     Args:
         polygon: Ring (k, 2) in m; any points.

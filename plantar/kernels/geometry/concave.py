@@ -14,8 +14,6 @@ __all__ = ["OutlineRectangles"]
 class OutlineRectangles:
     """Largest rectangles of outlines, with the work arrays they need.
 
-    The arrays are written to by every call: compiled calls follow each other, interpreted ones need an object each.
-
     Args:
         lists: Keep lists instead of arrays, which the interpreted form reads faster.
     """

@@ -1,8 +1,6 @@
 """Kernels on one convex polygon: area, centroid, closest point, margin, inner offset.
 
-Plain Python that also compiles ahead of time: `convex.pxd` beside it gives the C types. Both forms do the same
-operations in the same order and agree to the last bit. `plantar.polygon` is the public face, with units and examples;
-here points are float64 arrays (n, 2), strided or not, and polygons have no repeated last point.
+Points are float64 arrays (n, 2), strided or not; polygons have no repeated last point.
 """
 
 from __future__ import annotations
@@ -37,8 +35,7 @@ _FEW = 64  # vertices: room for polygons of up to so many is kept
 def area(polygon):
     """Signed area by the shoelace formula about the first vertex.
 
-    Reference: exact fractions. The error is below 1e-15 times the number of vertices times the square of the extent,
-    whatever the distance from the origin.
+    Error below 1e-15 times vertices times extent squared.
 
     Args:
         polygon: Polygon (k, 2) in m, simple.
@@ -70,8 +67,7 @@ def area_of(polygon):
 def area_and_centroid(polygon):
     """Signed area, and the centroid of the area.
 
-    Reference: exact fractions; the centroid's error is below 1e-15 times the extent, for thin polygons divided by
-    their width over length.
+    The centroid's error is below 1e-15 times the extent; for thin polygons over their width per length.
 
     Args:
         polygon: Polygon (k, 2) in m, simple, k 1 or more.
@@ -164,8 +160,7 @@ def _nearest_of_any(polygon, x, y):
 def closest_point(polygon, x, y):
     """Point of a convex polygon that is closest to a given one (T Algorithm 1, corrected: either orientation).
 
-    Reference: the smallest of the distances to all edges of the vertices' hull, in exact fractions. The error is below
-    1e-15 of the largest distance between the point and a vertex, and a rounding of the coordinates.
+    Error below 1e-15 of the largest distance to a vertex.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
@@ -276,9 +271,8 @@ def _entered(polygon, room):
 def inner_offset(polygon, distance):
     """Convex polygon of the points that keep a distance from every edge.
 
-    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman). Where nothing is left, the depth
-    of the deepest point is bisected over the edges that were left last. Reference: the intersection of the half planes
-    in exact fractions. Every vertex keeps the distance to 1e-15 of the polygon's size.
+    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman). Where nothing is left, the
+    depth of the deepest point is bisected.
 
     Args:
         polygon: Convex polygon (k, 2) in m, either orientation, with 1 vertex or more.

@@ -8,8 +8,7 @@ __all__ = ["cut_cells"]
 def cut_cells(points, start, lines, scratch, tags, measure, chords):
     """Clip every cell by the half-planes n . x <= h, one after the other (Sutherland and Hodgman 1974).
 
-    The sums run about each cell's first corner, so that far from the origin nothing cancels: areas are exact to
-    1e-12 of the cell's own, against shapely's intersection.
+    Sums run about each cell's first corner: areas are exact to 1e-12 of the cell's.
 
     Args:
         points: Corners (c, 2) of all cells in m, cell by cell, counter-clockwise.

@@ -1,9 +1,6 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Kernels around a convex ring: oriented box of least area, enclosing parallelogram of least area.
-
-Rings are as in `plantar.kernels.geometry.inscribed`: flat, clean, counter-clockwise, n vertices.
-"""
+"""Kernels around a convex ring: oriented box of least area, enclosing parallelogram of least area."""
 
 from __future__ import annotations
 

@@ -1,8 +1,4 @@
-"""Kernel of what of a polygon lies on one side of a line.
-
-Plain Python that also compiles ahead of time (`half_plane.pxd` gives the C types). `plantar.polygon.part_inside` is the
-public face.
-"""
+"""Kernel of what of a polygon lies on one side of a line."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 """Kernel of the convex hull: every turn decided exactly, so that the ring is exactly convex.
 
-Plain Python that also compiles ahead of time: `hull.pxd` beside it gives the C types. Both forms do the same operations
-in the same order and agree to the last bit. Points are float64 arrays (n, 2), strided or not.
+Points are float64 arrays (n, 2), strided or not.
 """
 
 from __future__ import annotations
@@ -113,8 +112,8 @@ def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
 def hull_ring(points, way, forth, count, tolerance, ring):
     """Hull of sorted points by Andrew's monotone chain, without vertices on straight edges.
 
-    Each turn is decided by a filtered determinant with an exact one behind it, so the ring is exactly convex. A vertex
-    between its neighbours that stands out of their line by no more than the tolerance is left out; nothing else is.
+    Turns are decided by a filtered determinant with an exact one behind it; a vertex out of the line of its
+    neighbours by no more than the tolerance is left out.
 
     Args:
         points: Points (n, 2) in m, finite.
@@ -183,9 +182,7 @@ def _ring_is_straight(points, a, b, c, tolerance):
 def convex_hull(points):
     """Convex hull of any points.
 
-    Reference: gift wrapping in exact fractions. Vertices are input points; no input point lies outside by more than
-    the tolerance of `hull_tolerance` times the number of points left out as straight, in practice a few 1e-16 of the
-    largest coordinate.
+    No point lies outside by more than `hull_tolerance` times the points left out as straight.
 
     Args:
         points: Points (n, 2) in m; those that are not finite are left out.

@@ -2,9 +2,7 @@
 # cython: infer_types=True
 """Kernels on a convex ring: ends of a flat one, largest inscribed triangle and circle.
 
-A ring is a flat sequence x0, y0, x1, y1, ... of n vertices. Every kernel takes a clean ring (see `clean`),
-counter-clockwise, in coordinates near the origin; all but `ends_of_flat` want an area. `plantar.inscribed` holds the
-functions to call.
+A ring is flat, x0, y0, x1, y1, ..., clean (see `clean`), counter-clockwise and near the origin.
 """
 
 from __future__ import annotations
@@ -113,9 +111,8 @@ def largest_triangle(ring, n, out):
 def largest_circle(ring, n, work, out):
     """Largest circle in a clean ring.
 
-    The depth, the least distance to an edge's line, is concave. So is the greatest depth over y at an x; both maxima
-    are found with cuts (tangents), which end on the exact optimum after a few. Two cuts meet at slopes of opposite
-    sign: where they are almost parallel they are almost level, and the depth is as exact as elsewhere.
+    The least distance to an edge is concave; so is its largest value over y at an x. Both maxima are found with
+    cuts (tangents).
 
     Args:
         ring: Clean ring of n vertices.

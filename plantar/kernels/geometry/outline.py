@@ -1,10 +1,6 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Kernel of the contact's outline: a walk along the edges that two active cells do not share.
-
-Plain Python that also compiles ahead of time (`outline.pxd` gives the C types). `plantar.outline` builds the table of
-edges and is the public face.
-"""
+"""Kernel of the contact's outline: a walk along the edges that two active cells do not share."""
 
 from __future__ import annotations
 

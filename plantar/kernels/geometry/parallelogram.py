@@ -2,8 +2,6 @@
 # cython: infer_types=True
 """Kernel for the largest parallelogram in a convex ring.
 
-Rings are as in `plantar.kernels.geometry.inscribed`: flat, clean, counter-clockwise, n vertices.
-
 One corner A of some largest parallelogram A B C D lies on a vertex and the others on the boundary. For each vertex A
 the corner B walks once round the boundary; C and D are the ends of the far chord that is parallel and equal to AB.
 While B, C and D stay on their edges they move linearly and the area is a parabola in the way of B.
@@ -167,10 +165,7 @@ class _ChordWalk:
         return event
 
     def may_hold_better(self):
-        """Whether the parabola of the area rises above the best one, or is too coarse to say.
-
-        The area AB x AD with B = B0 + t b and D = D0 + (e0 + e1 t) d is, but for a constant, q1 t + q2 t^2.
-        """
+        """Whether the parabola of the area rises above the best one, or is too coarse to say."""
         px = self.d0x + self.e0 * self.dx
         py = self.d0y + self.e0 * self.dy
         self.q1 = self.bx * py - self.by * px + self.e1 * (self.b0x * self.dy - self.b0y * self.dx)

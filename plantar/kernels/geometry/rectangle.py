@@ -1,9 +1,6 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Kernel for the largest rectangle in a convex ring, at a given angle.
-
-Rings are as in `plantar.kernels.geometry.inscribed`: flat, clean, counter-clockwise, n vertices.
-"""
+"""Kernel for the largest rectangle in a convex ring, at a given angle."""
 
 from __future__ import annotations
 
@@ -84,10 +81,7 @@ class _Gap:
         self.height = self.top - self.bottom
 
     def find_highest(self, w):
-        """Go to the highest gap of a width, from where x stands, and take a cut through it.
-
-        Two cuts, one that rises with x and one that falls, bracket the maximum; where they meet is the next x.
-        """
+        """Go to the highest gap of a width, from where x stands, and take a cut through it."""
         rise = fall = 0.0  # slopes in x of the two cuts
         rise_w = fall_w = 0.0  # and in w
         rise_x = self.first
@@ -226,8 +220,8 @@ class _Widths:
 def largest_rectangle(ring, n, angle, floor, work, out):
     """Largest rectangle in a clean ring whose first side stands at an angle.
 
-    The height h(w) = max over x of min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)) is concave and piecewise
-    linear; both maximisations run on its cuts (tangents), which end on the exact optimum after finitely many.
+    Height h(w) = max over x of min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)), concave and piecewise
+    linear; cuts (tangents) find both maxima.
 
     Args:
         ring: Clean ring of n vertices.
@@ -294,10 +288,7 @@ def largest_rectangle(ring, n, angle, floor, work, out):
 
 
 def _edge_out(work, n, bottom, top, x, way):
-    """How far out a side may go, to the left (way -1) or right (1), to the ring's edges at the height of its corners.
-
-    Chains leave upright edges out; a side found on them stands a little inside the ring.
-    """
+    """How far out a side may go to the left (way -1) or right (1) within the ring at the height of its corners."""
     for i in range(n):
         j = i + 1 if i + 1 < n else 0
         dx = work[2 * j] - work[2 * i]
@@ -330,7 +321,7 @@ def write_corners(out, cosine, sine, x1, x2, y1, y2):
 def _chain(work, n, low, high, step, tolerance, at):
     """Lower (step 1) or upper (step -1) chain of rotated vertices from low to high: x, y, slope each, at work[at:].
 
-    Sides that stand upright, or almost, are left out, so that every slope is finite and says something.
+    Upright sides are left out, so every slope is finite.
     """
     width = work[2 * high] - work[2 * low]
     i = low

@@ -1,10 +1,6 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Kernels from a polygon as it comes to the corners of a shape in or around it.
-
-Plain Python that also compiles ahead of time (`shapes.pxd` gives the C types). `plantar.inscribed` and
-`plantar.enclosing` are the public faces, with units and examples.
-"""
+"""Kernels from a polygon as it comes to the corners of a shape in or around it."""
 
 from __future__ import annotations
 
@@ -25,8 +21,6 @@ _QUARTER = 0.5 * math.pi
 class ConvexShapes:
     """Shapes of convex polygons (k, 2), with the work arrays they need.
 
-    The arrays are written to by every call: compiled calls follow each other, interpreted ones need an object each.
-
     Args:
         lists: Keep lists instead of arrays, which the interpreted form reads faster.
     """
@@ -42,10 +36,7 @@ class ConvexShapes:
         self.y = 0.0
 
     def _clean(self, polygon):
-        """Take a polygon; the number of vertices that count, with those in `ring`, clean and counter-clockwise.
-
-        Fewer than 3 count of one without area: its two ends, or what is left of it.
-        """
+        """Take a polygon; the number of vertices that count, with those in `ring`, clean and counter-clockwise."""
         k = polygon.shape[0]
         if 2 * k + 2 > len(self.ring):
             self.ring = work_arrays.numbers(4 * k + 2, self.lists)

@@ -1,8 +1,4 @@
-"""The kernel of a pendulum over a VRP that moves along a line: VRP, DCM and CoM at one time, with their rates.
-
-Plain Python that also compiles ahead of time (`pendulum.pxd` gives the C types). `plantar.gait.plan.vrp_plan` is the
-public face, with the equations.
-"""
+"""The kernel of a pendulum over a VRP that moves along a line: VRP, DCM and CoM at one time, with their rates."""
 
 from __future__ import annotations
 

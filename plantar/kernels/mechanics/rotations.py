@@ -1,8 +1,7 @@
 """Kernels of rotations in space: products of matrices (3, 3) and vectors (3,), the exponential map, one Newton step
 back to a rotation, and how far one is from another.
 
-`plantar.mechanics.rotation` is the public face, with units and examples. Here each result is written where the caller
-wants it, since these run many times in a control tick.
+Results are written where the caller wants them.
 """
 
 from __future__ import annotations

@@ -1,8 +1,4 @@
-"""Kernel of the quadratic program that shares a net wrench between contacts: what of it changes from call to call.
-
-Plain Python that also compiles ahead of time (`wrench_program.pxd` gives the C types).
-`plantar.mechanics.wrench_distribution` is the public face: it says what the program is, and calls the solver.
-"""
+"""Kernel of the quadratic program that shares a net wrench between contacts: what of it changes from call to call."""
 
 from __future__ import annotations
 

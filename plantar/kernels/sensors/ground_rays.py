@@ -1,7 +1,6 @@
 """Kernel of rays against simple solids, as MuJoCo casts them: the same operations in the same order, to the last bit.
 
-The quadratics and tests are those of MuJoCo's `mj_ray`, which looks at every geom of a model for each single ray. Here
-a solid that no ray of the sole can reach is left out once for all of them.
+As MuJoCo's `mj_ray`; solids that no ray can reach are left out once for all rays.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Kernels over many readings of one sole: one pass over the forces, nothing kept but the results.
 
-They release the interpreter lock: several threads at once may each do a part of the frames.
+They release the interpreter lock: threads may each do a part of the frames.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ _NONE = float("nan")
 def wrenches(sole, force, threshold, saturation, out):
     """Wrench of the active taxels of each frame; reference and error as `SoleKernel.loads`.
 
-    On a flat sole three sums do. Masking comes first and each sum runs in a loop of its own, over every fourth taxel
-    apart: the compiler can put them side by side without changing the order of any sum.
+    Each sum runs in its own loop over every fourth taxel, which the compiler vectorises without changing its
+    order.
 
     Args:
         sole: The `SoleKernel`.
@@ -86,8 +86,7 @@ def _wrenches(sole, force, threshold, saturation, kept, out):
 def loads(sole, force, threshold, saturation, out):
     """Wrench, contact area and CoP of each frame: to the last bit what `SoleKernel.loads` gives.
 
-    A taxel that is not active adds a 0, which changes no sum and costs less than asking each one. On a flat sole the
-    moments are those of the CoP already.
+    A taxel that is not active adds a 0. On a flat sole the moments are those of the CoP.
 
     Args:
         sole: The `SoleKernel`.

@@ -1,8 +1,4 @@
-"""Kernel of the ground's plane under a sole: least squares, and least median of squares where some taxels see else.
-
-Plain Python that also compiles ahead of time (`ground.pxd` gives the C types). `plantar.ground_plane` and
-`plantar.batch` are the public faces.
-"""
+"""Kernel of the ground's plane under a sole: least squares, and least median of squares where some taxels see else."""
 
 from __future__ import annotations
 
@@ -41,8 +37,6 @@ class GroundScratch:
 
 class GroundFit:
     """Fits planes to what the taxels of one sole see.
-
-    Each call works in arrays of its own, so that several threads may fit at once.
 
     Args:
         positions: Taxel centres (n, 3) in the sole frame in m.

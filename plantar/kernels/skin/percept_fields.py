@@ -1,8 +1,4 @@
-"""What a percept is made of, and the results that most of its members read: what is active, sums of loads, the hull.
-
-Plain Python that also compiles ahead of time (`percept_fields.pxd` gives the C types). `plantar.percepts.percept` has
-the public class, which checks what comes otherwise.
-"""
+"""What a percept is made of, and the results that most of its members read: what is active, sums of loads, the hull."""
 
 from __future__ import annotations
 

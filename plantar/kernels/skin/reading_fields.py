@@ -1,8 +1,4 @@
-"""What a reading keeps: a call that runs no Python where time and arrays come as they should.
-
-Plain Python that also compiles ahead of time (`reading_fields.pxd` gives the C types). `plantar.sensing.reading` has
-the public class, which checks what comes otherwise.
-"""
+"""What a reading keeps: a call that runs no Python where time and arrays come as they should."""
 
 from __future__ import annotations
 

@@ -1,10 +1,7 @@
 """Kernels of one sole: loads and support polygon of its active taxels, one call each for a reading.
 
-What does not change from reading to reading is prepared once: columns to multiply the forces with, the corners of the
-cells, sorted, on which side of its cell each lies, and the rows of cells that are shifted copies of each other.
-
-A call borrows the arrays that it works in, so that calls of one kernel from several threads do not meet in them: two
-calls of one thread never have different ones, and two at once never the same.
+What does not change from reading to reading is prepared once. A call borrows the arrays that it works in: calls from
+several threads do not meet in them.
 """
 
 from __future__ import annotations
@@ -264,8 +261,7 @@ class SoleKernel:
     def loads(self, force, active):
         """Wrench, contact area and CoP of the active taxels (T 4.21-4.23).
 
-        Reference: `math.fsum` of the single terms. The error of each sum is below n * 1.2e-16 of the sum of its terms'
-        absolute values.
+        Error of each sum below n * 1.2e-16 of the sum of its terms' absolute values.
 
         Args:
             force: Normal forces (n,) in N; those of taxels that are not active are not read.
@@ -374,9 +370,8 @@ class SoleKernel:
     def hull(self, active):
         """Convex hull of the active cells (T 4.24), with its area and centroid.
 
-        Only the ends of each row of copies are looked at, and of their corners the lowest at each x for the lower
-        chain, the highest for the upper; they come sorted. Reference: the monotone chain over all corners of all
-        active cells in exact fractions; errors as `hull.convex_hull`, `convex.area`, `convex.area_and_centroid`.
+        Only the ends of each row of shifted copies count; their corners come sorted. Errors as
+        `hull.convex_hull`, `convex.area_and_centroid`.
 
         Args:
             active: Mask (n,).
@@ -580,9 +575,6 @@ def _is_behind(cell, along):
 
 def _signs(cell, rank):
     """Where each corner of a cell can be on a hull that holds the cell, as bits (k,).
-
-    A corner above the line from the lowest to the highest of its cell's corners is never on the lower chain of the
-    hull, one below it never on the upper.
 
     Args:
         cell: Corners (k, 2) in m.
