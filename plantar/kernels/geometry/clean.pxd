@@ -1,4 +1,3 @@
-# C types of clean.py. Without a compiler this file is not read.
 cimport cython
 from . cimport hull
 

@@ -1,4 +1,3 @@
-# C types of convex.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
 from . cimport clean
@@ -37,8 +36,7 @@ cdef (double, double, double) _nearest_of_any(const double[:, :] polygon, double
 
 @cython.final
 cdef class OffsetRoom:
-    cdef double[:, ::1] given
-    cdef double[:, ::1] lines
+    cdef double[:, ::1] given, lines
     cdef double[:, :, ::1] rings
     cdef double[:, ::1] result
 
