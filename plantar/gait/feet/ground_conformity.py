@@ -228,7 +228,8 @@ class GroundConformity:
             contacts.update(percepts[side].reading, rotation, cop)
             if phase.stance == side:
                 target = rotation[:2, :2].T @ (zmp_desired - position[:2])
-                if self.turns_stance and not contacts.encloses(target):
+                # Once the other foot is down, the desired ZMP may lie beyond this sole: no turn brings the load there.
+                if self.turns_stance and not landed and not contacts.encloses(target):
                     turned[side] = SoleTurn(turns.stance(load, cop, target), _ORIGIN)
                     continue
             elif side == incoming and not contacts.encloses(self._middles[side]):

@@ -5,14 +5,19 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from plantar import Percept, Reading
 from plantar.errors import InputError
 from plantar.gait.contact.ground_map import GroundMapSettings
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.gait.feet.foot_motion import FootMotion, Landing
-from plantar.gait.feet.ground_conformity import ConformityGains, FootTurn
+from plantar.gait.feet.ground_conformity import ConformityGains, FootTurn, GroundConformity
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.plan.footsteps import straight_plan
+from plantar.gait.plan.phases import Phase, PhaseKind
+from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
+from plantar.mechanics.base_state import BaseState
+from plantar.sides import SIDES, Side
 
 PERIOD = 0.005
 GAINS = ConformityGains()
@@ -83,3 +88,22 @@ def test_a_standing_sole_turns_about_what_carries_it() -> None:
 def test_a_gain_below_zero_is_refused() -> None:
     with pytest.raises(InputError, match="setting 'firm'"):
         ConformityGains(firm=-1.0)
+
+
+@pytest.mark.parametrize(("landed", "turns"), [(False, True), (True, False)])
+def test_a_stance_foot_is_not_turned_after_a_zmp_beyond_it(landed: bool, turns: bool) -> None:
+    """A desired ZMP between both feet lies beyond the sole that carries: turning that would never end."""
+    feet, _ = straight_plan(2)
+    layout = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])
+    layouts: dict[Side, SoleLayout] = {"left": layout, "right": layout}
+    conformity = GroundConformity(GAINS, layouts, {side: np.zeros(2) for side in SIDES}, PERIOD)
+    phase = Phase(PhaseKind.SINGLE_SUPPORT, 0, 1.0, 2.0, "left")
+    percept = Percept(layout, Reading(1.5, np.full(len(layout), 800.0 / len(layout))))
+    places = {side: feet[side].position for side in SIDES}
+    level = {side: np.eye(3) for side in SIDES}
+    state = BaseState(
+        np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3), None, {"left": 0.0, "right": 800.0}, places, level
+    )
+    zmp = places["right"][:2] + np.array([0.0, 0.12])
+    found = conformity.update(phase, None, zmp, state, dict.fromkeys(SIDES, percept), landed)
+    assert ("right" in found) == turns
