@@ -6,6 +6,7 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -127,3 +128,14 @@ def test_where_the_feet_level_themselves_each_tick_teaches_the_slope(controller:
         controller.footing._level(slope, phase, state)
     assert [given[2] for given in seen] == [True, False]
     assert all(given[:2] == (state.rotations_sole, state.loads) for given in seen)
+
+
+def test_silent_encoders_are_bridged_for_a_fifth_of_a_beat() -> None:
+    run, _ = first_tick()
+    sensors, period = run.sensors.read_body(), run.settings.period
+    for ticks in range(1, 100):
+        silent = msgspec.structs.replace(sensors, time=sensors.time + ticks * period, gyro=np.full(3, np.nan))
+        run.controller.step(silent)
+        if run.controller.safe_state == "blind":
+            break
+    assert ticks == round(0.2 * run.body.beat / period) + 1
