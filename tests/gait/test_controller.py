@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 
 from plantar.gait.command import Command, FootTarget
 from plantar.gait.controller import WalkingController
+from plantar.gait.plan.plan_change import PlanChange
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import level_rotation
 from plantar.sim.run.runner import Simulation
@@ -139,3 +141,17 @@ def test_silent_encoders_are_bridged_for_a_fifth_of_a_beat() -> None:
         if run.controller.safe_state == "blind":
             break
     assert ticks == round(0.2 * run.body.beat / period) + 1
+
+
+@pytest.mark.parametrize("one_by_one", [False, True])
+def test_steps_that_come_one_by_one_are_no_other_plan(one_by_one: bool) -> None:
+    run, _ = first_tick()
+    change = PlanChange("a test", 0, shift=(0.01, 0.0))
+    if one_by_one:
+        change = PlanChange("a test", -1, following=tuple(replace(step, x=step.x + 0.01) for step in run.steps))
+    proposer: Any = SimpleNamespace(priority=0, propose=lambda tick: change)
+    run.controller._proposers = [proposer]
+    sensors = run.sensors.read_body()
+    command = run.controller.step(msgspec.structs.replace(sensors, time=sensors.time + run.settings.period))
+    assert command.moved_steps
+    assert run.controller.replans == (not one_by_one)
