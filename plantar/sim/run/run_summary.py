@@ -76,62 +76,24 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
     Returns:
         Its values by name, plain JSON.
     """
-    world, data, judge = run.world, run.world.data, run.judge
+    judge, stopped, late = run.judge, run.controller.safe_state, run.servos.out_of_reach_since
     count = judge.steps.count()
-    ends = [judge.goal.end(run.centers, at_start=at_start) for at_start in (False, True)]
-    position, yaw = _final_error(run, ends if run.speeds is None else [run.speeds.course])
-    # Where all steps were taken, the feet are where they have to be, and the body has to be over them.
-    off, turned = _final_error(run, [_over_feet(run, count)]) if 0 < count.taken == len(run.steps) else (position, yaw)
-    upright = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
     balance = {} if run.recovery is None else run.recovery.summary(run.pusher.applied)
-    stopped = run.controller.safe_state
-    ending = Ending(
-        body=run.body,
-        fall=judge.fall,
-        stopped=stopped,
-        steps=(count.taken, len(run.steps)),
-        missed=count.missed,
-        position=off if run.speeds is None else None,
-        heading=turned if run.speeds is None else None,
-        tilt=upright,
-        pushes=(balance.get("recovered", 0), len(balance.get("pushes", ()))),
-        overrun=result.overrun,
-    )
-    why = reasons(ending, judge.legs, judge.joints)
-    if judge.fall is None:  # a robot that falls rattles on any ground
-        why += judge.ripple.reasons()
-    landed = judge.landings
-    landings = [x.time for x in landed]
-    if run.speeds is not None:
-        why += run.speeds.reasons(landings)
-    if run.touched is not None:
-        why += run.touched.reasons(judge.steps.last_stands())
-    late = run.servos.out_of_reach_since
-    sole = {s: 4.0 * float(np.prod(run.robot.sole_rectangle(s)[1])) for s in SIDES}
-    summary: dict[str, Any] = {
-        **run.common(result, (run.scene.name, run.robot.name), why, judge.fell, float(data.time)),
+    final, why = _end(run, result, count, balance)
+    return {
+        **run.common(result, (run.scene.name, run.robot.name), why, judge.fell, float(run.world.data.time)),
         "emergency_stop": stopped is not None,
         "steps_planned": len(run.steps) if run.speeds is None else None,
         "steps_taken": count.taken if run.speeds is None else len(judge.steps.last_stands()),
         "tilt_max_deg": round(judge.tilt_max, 3),
         "zmp_margin_min_m": None if judge.margin_min is None else round(judge.margin_min, 5),
-        "impacts_N": [round(x.impact, 1) for x in landed],
-        "landings_s": [round(x.time, 3) for x in landed],
-        "landing_sides": [x.side for x in landed],
-        "contact_area_ratio": [round(x.area / sole[x.side], 3) for x in landed],
-        "zmp_margins_m": [None if x.margin is None else round(x.margin, 4) for x in landed],
-        "sole_angles_deg": [None if x.angle is None else round(x.angle, 2) for x in landed],
+        **_of_landings(run),
         "out_of_reach_since_s": None if late is None else round(late, 3),
         "replans": run.controller.replans,
         "moved_steps": judge.goal.summary(),
         "body": body_told(run.body),
         "shares": shares_told(run.scene),
-        "final": {
-            "position_error_m": round(position, 4),
-            "heading_error_deg": round(yaw, 3),
-            "tilt_deg": round(upright, 3),
-            "height_m": round(judge.height, 4),
-        },
+        "final": final,
         "drift": {
             "position_m": round(math.hypot(*count.drift), 4),
             "heading_deg": round(math.degrees(count.turned), 3),
@@ -146,18 +108,69 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
             "com_error_max_m": [round(float(v), 4) for v in judge.estimate_error_max],
             "zmp_error_rms_m": None if judge.zmp_error is None else round(judge.zmp_error, 5),
         },
+        **_of_parts(run, balance),
     }
-    summary |= _of_parts(run, landings, balance)
-    return summary
 
 
-def _of_parts(run: FinishedRun, landings: list[float], balance: dict[str, Any]) -> dict[str, Any]:
+def _of_landings(run: FinishedRun) -> dict[str, list[Any]]:
+    """Figures of each landing."""
+    landed = run.judge.landings
+    sole = {s: 4.0 * float(np.prod(run.robot.sole_rectangle(s)[1])) for s in SIDES}
+    return {
+        "impacts_N": [round(x.impact, 1) for x in landed],
+        "landings_s": [round(x.time, 3) for x in landed],
+        "landing_sides": [x.side for x in landed],
+        "contact_area_ratio": [round(x.area / sole[x.side], 3) for x in landed],
+        "zmp_margins_m": [None if x.margin is None else round(x.margin, 4) for x in landed],
+        "sole_angles_deg": [None if x.angle is None else round(x.angle, 2) for x in landed],
+    }
+
+
+def _end(
+    run: FinishedRun, result: Result, count: Count, balance: dict[str, Any]
+) -> tuple[dict[str, float], list[dict[str, Any]]]:
+    """Where and how the run ended, and the criteria that failed."""
+    world, judge = run.world, run.judge
+    ends = [judge.goal.end(run.centers, at_start=at_start) for at_start in (False, True)]
+    position, yaw = _final_error(run, ends if run.speeds is None else [run.speeds.course])
+    # Where all steps were taken, the feet are where they have to be, and the body has to be over them.
+    off, turned = _final_error(run, [_over_feet(run, count)]) if 0 < count.taken == len(run.steps) else (position, yaw)
+    upright = math.degrees(math.acos(min(1.0, float(world.data.xmat[world.torso, 8]))))
+    ending = Ending(
+        body=run.body,
+        fall=judge.fall,
+        stopped=run.controller.safe_state,
+        steps=(count.taken, len(run.steps)),
+        missed=count.missed,
+        position=off if run.speeds is None else None,
+        heading=turned if run.speeds is None else None,
+        tilt=upright,
+        pushes=(balance.get("recovered", 0), len(balance.get("pushes", ()))),
+        overrun=result.overrun,
+    )
+    why = reasons(ending, judge.legs, judge.joints)
+    if judge.fall is None:  # a robot that falls rattles on any ground
+        why += judge.ripple.reasons()
+    if run.speeds is not None:
+        why += run.speeds.reasons([x.time for x in judge.landings])
+    if run.touched is not None:
+        why += run.touched.reasons(judge.steps.last_stands())
+    final = {
+        "position_error_m": round(position, 4),
+        "heading_error_deg": round(yaw, 3),
+        "tilt_deg": round(upright, 3),
+        "height_m": round(judge.height, 4),
+    }
+    return final, why
+
+
+def _of_parts(run: FinishedRun, balance: dict[str, Any]) -> dict[str, Any]:
     """Figures that only some scenes have."""
     found: dict[str, Any] = {}
     if run.plant is not None:
         found["plant"] = run.plant.summary()
     if run.speeds is not None:
-        found["velocity"] = run.speeds.summary(landings)
+        found["velocity"] = run.speeds.summary([x.time for x in run.judge.landings])
     identified = run.controller.identified()
     if identified:
         found["identified"] = identified

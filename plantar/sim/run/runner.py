@@ -90,6 +90,7 @@ class Simulation(Run):
         self.velocities = walk.velocities(seed)
         start = self.start_walk()
         self.feet, self.steps = dict(start.feet), start.steps
+        self.centers = {side: middle_of_sole(robot.layouts[side], robot.ankle_reach) for side in SIDES}
         skin = upper_body_skin_of(scene, robot, self.legs.model, self.body, self.worn)
         self.settings = controller_settings(
             scene,
@@ -104,6 +105,17 @@ class Simulation(Run):
         ground = scene.terrain.ground(planned, np.random.default_rng([seed, 0x7E]))
         self.ground = ground
         self.plant = drawn_plant(scene.plant, seed, self.body, len(robot.legs["left"].joints) * 2, robot.layouts)
+        self.skipped = Counter(percept_members=0, recorded_ticks=0, rendered_frames=0)
+        self._everything = scene.control.skip == "none"
+        self._log: RunLog | None = None
+        self._enter_world(skin)
+        self.periods = self.world.period, self.settings.period
+        self._add_judges()
+
+    def _enter_world(self, skin: BodySkin | None) -> None:
+        """Build the world, and put the robot on its feet in it, with sensors, servos and what touches it."""
+        scene, seed = self.scene, self.seed
+        worn = () if self.worn is None else (self.worn,)
         self.touched: Touched | None = None
         if skin is not None:
             reach = scene.terrain.height + self.settings.com_height
@@ -124,11 +136,6 @@ class Simulation(Run):
         self.servos = LegServos(self.world, self.legs, self.settings.period, self.plant)
         force = scene.push if scene.push.by == "force" else Push()
         self.pusher = Pusher(force, self.controller.schedule, seed)
-        self.recovery = Recovery(self.pusher.shoves, self.controller.end, self.body) if scene.push.count else None
-        self.zmps: ZmpComparison | None = None
-        if scene.sensing.force_torque:
-            self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, self.settings.period)
-        self.centers = {side: middle_of_sole(robot.layouts[side], robot.ankle_reach) for side in SIDES}
         centers = {side: vrp_of_step(self.feet[side], self.centers[side]) for side in SIDES}
         self.arm = self._arm(self.settings.skin)
         hold = None if self.arm is None else self.arm.hold
@@ -137,6 +144,14 @@ class Simulation(Run):
             self.touch.place()
             if scene.sensing.body_skin:
                 self.sensors.body_skin = self.touch.read
+
+    def _add_judges(self) -> None:
+        """Follow the run by the simulator's truth."""
+        scene, robot, ground = self.scene, self.robot, self.ground
+        self.recovery = Recovery(self.pusher.shoves, self.controller.end, self.body) if scene.push.count else None
+        self.zmps: ZmpComparison | None = None
+        if scene.sensing.force_torque:
+            self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, self.settings.period)
         self.foothold_truth = FootholdTruth(self.world, ground)
         goal = WalkGoal(self.feet, self.steps, self.body.leg, scene.guide.way)
         self.speeds: VelocityTruth | None = None
@@ -145,10 +160,6 @@ class Simulation(Run):
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing, begin)
         plain = PlainGround(ground, {s: robot.layouts[s].outline for s in SIDES}, _AROUND * self.body.leg)
         self.judge = Judge(self.world, self.settings.com_height, goal, plain)
-        self.periods = self.world.period, self.settings.period
-        self.skipped = Counter(percept_members=0, recorded_ticks=0, rendered_frames=0)
-        self._everything = scene.control.skip == "none"
-        self._log: RunLog | None = None
 
     def build_world(self, others: Sequence[Visitor]) -> World:
         """The world of this run, with the robot, its ground and who else is in it.
