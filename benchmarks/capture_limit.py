@@ -205,11 +205,7 @@ def _spread(exponent: float) -> float:
 
 
 def _connected(programs: list[_Program]) -> _Found | None:
-    """The largest push below which all are captured; None where there is none.
-
-    One sequence captures an interval of pushes, which for the longest ones need not contain 0: the step that catches a
-    large push is too far for none.
-    """
+    """The largest push below which all are captured; None where there is none."""
     found = [(f, p) for p in programs for f in p.search()]
     found.sort(key=lambda item: item[0].most, reverse=True)
     above: list[tuple[float, _Found]] = []
@@ -341,10 +337,7 @@ class _Program:
         return total, leads, self._swings(times - np.where(np.arange(n) == 0, instant.elapsed, 0.0))
 
     def _swings(self, airborne: NDArray[np.float64]) -> NDArray[np.float64]:
-        """How far feet get (b, r) in the times (b, n) that they swing, along each edge of their circles.
-
-        A foot that already moves at v gets v t / 2 farther, and for braking v^2 / (5.77 a) less far.
-        """
+        """How far feet get (b, r) in the times (b, n) that they swing, along each edge of their circles."""
         limits, v = self._limits, self._instant.velocity / self._stretch
         found = [np.zeros((len(airborne), 0))]
         if math.isfinite(limits.swing_speed):

@@ -70,15 +70,7 @@ def run(scripts: Sequence[ModuleType], minutes: float) -> None:
 
 
 def again(scripts: Sequence[ModuleType], count: int) -> bool:
-    """Run some rows once more.
-
-    Args:
-        scripts: The tables that they are drawn from; each row is as likely as any other.
-        count: How many.
-
-    Returns:
-        Whether all have the same outcome.
-    """
+    """Run some rows once more."""
     known = {}
     for script in scripts:
         cases = {(c.name, c.robot): c for c in script.BENCHMARK.cases if not c.file or Path(c.file).exists()}

@@ -37,17 +37,7 @@ ROWS = {
 
 
 def theirs(analysis: Analysis, gait: FootGait, step: Step, between_ours: bool = False) -> dict[str, float] | None:
-    """pressuRe's measures of a step, in SI units.
-
-    Args:
-        analysis: The analysis.
-        gait: The step's foot.
-        step: The step.
-        between_ours: Whether the step is cut at our events, by which one sees what that alone makes of a difference.
-
-    Returns:
-        The measures by our names for them; None where the force does not fall to 30 N at either side.
-    """
+    """pressuRe's measures of a step, in SI units."""
     platform = analysis.recording.kind == "platform"
     force, pressure, layout = gait.foot.vertical_force, gait.foot.pressure(), gait.foot.layout
     assert pressure is not None
@@ -80,18 +70,7 @@ def theirs(analysis: Analysis, gait: FootGait, step: Step, between_ours: bool = 
 
 
 def reason(key: str, ours: float, other: float, cut: float, gait: FootGait) -> str:
-    """Why a measure differs by more than 1 %, with what cutting steps elsewhere makes of it and what the rest is.
-
-    Args:
-        key: The measure.
-        ours: Our value.
-        other: The other one.
-        cut: The other definition between our events.
-        gait: The foot.
-
-    Returns:
-        The reason; empty for 1 % or less.
-    """
+    """Why a measure differs by more than 1 %, with what cutting steps elsewhere makes of it and what the rest is."""
     if abs(ours / other - 1.0) <= 0.01:
         return ""
     levels, layout = gait.levels, gait.foot.layout
@@ -114,11 +93,7 @@ def reason(key: str, ours: float, other: float, cut: float, gait: FootGait) -> s
 
 
 def rows_of(path: Path) -> list[str]:
-    """The table's rows of one recording.
-
-    Returns:
-        A row a foot and measure: the means over the steps that both have.
-    """
+    """The table's rows of one recording."""
     analysis, out = analyse(path), []
     for side, gait in analysis.feet.items():
         if gait.foot.layout is None:

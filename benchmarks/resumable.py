@@ -172,23 +172,13 @@ def latest(rows: Iterable[Row]) -> list[Row]:
 
 
 def drawn_seeds(made: str, count: int) -> list[int]:
-    """The first seeds that a commit draws: the same for all cases, so that those that are compared share them.
-
-    Args:
-        made: Name of the commit.
-        count: How many.
-    """
+    """The first seeds that a commit draws: the same for all cases, so that those that are compared share them."""
     digests = (hashlib.sha256(f"{made} {i}".encode()).digest() for i in range(count))
     return [int.from_bytes(digest[:4], "big") for digest in digests]
 
 
 def wanted(benchmark: Benchmark, made: str | None = None) -> Iterator[tuple[int, Case, tuple[str, int]]]:
-    """Runs that are missing at a commit, each with its rank, the lower the sooner, and its plant and seed.
-
-    Args:
-        benchmark: What is counted.
-        made: Name of the commit; the one that is checked out where None.
-    """
+    """Runs that are missing at a commit, each with its rank, the lower the sooner, and its plant and seed."""
     done = {(r["case"], r["robot"], r.get("plant", ""), int(r["seed"])) for r in rows_of(benchmark.path)}
     seeds = drawn_seeds(made or commit(), max((case.seeds for case in benchmark.cases), default=0))
     for case in benchmark.cases:
@@ -204,17 +194,7 @@ def rank(case: Case, plant: str, i: int) -> int:
 
 
 def run_row(benchmark: Benchmark, case: Case, run: tuple[str, int], made: str) -> dict[str, Any]:
-    """Run a case once.
-
-    Args:
-        benchmark: What it belongs to.
-        case: The case.
-        run: Plant and seed.
-        made: Name of the commit.
-
-    Returns:
-        Its row.
-    """
+    """Run a case once."""
     from plantar.sim.run.runner import Simulation
     from plantar.sim.run.scene import load_scene
 
@@ -283,12 +263,7 @@ def of_now(rows: Sequence[Row]) -> list[Row]:
 
 
 def origin(benchmark: Benchmark, missing: int | None = None) -> str:
-    """Which commits the rows that count were made at, and how many are still to come, for under a table.
-
-    Args:
-        benchmark: What is counted.
-        missing: How many runs are missing, where the benchmark's cases do not tell.
-    """
+    """Which commits the rows that count were made at, and how many are still to come, for under a table."""
     made: dict[str, int] = {}
     for r in latest(rows_of(benchmark.path)):
         name = r["commit"] if r.get("plant", "") else f"{r['commit']} (older ground)"

@@ -42,12 +42,7 @@ class SweepCase(NamedTuple):
 
 
 def run_cases(cases: Iterable[SweepCase], folder: Path) -> None:
-    """Run what is missing.
-
-    Args:
-        cases: The cases.
-        folder: Folder of their sweeps.
-    """
+    """Run what is missing."""
     for case in cases:
         sweep = Sweep(case.scene, seeds=case.seeds, settings=case.settings, first_seed=FIRST)
         result = run_sweep(sweep, folder / case.folder)
@@ -55,15 +50,7 @@ def run_cases(cases: Iterable[SweepCase], folder: Path) -> None:
 
 
 def rows_of_cases(cases: Iterable[SweepCase], folder: Path) -> Iterator[tuple[SweepCase, list[Row]]]:
-    """Each case of which there are runs, with these.
-
-    Args:
-        cases: The cases.
-        folder: Folder of their sweeps.
-
-    Yields:
-        The case and its rows.
-    """
+    """Each case of which there are runs, with these."""
     for case in cases:
         path = folder / case.folder / "results.csv"
         if not path.exists():
@@ -80,27 +67,13 @@ def completed(rows: Sequence[Row]) -> str:
 
 
 def median_and_range(rows: Iterable[Row], column: str) -> str:
-    """Median and range of a figure over the runs.
-
-    Args:
-        rows: The runs.
-        column: Name of the figure.
-
-    Returns:
-        A text with three digits; "-" where no run has the figure.
-    """
+    """Median and range of a figure over the runs."""
     values = [float(r[column]) for r in rows if r[column] not in ("", "None")]
     return f"{median(values):.3g} ({min(values):.3g} to {max(values):.3g})" if values else "-"
 
 
 def write_rows(path: Path, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
-    """Write a CSV file.
-
-    Args:
-        path: The file.
-        columns: Names of its columns.
-        rows: Values of each row in that order.
-    """
+    """Write a CSV file."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)

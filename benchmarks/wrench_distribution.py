@@ -30,10 +30,7 @@ def heading(yaw):
 
 
 def requests(rng, count, *, moving):
-    """Requests as a control loop makes them: a ZMP that wanders through double support, with noise.
-
-    With `moving` each one also has feet at other places and other contact rectangles, so nothing can be kept.
-    """
+    """Requests as a control loop makes them: a ZMP that wanders through double support, with noise."""
     out = []
     for k in range(count):
         turn = heading(rng.uniform(-3.0, 3.0)) if moving else np.eye(3)

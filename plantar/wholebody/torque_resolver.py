@@ -1,7 +1,6 @@
 """Torques for robots that take velocities or positions: a virtual admittance between (A 26, T 3.2.3).
 
-The torques of a stack drive a virtual robot, M_v q'' + D_v q' = tau - bias, and its motion is what the servos of the
-real one are given. Its mass may be the real one, so that priorities stay strict in what moves, or another.
+The torques of a stack drive a virtual robot, M_v q'' + D_v q' = tau - bias, whose motion the servos get as set-points.
 """
 
 from __future__ import annotations

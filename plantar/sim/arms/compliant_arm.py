@@ -1,8 +1,7 @@
-"""A walking robot's arm that gives way to anyone who takes it: the companion's tasks on its joints, and what it shows.
+"""A walking robot's arm that yields to contact, by whole-body tasks on its joints.
 
-Its controller knows the arm's joints and its skin, and nothing about the walk: for it the base stands upright. What the
-arm does to the body the soles feel; where its links are, with all that their skin measures, the walking controller gets
-from its joint angles.
+Its controller knows the arm's joints and skin, not the walk: it assumes an upright base. The walking controller gets
+the arm's joint angles, and so the places of its taxels.
 """
 
 from __future__ import annotations

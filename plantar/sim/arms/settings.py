@@ -18,8 +18,7 @@ class ArmSettings(Settings):
             light wrist of h1 shakes at 200 Hz.
         gain: Factor on the force that the skin of the arm measures, with which the arm gives way to it; 1 as if it had
             neither friction nor gears, 0 holds against it.
-        filter: Time constant in s of the low pass on each taxel's force, so that yielding does not beat against the
-            skin's stiffness.
+        filter: Time constant in s of the low pass on each taxel's force, against oscillation on the skin's stiffness.
         speed_noise: Noise (1 sigma) in rad/s of the joints' speeds; their angles have the noise of the legs'.
     """
 

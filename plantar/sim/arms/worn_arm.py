@@ -1,8 +1,7 @@
 """An arm that a walking robot wears: links, joints, motors and skin of a machine's arm, taken out of its chest.
 
-A walking robot's upper body is welded to its base. The arm of a machine that has the same base takes the place of the
-arm in there: the chest loses the arm's mass, and its centre of mass moves, so that in the machine's posture the robot
-weighs as much as before, and in the same place.
+The arm of a machine with the same base replaces the welded one; mass and center of mass of the chest change so that in
+the machine's posture the robot's are the same as before.
 """
 
 from __future__ import annotations

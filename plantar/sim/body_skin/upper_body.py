@@ -1,8 +1,7 @@
 """Skin around the upper body of a robot that walks: a box of taxels about all that moves with its base.
 
-A walking robot's upper body is welded to its base (`plantar.robots`), so one link carries the skin. The box stands
-in for the surface: a force on a face acts along its normal, wherever along it the surface is, so a wrench does not
-change by it. Taxels are as large as the 691 mm^2 cells of A and T are on H1, and as many on any robot of its shape.
+The upper body is welded to the base, so one link carries the skin. A force on a face of the box acts along its normal,
+so the wrench is that on the surface. Taxels have 691 mm^2 on H1, and are as many on any robot of its shape.
 """
 
 from __future__ import annotations

@@ -29,7 +29,7 @@ class MujocoDynamics:
         time: Time of the last update in s.
         joints: Indices (k,) of the coordinates that have an actuator, ascending; those of all hinges and slides where
             the model has no actuators.
-        jacobians: How many Jacobians of links were computed since it was made.
+        jacobians: How many Jacobians of links were computed.
 
     Raises:
         InputError: If the model has no joint that could be moved.

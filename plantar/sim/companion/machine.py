@@ -1,7 +1,6 @@
 """Machines with skin: an arm, an arm on wheels or a whole body, from an MJCF and a TOML next to it.
 
-The TOML shows what the MJCF does not: which kind of base carries the joints, what each joint can do, the posture, how
-the joints are commanded, and where the skin is. Any MJCF arm becomes a machine by such a file alone.
+The TOML adds to the MJCF the kind of base, limits and posture of the joints, their drives, and where the skin is.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """A mobile robot on the ground before the robot that walks, with its hand at the height of the CoM (K Fig. 9).
 
-Its wheels roll along the robot's heading at the start and hold sideways; its arm is a spring. It measures the force on
-its hand, moves a reference by its impedance controller, and drives its own mass after it with a limited force.
+Its wheels roll along the robot's heading at the start; its arm is a spring. It measures the force on its hand, moves a
+reference by its impedance controller, and follows it with a limited force.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Intentional contact: what is in the way may be touched and pushed, with no more than a tolerable force (T 3.4.2).
 
-T Table 1 gives conditions for its three arrangements that hold side by side, and at an exact zero of forces that a
-sensor never reads. Here one counts until the conditions of another have held for a while, with hysteresis.
+The conditions of T Table 1 overlap, so an arrangement is kept until those of another have held for a while.
 """
 
 from __future__ import annotations

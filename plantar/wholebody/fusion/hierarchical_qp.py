@@ -1,11 +1,8 @@
 """The hierarchy of `fusion.hierarchy` as least squares within limits of torques, speeds and positions, level by level.
 
-Projections (A 19-25) cannot hold a limit: clipping their torques afterwards breaks every priority. Here each level is
-met as well as the limits and the levels above it leave room for (Escande et al. 2014). In mass-weighted coordinates
-the least motion is the dynamically consistent one, so where no limit acts the motion is that of the hierarchy.
-
-A direction near a singularity is damped by the same rule. Where no motion keeps all limits, those of speed and position
-are widened by as little as it takes, after that those of torque, and what is put out is cut to them.
+Each level is met as well as the limits and the levels above it allow (Escande et al. 2014), in mass-weighted
+coordinates, so that without a limit the motion is that of the hierarchy. Where no motion keeps all limits, those of
+speed and position are widened as little as possible, then those of torque, and the output is cut to them.
 """
 
 from __future__ import annotations

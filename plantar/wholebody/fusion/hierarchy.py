@@ -1,13 +1,11 @@
 """Tasks in strict order, dynamically consistent: A 19-25 and, with a support, T 3.13.
 
-The projectors of A 22-25 are products of large matrices that lose their digits near singularities. In mass-weighted
-coordinates y = L^T q'', M = L L^T, the dynamically consistent inverse (A 25) is the plain pseudo-inverse and the
-projector (A 24) an orthogonal one, so the same torques follow from one QR decomposition a level: what a level owns is
-an orthonormal basis, and what is below acts in the rest of it, to rounding.
+In mass-weighted coordinates y = L^T q'', M = L L^T, the dynamically consistent inverse (A 25) is the pseudo-inverse and
+the projector (A 24) is orthogonal, so each level needs one QR decomposition, without loss of digits near singularities.
 
-Near a singularity the two things that are wanted of a task part: a direction with a singular value above `RANK` of its
-rows' size stays its own, so that priority is strict; and below `DAMPED` of that size it is driven by
-s / (s^2 + lambda^2), lambda^2 = (1 - (s / s_0)^2) s_0^2 / 4, so that torques stay bounded and continuous.
+A direction with a singular value above `RANK` of its rows' size belongs to its level, so that priority is strict; below
+`DAMPED` of that size it is driven by s / (s^2 + lambda^2), lambda^2 = (1 - (s / s_0)^2) s_0^2 / 4, so that torques stay
+bounded and continuous.
 """
 
 from __future__ import annotations
@@ -71,11 +69,9 @@ def fuse(
 
     Args:
         robot: Kinematics and dynamics of this instant.
-        levels: What the tasks ask for, the highest priority first. None stands for a task that is silent; it and a
-            level without any other cost nothing.
+        levels: Demands of the tasks, the highest priority first; None for a task without one, which costs nothing.
         support: Rows on which the robot stands, above all levels; a robot whose base is not driven needs them.
-        external: Generalized force (n,) that is known to act, such as J^T w of what the skin measures; taken out of
-            what the joints and the support have to do.
+        external: Known generalized force (n,), such as J^T w of the skin, which joints and support need not produce.
         split: How joints and support share what is to be done; `joint_torques` where None.
 
     Returns:

@@ -96,8 +96,7 @@ def null_space_torques(
 
     Args:
         robot: Kinematics and dynamics of this instant.
-        levels: What the tasks ask for, the highest priority first; the tasks of a level count as one. None stands for a
-            task that is silent.
+        levels: Demands of the tasks, the highest priority first; None for a task without one.
         support: Rows on which the robot stands, above all levels.
         external: Generalized force (n,) that is known to act.
         projection: How higher tasks count.
@@ -141,7 +140,7 @@ def weighted_sum(
 
     Args:
         robot: Kinematics and dynamics of this instant.
-        levels: What the tasks ask for; None stands for a task that is silent.
+        levels: Demands of the tasks; None for a task without one.
         support: Rows on which the robot stands.
         external: Generalized force (n,) that is known to act.
         weights: Weight of each level: a number, or one (n,) for each coordinate; 1 for all where None.

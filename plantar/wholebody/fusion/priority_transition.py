@@ -1,7 +1,7 @@
 """Priorities that change smoothly: from the torque of one arrangement of tasks to that of another (T 3.45-3.46).
 
-T 3.46 prints chi = (1 - tanh(delta_t (t - t_t))) / 2 with t_t the instant of the trigger, which jumps half of the way
-there. Here t_t is the middle of the change, and chi is stretched to be 1 at its beginning and 0 at its end.
+In T 3.46, chi = (1 - tanh(delta_t (t - t_t))) / 2, t_t is the trigger, where chi jumps by a half. Here t_t is the
+middle of the change, and chi is scaled to go from 1 to 0.
 """
 
 from __future__ import annotations

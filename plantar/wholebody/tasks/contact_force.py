@@ -26,8 +26,8 @@ class ContactGains(Settings):
         gain: K_1 on the error of the force.
         integral: Rate at which a lasting error is taken back; 0 leaves it.
         distance_stiffness: Force that counts for a metre of distance too much, in place of the error of the force.
-        free_damping: Damping while the patch measures nothing, where it is more than D_1: all gains grow with it, so
-            that speeds stay as they are but what is misjudged of the robot's mass slows them less.
+        free_damping: Damping while the patch measures nothing, where it is more than D_1; all gains grow with it, so
+            that errors of the robot's mass matter less at the same speeds.
     """
 
     inertia: float = number(2.0, "kg", 1e-3, 1e3)

@@ -45,14 +45,14 @@ class GuidanceGains(Settings):
 class TactileGuidance(Task):
     """x''* = (K F_arm + k s - D x') / Lambda of the hand, F_arm what is measured on the arm (A 11, A 12 corrected).
 
-    The spring k is stretched by s, from the hand to the place that it keeps. A touch carries that place along as it is,
-    so that the pull, which by then balances what is misjudged of the weight, is there while the hand is guided too.
+    The spring k is stretched by s, from the hand to its resting place, which a touch carries along.
 
     Args:
         patches: Names of the patches on the arm.
         point: Point (3,) in its frame in m.
-        arm: Links from the shoulder to the wrist, whose origins are the ends of the arm's parts: the hand is not guided
-            on where they come to lie in a line, for a straight arm cannot hold it. None for no such end.
+        arm: Links from the shoulder to the wrist; the hand is not guided further where they become straight. None for
+        no
+            such end.
 
     Raises:
         InputError: If there is no patch of a name, or an arm has less than three links.

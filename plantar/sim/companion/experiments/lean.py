@@ -1,8 +1,7 @@
 """A robot leans on a table with one forearm and reaches out farther than its feet can hold, one of them on an edge.
 
-The forearm is lowered until its skin measures the table. Then it is a contact as the feet are: what the skin states of
-where it touches goes into the support and into how the load is shared. What of a sole stands on the ground its taxels
-see.
+The forearm is lowered until its skin measures the table; then it is a contact like the feet. The soles' taxels see
+which part of them is on the ground.
 """
 
 from __future__ import annotations

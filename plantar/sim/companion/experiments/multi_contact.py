@@ -15,10 +15,9 @@ _LEG = {f"right {part.replace('_', ' ')}": (f"right_{part}",) for part in ("uppe
 class MultiContact(PressedExperiment):
     """Pads press on thirteen instances, one after the other, then on all of them.
 
-    T 3.2.4.1 has support by the left leg, self-collision, skin, and a centre of mass at 0.8 m below it. Thirteen links
-    that own all their rows leave nothing to a centre of mass below them, nor a spring that brings them back: in that
-    order the free leg drifts under a push until the standing hip has not the torque to hold it. So the centre of mass
-    stands with the support here, and skin and posture share the last level, as in T 3.2.3.1.
+    T 3.2.4.1 has the center of mass below the skin, where thirteen links with six rows each leave no direction for it:
+    the free leg drifts until the standing hip cannot hold it. Here the center of mass shares the level of the support,
+    and skin and posture the last one, as in T 3.2.3.1.
     """
 
     sides: ClassVar = ("left",)

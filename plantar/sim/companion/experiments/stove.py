@@ -1,8 +1,7 @@
 """A hand that works over a hot plate draws back when its skin gets warm (T 3.3.2.1).
 
-The order is T's: support; temperature-driven compliance; the right hand's pose; posture. A hand that heat repels has no
-row left for its pose, and skin cools slowly: with nothing else to hold it the hand would drift as far as it can. So the
-posture acts next to heat, and draws the hand back to where it came from.
+The order is T's: support; temperature-driven compliance; the right hand's pose; posture. The posture also shares the
+level of heat, and draws the hand back: skin cools slowly, and a repelled hand would drift.
 """
 
 from __future__ import annotations

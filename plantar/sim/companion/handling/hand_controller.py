@@ -37,21 +37,21 @@ _TAKEN_OVER = 0.3  # s in which the wanted force is taken over into the joints a
 class HandControl(CompanionControl):
     """Gains and switches of the hierarchy.
 
-    The skin of the hand is a spring of some 90 kN/m. With an acceleration of `force_gain` for a newton, a mass m of
-    some 4 kg along the normal, and the wanted force fed forward, what an unknown force changes is taken back at the
-    rate m force_gain `force_integral`, here 20 1/s: two thirds of what a delay of two periods and the spring allow.
+    The hand's skin is a spring of about 90 kN/m. An unknown force is corrected at the rate m force_gain force_integral,
+    20 1/s for m = 4 kg along the normal: two thirds of what a delay of two periods and the spring allow.
 
     Attributes:
         approach_speed: Speed at which the hand comes near to the surface.
         free_damping: D_1 / Lambda_1 while the hand measures nothing.
-        guidance_stiffness: Stiffness with which the hand keeps its place before contact while the arm measures nothing:
-            critical, D_3^2 / (4 Lambda_3); 0 lets it drift with what is misjudged of the arm's weight.
+        guidance_stiffness: Stiffness that keeps the hand's place before contact while the arm measures nothing:
+        critical,
+            D_3^2 / (4 Lambda_3); with 0 it drifts with errors of the arm's weight.
         base_stiffness: K_c of the base along x and y, and in N m/rad about z.
         base_damping: D_c of the base likewise.
         wrist: Whether the wrist complies (ablation).
         avoidance: Whether the base avoids obstacles (ablation).
-        feed_forward: Whether the wanted force and what the arm's skin measures are taken over into the joints
-            (ablation); never where drives take no torques.
+        feed_forward: Whether the wanted force and the arm's contact forces are fed forward into the joints (ablation);
+            never where drives take no torques.
         priority: "strict", or "sum": torques of all tasks added (ablation).
     """
 

@@ -82,8 +82,8 @@ def random_layout(
 ) -> Layout:
     """A layout that can be solved: what is fixed leaves room for the tip along the straight way to the goal.
 
-    On the way stand three posts in a bow that is open to the tip, too close for it to pass between: a pocket in which
-    a potential field has its minimum. Of "beside" the one on a side is fixed.
+    Three posts stand in a bow that is open to the tip, too close for it to pass between: a pocket in which a potential
+    field has its minimum. In "beside" an outer one is fixed.
 
     Args:
         rng: Random numbers.

@@ -2,8 +2,8 @@
 
 A taxel is a layer of skin with one temperature T: C T' = eps^2 sigma F (T_p^4 - T^4) - h (T - T_air), with the view
 factor F of the plate's disc from the taxel, summed over small areas of it as cos cos dA / (pi r^2) (Incropera,
-Fundamentals of heat and mass transfer, ch. 13), and air that is the hotter the lower above the plate. What it radiates
-to the room is in h.
+Fundamentals of heat and mass transfer, ch. 13), and air that is hotter near the plate. Radiation to the room is part
+of h.
 """
 
 from __future__ import annotations

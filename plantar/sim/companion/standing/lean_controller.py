@@ -59,9 +59,7 @@ class LeanControl(StandingControl):
 
 
 class Aim:
-    """Aims beyond a target by what a soft task falls short of it.
-
-    What is measured and what is planned differ by some 20 N, to which a centre of mass yields by a centimetre.
+    """Integrates the error of a soft task: 20 N of difference between plan and measurement move it by a centimetre.
 
     Args:
         axes: Factor (3,) of each axis; 0 for one that is aimed at as it is.
@@ -93,9 +91,8 @@ class Aim:
 class LeanController:
     """Settle, bring the forearm over the table, lower it until it touches, lean, reach.
 
-    How the load should be shared among feet and forearm is planned in their cones; the forearm presses with its share,
-    by what its skin measures, and the feet carry what is left. Without skin it can only hold the forearm where it
-    expects the table.
+    The load is shared among feet and forearm within their friction cones; the forearm presses with its share as its
+    skin measures it. Without skin it is held where the table is expected.
 
     Args:
         experiment: The experiment, for its stance and first posture; not for what is true of the table.
