@@ -1,13 +1,8 @@
 r"""One tick of whole-body control compared with mink (velocities) and tsid on pinocchio (accelerations and torques).
 
-The same robot, state and tasks for each: two strict levels, since the peers have no more. Above, what has to be met
-(hand, centre of mass, feet where it stands on them), below a posture. First what comes out is compared, then the time.
-A tick is everything between the state of the joints and the torques: kinematics, dynamics, tasks and fusion.
-`python benchmarks/companion_peers.py` measures it; its head says how tsid gets an environment of its own.
-
     OMP_NUM_THREADS=1 python benchmarks/companion_peers.py        (writes benchmarks/companion_peers.md)
 
-mink is one of the project's tools. tsid is not, and gets an environment of its own:
+mink is one of the project's tools. tsid gets its own environment:
 
     python3.11 -m venv /tmp/tsid-venv
     /tmp/tsid-venv/bin/pip install --only-binary :all: tsid==1.7.1 pin==3.4.0 "cmeel-urdfdom<5" "cmeel-tinyxml2<11" \
@@ -52,27 +47,31 @@ FEET = ("left_foot", "right_foot")
 """Links that h1 stands on."""
 
 
-_READING = """Read it so:
+_INTRO = """# A tick of whole-body control compared with tsid and mink
 
-- Medians of ticks in turn on one core, each library called from Python; tsid and pinocchio are C++ inside, the
-  companion is Python but for MuJoCo and one kernel. Of a 9-joint arm a tick is mostly Python's calls, and tsid is
-  faster; of a whole body it is arithmetic, and both take about as long.
-- tsid has two levels. Every further one costs the companion about 10 us of an arm; where a task is silent, nothing.
-- "With limits" is `plantar.wholebody.fusion.hierarchical_qp`: first without its shortcut, so that every level is solved
-  though no limit acts, then with a torque limit a tenth below what the stack needs. With the shortcut a tick on which
-  no limit acts costs what the plain hierarchy does and some 10 us. tsid holds limits on its first level only.
-- daqp meets mink's constraints to 1e-6 of the largest velocity, quadprog to 1e-9: the free base has no cost of its own.
+The same robot, state and two strict levels of tasks for all. A tick is everything from joint states to torques:
+kinematics, dynamics, tasks and fusion. Results are compared first, then times.
+"""
+
+_READING = """`python benchmarks/companion_peers.py` measures it; its docstring shows how tsid gets an environment.
+Medians of ticks in turn on one core.
+
+- tsid and pinocchio are C++; Plantar is Python except for MuJoCo and one kernel. On a 9-joint arm calls dominate and
+  tsid is faster; on a whole body both take about as long.
+- tsid has two levels. Each further level costs Plantar about 10 us on an arm.
+- "With limits" is `hierarchical_qp`: first solved on every level although no limit acts, then with a torque limit a
+  tenth below the demand. Its shortcut costs 10 us where no limit acts.
 """
 
 
 def library(name):
-    """A library, or None with a line that says how to get it."""
+    """A library, or None with a line on how to get it."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return importlib.import_module(name)
     except (ImportError, AttributeError):
-        print(f"{name} is missing and left out; see the head of {Path(__file__).name}")
+        print(f"{name} is missing and left out; see the docstring of {Path(__file__).name}")
         return None
 
 
@@ -363,13 +362,13 @@ def main():
     cases = [Case("mobile-arm"), Case("h1-body", FEET[:1]), Case("h1-body", FEET)]
     pin, mink = library("pinocchio"), library("mink")
     tsid = library("tsid.tsid_pywrap") if pin else None
-    lines = [__doc__.split("\n\n")[1], ""]
+    lines = [_INTRO]
     if tsid:
         lines += torque_table(cases, tsid, pin)
     if mink:
         lines += velocity_table(cases, mink)
     lines += [_READING]
-    text = "\n".join(["# A tick of whole-body control compared with tsid and mink", "", *lines])
+    text = "\n".join(lines)
     print(text)
     if tsid and mink:
         write_text(Path(__file__).with_suffix(".md"), text + "\n")
