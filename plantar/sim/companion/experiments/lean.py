@@ -184,8 +184,8 @@ class Lean(StandingExperiment):
         figure, (upper, lower) = new_figure(8.0, 6.5, rows=2)
         names = ("left foot", "right foot, on 30 % of its sole", "forearm")
         for i, (name, colour) in enumerate(zip(names, ("left", "right", "polygon"), strict=True)):
-            upper.plot(trace[:, 0], trace[:, 2 + i], color=COLOURS.get(colour), label=name)
-        upper.set(xlabel="time [s]", ylabel="true load [N]")
+            upper.plot(trace[:, 0], trace[:, 2 + i] / self.weight, color=COLOURS.get(colour), label=name)
+        upper.set(xlabel="time [s]", ylabel="true load [body weight]")
         upper.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
         lower.plot(trace[:, 0], 1e3 * trace[:, 1], label="beyond the feet's polygon")
         lower.axhline(0.0, linewidth=0.8, color="0.5")
