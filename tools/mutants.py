@@ -127,6 +127,8 @@ def _left_alone(tree: ast.AST) -> Iterator[ast.AST]:
             roots += node.keywords if isinstance(node, ast.ClassDef) else []
         elif isinstance(node, ast.Expr | ast.If | ast.Assign) and _is_no_logic(node):
             roots = [node]
+        elif isinstance(node, ast.keyword) and node.arg == "strict":  # of zip: a guard, as an assertion
+            roots = [node.value]
         for root in roots:
             if root is not None:
                 yield from ast.walk(root)
