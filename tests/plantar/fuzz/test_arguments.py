@@ -59,7 +59,7 @@ def test_all_wrong_arguments(name: str, array: str) -> None:
 
 
 @given(st.sampled_from(ARRAYS), st.sampled_from(sorted(MEMBERS)), st.integers(0, 2**32 - 1))
-@settings(max_examples=300)
+@settings(max_examples=100)
 def test_any_wrong_argument(place: tuple[str, str], member: str, seed: int) -> None:
     name, array = place
     assert complaint(CALLS[name], array, member, np.random.default_rng(seed)) is None

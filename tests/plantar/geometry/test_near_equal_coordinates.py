@@ -83,7 +83,7 @@ def test_a_corner_three_nanometres_beyond_another_one_costs_no_corner():
     assert area(convex_hull(LANDED)) == hull.area()
 
 
-@settings(max_examples=300)
+@settings(max_examples=100)
 @given(near_equal(least=1))
 def test_hulls_are_those_in_exact_fractions(drawn):
     _, points, _ = drawn
@@ -103,7 +103,7 @@ def test_hulls_are_those_in_exact_fractions(drawn):
                 assert outside <= room
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(near_equal(), st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)))
 def test_margins_and_areas_of_few_points_are_those_of_exact_hulls(drawn, off):
     _, points, _ = drawn

@@ -57,7 +57,7 @@ def test_the_forms_come_from_one_source():
 
 
 @given(seeds)
-@settings(max_examples=200)
+@settings(max_examples=100)
 def test_convex_kernels_agree_to_the_last_bit(seed):
     cloud = cloud_of(seed)
     rng = np.random.default_rng(seed)

@@ -41,7 +41,7 @@ def corners_of(layout, active):
 
 
 @given(seeds, layouts)
-@settings(max_examples=200)
+@settings(max_examples=100)
 def test_hull_is_that_of_the_active_cells_corners(seed, name):
     layout = LAYOUTS[name]
     rng = np.random.default_rng(seed)
@@ -134,7 +134,7 @@ def test_faults_are_the_dead_and_the_saturated_taxels(limit):
 
 
 @given(seeds, layouts, st.sampled_from([-math.inf, 0.0, 1.0, 5.0]), st.sampled_from([30.0, 785.0, math.inf]))
-@settings(max_examples=300)
+@settings(max_examples=100)
 def test_loads_of_an_unsaturated_sole_are_those_of_all_columns(seed, name, threshold, saturation):
     layout, rng = LAYOUTS[name], np.random.default_rng(seed)
     flat = layout.kernel

@@ -50,7 +50,7 @@ def test_soles_are_turned_raised_and_pressed_as_numpy_would(seed):
     np.testing.assert_allclose(place, position[:2] + level[:2, :2] @ center, rtol=1e-12, atol=1e-12)
 
 
-@settings(max_examples=300)
+@settings(max_examples=100)
 @given(a=numbers, b=numbers, c=numbers)
 def test_a_fused_multiply_add_is_rounded_once(a, b, c):
     with decimal.localcontext(prec=2500, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN):

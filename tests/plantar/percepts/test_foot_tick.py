@@ -10,7 +10,7 @@ OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
 SOLES = {"flat": hex_layout(OUTLINE), "curved": laid_over(hex_layout(OUTLINE), lambda x, y: x * x - y * y)}
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(
     st.integers(0, 2**32 - 1),
     st.sampled_from(sorted(SOLES)),

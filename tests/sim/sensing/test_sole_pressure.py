@@ -83,7 +83,7 @@ def test_no_push_no_taxel_force(force: float) -> None:
 coordinate = st.tuples(st.floats(-0.14, 0.14), st.floats(-0.09, 0.09))
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(st.lists(coordinate, min_size=1, max_size=9), coordinate, st.floats(1e-3, 5e3))
 def test_any_patch_and_load_gives_finite_forces_that_add_up(
     patch: list[tuple[float, float]], load: tuple[float, float], force: float
@@ -110,7 +110,7 @@ def test_result_does_not_depend_on_the_loads_before() -> None:
             assert (used.spread(patch, 300.0, (x, y)) == fresh).all()
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(st.floats(-0.7, 0.7), st.floats(-0.7, 0.7), st.floats(10.0, 2e3))
 def test_full_sole_has_the_exact_centre_of_pressure(fx: float, fy: float, force: float) -> None:
     cop = HALF * [fx, fy]
@@ -118,7 +118,7 @@ def test_full_sole_has_the_exact_centre_of_pressure(fx: float, fy: float, force:
     assert center_of_pressure(LAYOUT, taxels, 0.0) == pytest.approx(cop, abs=1e-7)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(st.lists(coordinate, min_size=3, max_size=8), st.lists(st.floats(0.05, 1.0), min_size=8, max_size=8))
 def test_loaded_cells_touch_the_patch(patch: list[tuple[float, float]], weights: list[float]) -> None:
     """No taxel away from the patch is loaded, and what is inside by a cell keeps its moment to a cell's size."""
