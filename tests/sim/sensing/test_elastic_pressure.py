@@ -39,7 +39,7 @@ def test_force_and_centre_of_pressure_are_the_true_ones(x: float, y: float, forc
         assert pressure.spread(BEAM, force, (x, y)).sum() == pytest.approx(force)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(st.lists(st.tuples(st.floats(-0.1, 0.1), st.floats(-0.06, 0.06)), min_size=2, max_size=3))
 def test_readings_do_not_depend_on_those_before(loads: list[tuple[float, float]]) -> None:
     used = ElasticPressure(LAYOUT, thickness=0.012)
