@@ -40,6 +40,7 @@ def test_a_finger_over_a_table_pushes_what_stands_at_its_goal():
     assert 1.0 < summary["force_max_N"] < 16.5
 
 
+@pytest.mark.long
 def test_what_parts_without_skin_press_counts_too():
     """The wrist of the table's arm has no skin: pushed against a post it is judged all the same."""
     companion = Companion(open_scene("table-contact", ["half_height=0.12", "duration=4.2"]), 1)
