@@ -82,7 +82,8 @@ class Command(Record, frozen=True):
         ankle_loads: What each ankle's force-torque sensor says that its sole carries; empty without such sensors.
         footholds: What feet have been found to stand on at this tick.
         moved_steps: Footsteps that were planned anew at another place at this tick.
-        joint_offsets: What joint set-points have to be higher by (k,) in rad, as encoders err; None for nothing.
+        joint_offsets: What joint set-points have to be higher by (k,) in rad, as encoders err; None for zero.
+        stiffness: Share of the joints' stiffness and load that servos should keep; 1, but of a robot that has fallen.
     """
 
     com: NDArray[np.float64]
@@ -98,3 +99,4 @@ class Command(Record, frozen=True):
     footholds: tuple[FootholdFound, ...] = ()
     moved_steps: tuple[MovedStep, ...] = ()
     joint_offsets: NDArray[np.float64] | None = None
+    stiffness: float = 1.0

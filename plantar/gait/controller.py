@@ -26,6 +26,7 @@ from plantar.gait.plan.plan_change import MovedStep
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.decide import decide
 from plantar.gait.propose.proposer import Proposer
+from plantar.gait.safety.safe_stop import SafeStop
 from plantar.gait.safety.shell import SafetyShell
 from plantar.gait.safety.standing_command import standing_command
 from plantar.gait.tick.body_targets import BodyTargets
@@ -104,9 +105,10 @@ class WalkingController:
         self._gaps = BodySensors(s.period, _BRIDGED * s.body.beat)
         self._last: Command | None = None
         self._lost = False
+        self._stop = SafeStop(s.period, s.body.leg, s.body.beat, s.body.weight)
         stand = standing_command(feet, self.plan, layouts, s.mass * GRAVITY, s.com_height, begin)
         self.shell: SafetyShell | None = SafetyShell(
-            self._bridged, stand, layouts, None, s.period, s.mass, s.body.leg, s.com_height
+            self._bridged, stand, layouts, None, s.period, s.mass, s.body.leg, s.com_height, self._stop
         )
 
     @property
@@ -129,8 +131,8 @@ class WalkingController:
         """The state in which it stays because it cannot go on, None while it walks (docs/safety.md).
 
         "no way on": no footstep is left that may be stepped on, and it stands; "blind": encoders, IMU or soles cannot
-        be used, and "lost": the CoM would have to be farther beside the feet than it is high: it holds its last
-        command; "late": times are not numbers; "fallen": its feet are let go of.
+        be used, and "lost": the CoM would have to be farther beside the feet than it is high: it sits down; "late":
+        times are not numbers: it holds its last command; "fallen": it goes limp.
         """
         if self.shell is not None and self.shell.state is not None:
             return self.shell.state
@@ -170,9 +172,10 @@ class WalkingController:
         return command
 
     def _held(self) -> Command:
-        """What was commanded last, without what was new then."""
+        """What a robot commands that is blind or lost."""
         assert self._last is not None
-        return self._last.changed(footholds=(), moved_steps=())
+        self._last = self._stop.after(self._last, self.safe_state)
+        return self._last
 
     def _is_lost(self, command: Command) -> bool:
         """Whether the CoM is to be farther beside the feet than it is high: no leg holds that."""

@@ -13,8 +13,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gait.command import Command, FootTarget, Sensors
+from plantar.gait.command import Command, Sensors
 from plantar.gait.plan.phases import PhaseKind
+from plantar.gait.safety.safe_stop import SafeStop
 from plantar.gait.safety.target_limits import TargetLimits
 from plantar.gait.safety.tick_clock import TickClock
 from plantar.kernels.safety.plausible import BodyCheck, SoleCheck
@@ -30,7 +31,6 @@ _SILENT = 0.06  # s for which a reading that cannot be taken is bridged by the l
 _LATE = 0.15  # s of times that cannot be taken, until the state is "late"
 _UNLOADED, _WEIGHTLESS = 0.3, 0.04  # weight on both soles below which one must be silent, and for how long in s
 _FALLEN = 0.5  # cosine of the trunk's tilt, and share of its height, below which a robot has fallen
-_LIMP = 0.5  # s in which a fallen robot's feet are let go of
 
 Readings = Mapping[Side, Reading]
 
@@ -47,6 +47,7 @@ class SafetyShell:
         mass: Mass of the robot in kg.
         leg: Length of a leg in m.
         com_height: Height in m of the CoM over the soles.
+        stop: What is commanded in a state that stays.
 
     Attributes:
         state: "fallen", "blind" or "late", None while none holds; "fallen" and "blind" stay, "late" ends with the first
@@ -64,6 +65,7 @@ class SafetyShell:
         mass: float,
         leg: float,
         com_height: float,
+        stop: SafeStop,
     ) -> None:
         self._tick = tick
         self._last = start
@@ -82,7 +84,7 @@ class SafetyShell:
         self._silent = self._unloaded = 0
         self._sound: Sensors | None = None
         self._lost: Side | None = None
-        self._limp = 1.0
+        self._stop = stop
         self.state: str | None = None
         self.errors = 0
 
@@ -113,9 +115,10 @@ class SafetyShell:
         if self._is_fallen():
             self.state = "fallen"
             return self._held()
-        problem = self._problem(sensors)
-        if problem:
+        if self._problem(sensors):
             return self._bridge(time)
+        if self._body is not None and self._body.slipped:
+            sensors = sensors.changed(joint_positions=sensors.joint_positions - self._body.slips)
         readings = self._readings(sensors)
         if readings is None:
             return self._bridge(time)
@@ -142,18 +145,7 @@ class SafetyShell:
         return self._held()
 
     def _held(self) -> Command:
-        """The last command, without what was new then; a fallen robot's feet are let go of."""
-        last = self._last
-        if self.state != "fallen":
-            return last.changed(footholds=(), moved_steps=())
-        before = self._limp
-        self._limp = max(0.0, before - self._period / _LIMP)
-        share = self._limp / before if before > 0.0 else 0.0
-        feet: dict[Side, FootTarget] = {
-            side: FootTarget(foot.position, foot.rotation, share * foot.force, foot.center_of_pressure)
-            for side, foot in last.feet.items()
-        }
-        return last.changed(feet=feet, footholds=(), moved_steps=())
+        return self._stop.after(self._last, self.state)
 
     def _problem(self, sensors: Sensors) -> int:
         """What is wrong with encoders and IMU, 0 for none; the controller itself bridges NaN."""
@@ -168,11 +160,7 @@ class SafetyShell:
         return found if found < 3 or moves else 0
 
     def _readings(self, sensors: Sensors) -> Readings | None:
-        """What the soles report, each under its own side; what a silent one carries follows from the other.
-
-        Returns:
-            The same object where all is well; None where both are silent.
-        """
+        """What the soles report, each under its own side; what a silent one carries follows from the other."""
         readings, soles, counts = sensors.readings, self._soles, self._counts
         left, right = _sound(readings, "left", counts["left"]), _sound(readings, "right", counts["right"])
         if left is None or right is None:
@@ -191,7 +179,8 @@ class SafetyShell:
     def _both_silent(self, soles: SoleCheck) -> bool:
         """Whether both soles are stuck, or report no force while the robot is carried."""
         silent = self._unloaded * self._period > _WEIGHTLESS and soles.left + soles.right < 0.05 * self._weight
-        if silent and self._last.phase.stance is None:  # a foot in the air reports no force
+        # A foot in the air reports no force, and one that is known to be silent neither.
+        if silent and self._last.phase.stance is None and self._lost is None:
             return True
         both = min(soles.left_same, soles.right_same) >= self._stuck and soles.left + soles.right > 0.0
         return both and self._last.phase.kind != PhaseKind.STANDING

@@ -13,7 +13,7 @@ from plantar.sides import SIDES, Side
 
 __all__ = ["TargetLimits"]
 
-_FOOT, _COM = 1.15, 0.45  # leg/beat: fastest targets of a foot and of the CoM
+_FOOT, _COM = 1.1, 0.44  # leg/beat: fastest targets of a foot and of the CoM
 _TURN = 2.4  # rad/beat of a sole or the torso
 _FORCE = 4.5  # weight/beat of the force on a foot
 

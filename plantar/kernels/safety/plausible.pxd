@@ -2,6 +2,7 @@
 cimport cython
 from ..base cimport pointers as memory
 
+cdef double _SLIPPED
 cdef double _FAST
 cdef double _TURNED
 cdef double _SPIN
@@ -15,8 +16,11 @@ cdef class BodyCheck:
     cdef readonly int imu_same
     cdef readonly int joints_same
     cdef object kept
+    cdef readonly bint slipped
+    cdef readonly object slips
+    cdef object steps
 
-    @cython.locals(q=cython.p_double, w=cython.p_double, a=cython.p_double, kept=cython.p_double, n=int, i=int, same=bint, value=double, spin=double, shock=double, found=int)
+    @cython.locals(q=cython.p_double, w=cython.p_double, a=cython.p_double, kept=cython.p_double, slips=cython.p_double, steps=cython.p_double, n=int, i=int, jumped=int, jump=double, same=bint, value=double, spin=double, shock=double, found=int)
     cpdef int check(self, joints, gyro, accelerometer) except -1
 
 @cython.final

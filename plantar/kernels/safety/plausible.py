@@ -14,6 +14,9 @@ from ..base import memory
 
 __all__ = ["BodyCheck", "SoleCheck", "farthest"]
 
+_SLIPPED = (
+    0.02  # rad by which a joint's step differs from its last one where its encoder jumped; walks stay under 0.002
+)
 _FAST = 0.25  # rad that a joint's angle may change by in a tick: 50 rad/s at 200 Hz
 _TURNED = 12.0  # rad: beyond, no joint of a leg has an angle
 _SPIN = 20.0  # rad/s: faster, no robot turns that is on its feet
@@ -30,6 +33,7 @@ class BodyCheck:
     Attributes:
         imu_same: Ticks for which the IMU has reported the same.
         joints_same: Ticks for which all joints have.
+        slipped: Whether an encoder has jumped; `slips` (k,) in rad is by how much each has.
     """
 
     def __init__(self, joints, frozen):
@@ -38,6 +42,8 @@ class BodyCheck:
         self.begun = False
         self.imu_same = self.joints_same = 0
         self.kept = np.zeros(joints + 6)
+        self.slipped = False
+        self.slips, self.steps = np.zeros(joints), np.zeros(joints)
 
     def check(self, joints, gyro, accelerometer):
         """What is wrong with a reading whose arrays are of the right sizes; NaN is not this check's.
@@ -52,6 +58,7 @@ class BodyCheck:
         """
         q, w, a = memory.values(joints), memory.values(gyro), memory.values(accelerometer)
         kept, n = memory.room(self.kept), self.joints
+        slips, steps = memory.room(self.slips), memory.room(self.steps)
         found = 0
         same = self.begun
         for i in range(n):
@@ -71,8 +78,18 @@ class BodyCheck:
         if spin >= _SPIN * _SPIN or shock >= _SHOCK * _SHOCK or (spin == 0.0 and shock == 0.0):
             return 2
         self.imu_same = self.imu_same + 1 if same else 0
+        jumped, jump = -1, 0.0
         for i in range(n):
+            value = q[i] - kept[i] if self.begun else 0.0
+            # A joint that was stuck catches up; several that jump together moved, as at an impact.
+            if math.fabs(value - steps[i]) > _SLIPPED and steps[i] != 0.0:
+                jumped, jump = (i, value - steps[i]) if jumped == -1 else (n, 0.0)
+            steps[i] = value
             kept[i] = q[i]
+        if 0 <= jumped < n:
+            self.slipped = True
+            slips[jumped] += jump
+            steps[jumped] -= jump
         self.begun = True
         if self.imu_same >= self.frozen:
             found = 3

@@ -62,6 +62,7 @@ class LegServos:
         self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)
         self._velocity = np.asarray(self._setpoints.velocity)  # views of what the kernel writes
         self._reference = np.asarray(self._setpoints.reference)
+        self._stiffness = 1.0
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
@@ -80,6 +81,7 @@ class LegServos:
         if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
         carry_command(self._legs, command)
+        self._stiffness = command.stiffness
         setpoints = self._setpoints
         setpoints.go_to()
         # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
@@ -101,7 +103,7 @@ class LegServos:
 
     def drive(self) -> None:
         """Write the set-points of one physics step."""
-        if self._drives is None:
+        if self._drives is None and self._stiffness == 1.0:
             self._setpoints.drive()
         else:
             self._write()
@@ -109,10 +111,13 @@ class LegServos:
 
     def _write(self) -> None:
         """Hand the set-points to the servos, as far as these get them."""
+        data, w = self._world.data, self._world
         if self._drives is None:
             self._setpoints.write()
+            if self._stiffness < 1.0:  # kp (u - q) as a share: a set-point on the way from where the joint is
+                at = data.qpos[w.joint_qpos]
+                data.ctrl[w.servos] = at + self._stiffness * (data.ctrl[w.servos] - at)
             return
-        data, w = self._world.data, self._world
         setpoint = np.array(self._setpoints.setpoint)
         data.ctrl[w.servos] = self._drives.followed(
             float(data.time), setpoint, data.qpos[w.joint_qpos], data.qvel[w.joint_qvel]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from plantar.gait.command import Sensors
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
+from plantar.sim.bench.stress.named_faults import FAULTS, Fault
 
 __all__ = ["Faults", "FaultySensors"]
 
@@ -29,6 +30,8 @@ class Faults:
         lost_after: Time in s from which on encoders and IMU read NaN for good; negative for never.
         saturated: Share of the ticks at which a sole's loaded taxels read their limit.
         single: Whether all numbers arrive as float32.
+        named: Name of one of `named_faults.FAULTS` as well; empty for none.
+        begins: Time in s at which that one begins.
     """
 
     dropped: float = 0.0
@@ -39,6 +42,8 @@ class Faults:
     lost_after: float = -1.0
     saturated: float = 0.0
     single: bool = False
+    named: str = ""
+    begins: float = 0.0
 
     @classmethod
     def drawn(cls, rng: np.random.Generator) -> Faults:
@@ -49,6 +54,8 @@ class Faults:
             jitter=float(rng.uniform(0.0, 2e-3)) if rng.random() < 0.2 else 0.0,
             lost_after=float(rng.uniform(0.0, 3.0)) if rng.random() < 0.05 else -1.0,
             single=bool(rng.random() < 0.2),
+            named=str(rng.choice(list(FAULTS))) if rng.random() < 0.3 else "",
+            begins=float(rng.uniform(0.5, 3.5)),
         )
 
 
@@ -70,6 +77,7 @@ class FaultySensors:
         self._last: dict[Side, Reading] = {}
         self._last_time: float | None = None
         self._stuck: dict[Side, tuple[NDArray[np.bool_], NDArray[np.float64]]] = {}
+        self._named: Fault | None = FAULTS[faults.named]() if faults.named else None
 
     def passed(self, sensors: Sensors) -> Sensors:
         """What arrives of the readings of one tick.
@@ -93,7 +101,9 @@ class FaultySensors:
         if f.single:
             for name in ("joint_positions", "gyro", "accelerometer"):
                 changed[name] = changed.get(name, getattr(sensors, name)).astype(np.float32).astype(np.float64)
-        return sensors.changed(**changed)
+        passed = sensors.changed(**changed)
+        since = sensors.time - f.begins
+        return passed if self._named is None or since < 0.0 else self._named(passed, since)
 
     def _sole(self, side: Side, reading: Reading) -> Reading:
         """What arrives of one sole's reading."""

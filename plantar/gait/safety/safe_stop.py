@@ -1,0 +1,82 @@
+"""What a robot does that cannot go on: hold, sit down, or go limp, each by a ramp."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.command import Command
+from plantar.kernels.base.vectors import vector
+from plantar.sides import SIDES, Side
+
+__all__ = ["SafeStop"]
+
+_LOWER, _SINK = (
+    0.15,
+    0.03,
+)  # leg/beat at which a foot in the air is put down, and the CoM moves; thrice as fast H1 falls
+_DEPTH = 0.08  # leg by which a robot sits lower than it walks; legs that walk crouched by 0.05 reach it
+_SHIFT = 0.3  # weight/beat by which forces of the feet change
+_LIMP = 0.5  # s in which forces and stiffness of a fallen robot go to zero
+
+
+class SafeStop:
+    """Commands after a state that stays.
+
+    "sit" puts a foot in the air down level with the other one, brings the CoM over the middle of both and lowers it;
+    "limp" lets go of the joints.
+
+    Args:
+        period: Control period in s.
+        leg: Length of a leg in m.
+        beat: Time unit of the body in s.
+        weight: Weight in N.
+    """
+
+    def __init__(self, period: float, leg: float, beat: float, weight: float) -> None:
+        share = period / beat
+        self._lower, self._sink, self._shift = _LOWER * leg * share, _SINK * leg * share, _SHIFT * weight * share
+        self._depth, self._limp = _DEPTH * leg, period / _LIMP
+        self._height: float | None = None
+
+    def after(self, last: Command, state: str | None) -> Command:
+        """Returns the command after `last` in a state: "fallen" goes limp, "blind" and "lost" sit, others hold."""
+        last = last.changed(footholds=(), moved_steps=())
+        if state == "fallen":
+            return self._limped(last)
+        return self._seated(last) if state in ("blind", "lost") else last
+
+    def _limped(self, last: Command) -> Command:
+        stiffness = max(0.0, last.stiffness - self._limp)
+        share = stiffness / last.stiffness if last.stiffness > 0.0 else 0.0
+        forces = {side: share * foot.force for side, foot in last.feet.items()}
+        return last.changed(feet={s: last.feet[s].changed(force=forces[s]) for s in SIDES}, stiffness=stiffness)
+
+    def _seated(self, last: Command) -> Command:
+        feet, swing = dict(last.feet), last.phase.swing
+        if swing is not None:
+            foot, other = feet[swing], feet["left" if swing == "right" else "right"]
+            above = foot.position.item(2) - other.position.item(2)
+            if above > 0.0:
+                drop = vector(0.0, 0.0, min(above, self._lower))
+                feet[swing] = foot.changed(position=foot.position - drop)
+                if above > self._lower:
+                    return last.changed(feet=feet)
+        if self._height is None:
+            self._height = last.com.item(2) - self._depth
+        left, right = feet["left"].position, feet["right"].position
+        goal = 0.5 * (left + right)
+        goal[2] = self._height
+        com = _nearer(last.com, goal, self._sink)
+        across = (left - right)[:2]
+        share = float((com - right)[:2] @ across / max(float(across @ across), 1e-9))
+        shares: dict[Side, float] = {"left": min(1.0, max(0.0, share)), "right": min(1.0, max(0.0, 1.0 - share))}
+        total = sum(foot.force.item(2) for foot in last.feet.values())
+        for side in SIDES:
+            wanted = np.array([0.0, 0.0, total * shares[side]])
+            feet[side] = feet[side].changed(force=_nearer(feet[side].force, wanted, self._shift))
+        return last.changed(feet=feet, com=com)
+
+
+def _nearer(at: NDArray[np.float64], to: NDArray[np.float64], most: float) -> NDArray[np.float64]:
+    return at + np.clip(to - at, -most, most)
