@@ -11,13 +11,10 @@ _Class = TypeVar("_Class")
 
 
 def constructed_by_kernel(cls: type[_Class]) -> type[_Class]:
-    """Leave the construction to the kernel that a class inherits from, and keep what its own `__init__` tells.
+    """Leave the construction to the kernel that a class inherits from, with the signature of its own `__init__`.
 
     Args:
         cls: The class; its `__init__` has parameters with types, and no body.
-
-    Returns:
-        The class without that method, with its signature.
 
     Example:
         >>> class Fields:

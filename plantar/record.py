@@ -1,6 +1,6 @@
 """Records that one room hands to the next at each control tick: fields by name, cheap to make, not to be changed.
 
-Made in 0.06 us, where a named tuple takes 0.24 and a frozen dataclass 0.7 to 0.9.
+A tick makes some twenty. A named tuple takes 0.24 us, a frozen dataclass 0.7 to 0.9, this 0.06.
 """
 
 from __future__ import annotations

@@ -151,10 +151,7 @@ def _period(control: Control) -> float:
 
 
 def _possible(control: Control, robot: Robot) -> Control:
-    """The switches that a robot can follow.
-
-    Preemptive foot compliance needs soles that see; a robot that rocks keeps its own time, which its soles' edges make.
-    """
+    """The switches that a robot can follow."""
     looks = not robot.rocks and all("proximity" in layout.modalities for layout in robot.layouts.values())
     footholds = control.footholds if looks or control.footholds == "off" else "force"
     return replace(

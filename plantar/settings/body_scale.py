@@ -1,12 +1,8 @@
 """Units that grow with a robot: body weight, leg length, sole length, the beat of a leg that swings, and its pace.
 
-Two robots of one shape and one distribution of mass walk alike when every length is the same share of the leg, every
-force the same share of the weight and every time the same number of beats sqrt(leg / g) (dynamic similarity: Alexander,
-"The gaits of bipedal and quadrupedal animals", Int. J. Robotics Research 3(2), 1984). A quantity that is stated in
-these units therefore holds for a robot of 3 kg as for one of 95 kg; `BodyScale` shows what it is in SI for one of them.
-
-Motors are not similar: a small robot's geared servos are slow for its beat. A time in paces is as many beats as a
-robot's motors need for what others do in one.
+Two robots of one shape and mass distribution walk alike when lengths are the same shares of the leg, forces of the
+weight, and times the same number of beats sqrt(leg / g) (dynamic similarity: Alexander, Int. J. Robotics Research 3(2),
+1984). Motors are not similar: a pace is as many beats as a robot's motors need for what others do in one.
 """
 
 from __future__ import annotations
@@ -57,12 +53,7 @@ _QUANTITY = re.compile(rf"\s*({_NUMBER})(?:/({_NUMBER}))?\s+(\S.*?)\s*")
 
 @lru_cache(maxsize=512)
 def _factors(unit: str) -> tuple[tuple[str, int], ...]:
-    """Symbols of a unit such as "rad/beat/weight/leg" or "weight beat" with their powers: each slash divides by the one
-    factor behind it, a space multiplies.
-
-    Raises:
-        InputError: If it is not of that form, or a symbol is unknown.
-    """
+    """Symbols of a unit such as "rad/beat/weight/leg" or "weight beat" with their powers."""
     found: list[tuple[str, int]] = []
     sign = 1
     for part in re.split(r"([/ ])", unit):
@@ -148,9 +139,6 @@ class BodyScale:
 
         Args:
             unit: A unit, of the body, of SI, or of both, such as "leg/s".
-
-        Returns:
-            The number.
 
         Raises:
             InputError: If it is no unit.

@@ -1,13 +1,8 @@
-"""The schema of settings: a frozen dataclass whose fields state their default, unit, range or choices, and are checked.
+"""The schema of settings: a frozen dataclass whose fields state default, unit, range or choices, and are checked.
 
-A class of settings derives from `Settings`, which makes it a frozen dataclass, and makes its fields with `number`,
-`share`, `whole`, `choice`, `switch`, `text` or `tables`; what each means stands under "Attributes" in its docstring. An
-instance checks itself when it is made, so a wrong value is refused wherever it comes from: code, a robot file, a scene,
-`--set` or a sweep.
-
-Numbers are in SI. What belongs to a robot's size is stated as a share of its body (`plantar.settings.body_scale`): by
-`share` for a default, by a text such as "0.5 sole" for any number with a dimension. An instance holds what it comes to
-in SI: for the reference body when it is made, and for a robot by `for_body`.
+A class derives from `Settings` and makes its fields with the functions below; their meaning is in its docstring under
+"Attributes". Numbers are in SI. `share`, or a text such as "0.5 sole", states a share of the robot's body, which counts
+for the reference body until `for_body`.
 """
 
 from __future__ import annotations
@@ -29,75 +24,50 @@ __all__ = ["Setting", "Settings", "choice", "fixed", "number", "share", "switch"
 
 
 def number(default: float, unit: str, low: float = 0.0, high: float = math.inf, words: tuple[str, ...] = ()) -> Any:
-    """A field for a number.
+    """A field for a number; returns the field of a dataclass.
 
     Args:
         default: Its default.
         unit: Its unit, "1" where it has none.
         low: Smallest allowed value.
         high: Largest allowed value; infinity allows every finite one.
-        words: What may stand instead of a number, such as "random".
-
-    Returns:
-        The field of a dataclass.
+        words: Texts allowed instead, such as "random".
     """
     return field(default=float(default), metadata={"unit": unit, "low": low, "high": high, "words": words})
 
 
 def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -> Any:
-    """A field for a number whose default grows with the robot.
+    """A field for a number whose default grows with the robot; returns the field of a dataclass.
 
     Args:
         default: Its default as a share.
-        unit: What of the body it is a share of, such as "weight", "leg" or "leg/beat".
-        low: Smallest allowed value, regardless of the robot, in SI.
-        high: Largest allowed value, regardless of the robot, in SI.
-
-    Returns:
-        The field of a dataclass.
+        unit: Unit of the share, such as "weight", "leg" or "leg/beat".
+        low: Smallest allowed value in SI.
+        high: Largest allowed value in SI.
     """
     quantity = Quantity(float(default), unit)
     return field(default=quantity, metadata={"unit": si_unit(unit), "low": low, "high": high})
 
 
 def fixed(value: float, unit: str) -> Any:
-    """A field that grows with the robot and that no file sets.
-
-    Args:
-        value: Its value as a share.
-        unit: What of the body it is a share of.
-
-    Returns:
-        The field of a dataclass.
-    """
+    """A field that grows with the robot, `value` times `unit`, and that no file sets; returns a dataclass's field."""
     return field(default=Quantity(float(value), unit), init=False, repr=False, metadata={"fixed": True})
 
 
 def whole(default: int, unit: str, low: int = 0, high: float = math.inf) -> Any:
-    """A field for a whole number.
+    """A field for a whole number; returns the field of a dataclass.
 
     Args:
         default: Its default.
         unit: What is counted.
         low: Smallest allowed value.
         high: Largest allowed value.
-
-    Returns:
-        The field of a dataclass.
     """
     return field(default=int(default), metadata={"unit": unit, "low": low, "high": high})
 
 
 def choice(default: str, *others: str) -> Any:
-    """A field for one of several words.
-
-    Args:
-        default: Its default.
-        others: The other words.
-
-    Returns:
-        The field of a dataclass.
-    """
+    """A field for one of several words, the `default` or `others`; returns the field of a dataclass."""
     return field(default=default, metadata={"unit": "", "choices": (default, *others)})
 
 
@@ -107,14 +77,11 @@ def switch(default: bool) -> Any:
 
 
 def tables(allowed: str = "a list of tables", words: tuple[str, ...] = ()) -> Any:
-    """A field for a list of tables, or of what else `allowed` states, which its class checks itself; empty by default.
+    """A field for a list that its class checks itself, empty by default; returns the field of a dataclass.
 
     Args:
         allowed: What it takes, in words.
-        words: What may stand instead of a list, such as "random".
-
-    Returns:
-        The field of a dataclass.
+        words: Texts allowed instead, such as "random".
     """
     return field(default=(), metadata={"unit": "", "allowed": allowed, "words": words})
 
@@ -125,7 +92,7 @@ def text(default: str) -> Any:
 
 
 class Setting(NamedTuple):
-    """What there is to state of one setting.
+    """Description of one setting.
 
     Attributes:
         name: Name of the field.
@@ -200,13 +167,7 @@ class Settings:
         return MappingProxyType(dict(self._stated))
 
     def for_body(self, body: BodyScale) -> Self:
-        """The same settings for a robot: what was stated as a share comes to another number.
-
-        Args:
-            body: How large the robot is.
-
-        Returns:
-            The settings; those inside them count for the robot, too.
+        """The same settings, and those inside them, for a robot: shares come to other numbers.
 
         Raises:
             InputError: If a share comes to a number that is not allowed.
@@ -223,15 +184,12 @@ class Settings:
         return found
 
     def in_si(self, value: Any, unit: str, owner: str = "a list") -> Any:
-        """A member of a list of numbers in SI, for a class that checks its own lists.
+        """Returns a member of a list in SI, for a class that checks its own lists; what is no quantity stays as it is.
 
         Args:
-            value: The member: a number, or a text with a unit such as "0.03 leg".
-            unit: The unit of SI that it is given in.
+            value: A number, or a text with a unit such as "0.03 leg".
+            unit: Its unit of SI.
             owner: What holds the member, for messages.
-
-        Returns:
-            What the text comes to for the body that these settings count for; any else was given as it is.
 
         Raises:
             InputError: If the text has a unit of another kind.
@@ -245,16 +203,13 @@ class Settings:
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Make the settings from a table of a TOML file; what it leaves out has its default.
+        """Returns the settings from a table of a TOML file; what it leaves out has its default.
 
         Args:
             table: Values by name.
             where: Name of the table, for messages.
             error: What is raised.
-            note: On what it depends which keys are allowed, for messages.
-
-        Returns:
-            The settings.
+            note: What the allowed keys depend on, for messages.
 
         Raises:
             PlantarError: Of the class `error`: a key is unknown or a value not allowed; the message names it.
@@ -275,14 +230,7 @@ class Settings:
 
     @classmethod
     def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
-        """What there is to state of each setting, in their order.
-
-        Args:
-            body: The body for which defaults that are shares are given in SI.
-
-        Returns:
-            The settings.
-        """
+        """Descriptions of the settings in their order, with shares in SI for a body."""
         meanings = _meanings(cls)
         return tuple(
             Setting(
@@ -302,11 +250,7 @@ def _settings(kind: type[Settings]) -> tuple[Field[Any], ...]:
 
 
 def _quantity(item: Field[Any], value: Any) -> Any:
-    """A text such as "0.5 sole" for a number as the quantity that it means; every other value as it is.
-
-    Raises:
-        InputError: If the text has an unknown unit, or one of another kind than the field's.
-    """
+    """A text such as "0.5 sole" for a number as the quantity that it means; every other value as it is."""
     if not isinstance(value, str) or not isinstance(item.default, float | Quantity):
         return value
     try:

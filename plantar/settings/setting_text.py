@@ -12,14 +12,10 @@ __all__ = ["setting_rows", "setting_text"]
 
 
 def setting_text(found: Mapping[str, Setting]) -> str:
-    """Each setting's default, unit and range in a line, and below it what it means; a default that grows with the robot
-    with the share that it is.
+    """Returns each setting's default, share, unit and range in a line, and below it its meaning.
 
     Args:
         found: Settings by their dotted names.
-
-    Returns:
-        Lines.
 
     Example:
         >>> stiffness = Setting("stiffness", "100", "N/m", "a number 1 to 500", "How stiff.")
@@ -37,12 +33,5 @@ def setting_text(found: Mapping[str, Setting]) -> str:
 
 
 def setting_rows(found: Mapping[str, Setting]) -> list[dict[str, Any]]:
-    """What there is to state of each setting as plain JSON values; `name` is the dotted one.
-
-    Args:
-        found: Settings by their dotted names.
-
-    Returns:
-        A table each.
-    """
+    """The settings by their dotted names as plain JSON values."""
     return [{**told._asdict(), "name": full} for full, told in found.items()]

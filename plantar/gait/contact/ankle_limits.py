@@ -25,9 +25,9 @@ class AnkleLimits:
     """Where one foot can carry the body.
 
     Args:
-        strips: Strips (m, 4) in the sole frame in which the ankle is within its limits, one for each of its joints: a
-            unit normal (x, y), and the middle and half width of the strip along it in m.
-        margin: Distance in m that the desired ZMP keeps from the edge of a support polygon.
+        strips: Strips (m, 4) in the sole frame in which the ankle is within its limits, one for each joint: unit normal
+            (x, y), middle and half width along it in m.
+        margin: Distance in m of the desired ZMP from the edge of a support polygon.
     """
 
     def __init__(self, strips: NDArray[np.float64], margin: float) -> None:
@@ -38,29 +38,24 @@ class AnkleLimits:
         self._margin = margin
 
     def within(self, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-        """What a foot that carries alone may use of what it stands on.
+        """The part (j, 2) in m of a support polygon (k, 2) that, moved inwards by the margin, ends at the ankle's
+        reach.
 
-        Args:
-            polygon: Support polygon (k, 2) in the sole frame in m, counter-clockwise.
-
-        Returns:
-            The part (j, 2) of it which, moved inwards by the margin, ends where the ankle's reach does; all of it where
-            nothing would be left.
+        It is all of the polygon where none would be left. Polygons are in the sole frame, counter-clockwise.
         """
         left = self._cut(polygon, self._margin)
         return left if area(left) > 0.0 else polygon
 
     def center(self, polygon: NDArray[np.float64], center: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Where it is best loaded.
+        """Returns the best place (2,) in m to load a foot that carries alone.
+
+        It is `center` where the ankle reaches all of the polygon, else the centroid of where the desired ZMP may lie,
+        or where that is empty the nearest place to the ankle's reach that keeps the margin: over an edge the robot
+        falls, while a joint at its limit only lets it sink a little.
 
         Args:
             polygon: Support polygon (k, 2) in the sole frame in m, counter-clockwise.
-            center: Where it would be best loaded by a strong ankle: its centroid (2,) in m.
-
-        Returns:
-            That where the leg reaches all of it, else the centroid (2,) of where the desired ZMP may lie; where that is
-            nothing, the nearest place to what the leg reaches that keeps the margin. (Over an edge the robot falls; a
-            joint at its limit lets it sink a little.)
+            center: Best place (2,) in m for a strong ankle: the centroid.
         """
         reached = self._cut(polygon)
         if area(reached) >= area(polygon) * (1.0 - 1e-9):

@@ -1,8 +1,4 @@
-"""Where on its ground an ankle bears the robot: a centre of pressure x ahead of the ankle takes the torque m g x of it.
-
-A motor of torque tau bears the whole weight as far as tau / (m g) from the ankle, to the front and to the rear. Ground
-farther off carries less than the robot, however well the foot stands on it.
-"""
+"""Where on its ground an ankle bears the robot: a centre of pressure x ahead of the ankle takes the torque m g x."""
 
 from __future__ import annotations
 
@@ -17,14 +13,12 @@ _HALF = 0.5  # of an ankle's torque, which the other half is to balance with
 
 
 def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """What of a foothold the ankle bears the robot on.
+    """Returns the part (k, 2) of a foothold on which the ankle bears the robot, or the nearest point (1, 2) to the
+    ankle.
 
     Args:
         polygon: Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
-        reach: How far in m from the ankle, along the sole, it bears the robot.
-
-    Returns:
-        That part of it (k, 2); the point (1, 2) that is nearest to the ankle where it is all too far off.
+        reach: Distance in m from the ankle, along the sole, at which it bears the robot.
 
     Example:
         >>> borne_part(np.array([[-0.1, -0.04], [0.2, -0.04], [0.2, 0.04], [-0.1, 0.04]]), 0.08)[:, 0].round(3).tolist()
@@ -41,18 +35,14 @@ def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64
 
 
 def loaded_middle(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """Where a foothold is best loaded: at its centroid, or as near to it as leaves the ankle half its torque to balance
-    with; where that is beyond the foothold, midway between the ends of what the ankle bears.
+    """Returns the best place (2,) in the sole frame in m to load a foothold.
 
-    Midway in general would not do: of the two ends of a whole sole, the heel is an edge that it tips over and turns
-    about, and the motor's limit ahead is none.
+    The centroid, or as near to it as leaves the ankle half its torque to balance with; where that is beyond the
+    foothold, midway between the ends of what the ankle bears.
 
     Args:
         polygon: Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
-        reach: How far in m from the ankle, along the sole, it bears the robot.
-
-    Returns:
-        The place (2,) in the sole frame in m.
+        reach: Distance in m from the ankle, along the sole, at which it bears the robot.
     """
     middle = centroid(polygon)
     assert middle is not None  # a foothold has an area

@@ -1,13 +1,11 @@
 """Which cells of a standing sole touch the ground: those that carry, and those that did until the sole turned away.
 
-On bumps a rigid sole rests on three points, and the load is where the ZMP is: with the ZMP near one bump the others
-carry nothing, though they are still there. A cell that has carried therefore counts until the sole's turn since then
-has lifted it off,
+On bumps a rigid sole rests on three points and may load one. A cell that has carried counts until the sole's turn since
+then has lifted it off,
 
     rise_i = (s - s_i) . (r_i - p),
 
-with s the rise of the sole along its axes now, s_i the same when the cell carried last, and p the centre of pressure,
-about which the sole turns.
+with s the rise of the sole along its axes now, s_i when the cell carried last, and p the centre of pressure.
 """
 
 from __future__ import annotations
@@ -29,8 +27,8 @@ class ContactMemory:
         layout: The sole.
         least_force: Running mean in N from which a cell carries.
         gap: Rise in m from which a cell has lifted off.
-        least_share: Share of the foot's load from which it does.
-        smoothing: Share of a new reading in the running mean.
+        least_share: Least share of the foot's load of a cell that carries.
+        smoothing: Weight of a new reading in the running mean.
     """
 
     def __init__(

@@ -1,12 +1,8 @@
-"""Edges of the ground that go on from foothold to foothold, such as those of a beam.
+"""Edges of the ground that continue from foothold to foothold, such as those of a beam.
 
-A sole that lands on one edge of what carries it tells nothing of the other edge: cells beside the row that rests are
-silent, with ground under them or without. The foothold before showed both. A line that was found there, and that runs
-on through the sole which lands now, is what that sole may be presumed to stand on, until its own taxels say otherwise.
-
-Each foothold gives of an edge a point p, in the middle of what the edge cuts off, and a direction. Their normals are
-known to some 50 milliradians, so that a line carried on by a foot's width goes wrong by a centimetre; the points of
-several footholds tell its direction far better. With s along the line found last and d across it, an edge is
+A sole that lands on one edge does not show the other. A line that was found at the foothold before, and runs through
+the sole that lands now, is presumed until the taxels contradict. Each foothold gives a point p of an edge and a
+direction, whose normals are known to some 50 mrad. With s along the line found last and d across it, an edge is
 
     d = h + m s,    least squares of (d_i - h - m s_i) / spread and (m - m_i) / turn over the footholds i.
 """
@@ -67,13 +63,13 @@ class EdgeMemory:
         position: NDArray[np.float64],
         rotation: NDArray[np.float64],
     ) -> None:
-        """Take in the edges of a foothold; none where it is whole.
+        """Store the edges of a foothold; none where it is whole.
 
         Args:
-            step: The step that put the foot down; one that is there already is replaced.
+            step: Its step; one that is stored already is replaced.
             lines: Edges (m, 3) n . x <= h in the sole frame.
             middle: Middle (2,) of what carries in the sole frame in m.
-            position: Where the sole frame's origin is (3,) in the world in m.
+            position: Sole frame's origin (3,) in the world in m.
             rotation: Rotation (3, 3) from the sole to the world.
         """
         if self._footholds and self._footholds[-1].step >= step:
@@ -89,16 +85,12 @@ class EdgeMemory:
         self._footholds.append(_Foothold(step, edges))
 
     def expected(self, step: int, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Edges of the foothold before, as they run on under a sole that lands.
+        """Returns edges (m, 3) n . x <= h of the foothold before in the frame of a sole that lands.
 
         Args:
-            step: The step that puts it down.
-            position: Where its frame's origin is (3,) in the world in m.
+            step: Its step.
+            position: Sole frame's origin (3,) in the world in m.
             rotation: Rotation (3, 3) from it to the world.
-
-        Returns:
-            Lines (m, 3) n . x <= h in its frame, whether or not they run through it; none where the step before found
-            none.
         """
         if not self._footholds or self._footholds[-1].step != step - 1:
             return np.empty((0, 3))

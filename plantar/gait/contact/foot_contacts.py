@@ -57,10 +57,10 @@ class FootholdFound:
         polygon: Support polygon (k, 2) in the world in m, counter-clockwise.
         area_ratio: Its share of the sole's cells.
         vrp: VRP (2,) over it in the world in m.
-        middle: Its centroid (2,) in the world in m, which is the VRP unless the ankle bears the robot on a part of it.
+        middle: Its centroid (2,) in the world in m: the VRP unless the ankle bears the robot on a part of it.
         whole: Whether it carries the whole sole.
-        as_planned: Whether it carries the whole sole, and nothing else was found before.
-        seen: Whether the sole saw it before it touched; of what loads alone show, another edge may be found yet.
+        as_planned: Whether it is whole, and no other was found before.
+        seen: Whether the sole saw it before it touched; what loads alone show may change.
     """
 
     step: int
@@ -91,9 +91,7 @@ class FootholdSeen:
 
 @dataclass
 class _Foot:
-    """One foot of the walk: its taxels' view, where its foothold is loaded (2,) and on what (k, 2) its ankle bears the
-    robot, both in the sole, the same in the world where the foothold is known, what (k, 2) of that carries the robot
-    alone within the ankle's limits, and the step that put it down."""
+    """One foot: its taxels' view, its load point (2,), the parts (k, 2) of its foothold that carry, and its step."""
 
     contact: StanceContact
     center: NDArray[np.float64]
@@ -107,11 +105,11 @@ class FootContacts:
     """Contacts of both feet.
 
     Args:
-        settings: How the contact polygon is found from the taxels.
+        settings: How the contact polygon is found.
         layouts: Sole layout of each side.
-        reach: How far in m from the sole frame's origin, along the sole, an ankle bears the robot.
+        reach: Distance in m from the sole frame's origin, along the sole, at which an ankle bears the robot.
         limits: Where each foot carries the body alone within its ankle's torque limits; anywhere where not given.
-        sensing_range: Range of the taxels' proximity sensors in m.
+        sensing_range: Range of the proximity sensors in m.
     """
 
     def __init__(
@@ -201,7 +199,7 @@ class FootContacts:
     def find_ahead(
         self, phase: Phase, time: float, feet: FeetView, state: BaseState, soles: Mapping[Side, Percept]
     ) -> FootholdSeen | None:
-        """What the swing foot will stand on, from what its taxels see; told once for each step.
+        """Returns what the swing foot will stand on, once for each step, where it is seen and not whole.
 
         Args:
             phase: Phase of the walk.
@@ -209,9 +207,6 @@ class FootContacts:
             feet: Where the feet are.
             state: Estimated state.
             soles: What each sole sees.
-
-        Returns:
-            The foothold, where it is seen now and not whole.
         """
         side = phase.swing
         if side is None or feet.landed:
@@ -239,7 +234,7 @@ class FootContacts:
         soles: Mapping[Side, Percept],
         slope: SoleSlope | None = None,
     ) -> tuple[FootholdFound, ...]:
-        """What the feet that come to carry stand on; told when it is found, and when it becomes another.
+        """Returns what the feet that come to carry stand on, when it is found and when it changes.
 
         Args:
             phase: Phase of the walk.
@@ -247,10 +242,7 @@ class FootContacts:
             feet: Where the feet are.
             state: Estimated state.
             soles: What each sole senses.
-            slope: How each sole is turned against the ground, where that is followed.
-
-        Returns:
-            The footholds.
+            slope: Turn of each sole against the ground, where that is followed.
         """
         found = []
         for side in self.coming_to_carry(phase, time, feet):
@@ -304,20 +296,16 @@ class FootContacts:
     def zmp_region(
         self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float
     ) -> NDArray[np.float64]:
-        """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, moved inwards.
+        """Returns where the desired ZMP may lie: the support polygon (k, 2) in the world in m, moved inwards.
 
-        A foot whose support is not known counts with its whole sole at its commanded place; one that stands alone
-        counts as far as its ankle's torque limits let it. (Two feet share the weight, and reach farther.) The region is
-        made anew only when a foot comes, goes or moves, or another support is found.
+        A foot whose support is unknown counts with its whole sole; one that stands alone as far as its ankle's torque
+        limits let it. The region is computed again only when a foot or its support changes.
 
         Args:
             phase: Phase of the walk.
             feet: Where the feet are commanded.
             frame_offset: Offset (3,) of the commanded feet's frame in the world in m.
-            margin: Distance in m that the desired ZMP keeps from the edge.
-
-        Returns:
-            Convex polygon (k, 2) in the world in m, counter-clockwise.
+            margin: Distance in m of the desired ZMP from the edge.
         """
         standing = [s for s in SIDES if feet.landed or phase.swing != s]
         alone = len(standing) == 1

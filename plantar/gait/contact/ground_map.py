@@ -1,9 +1,7 @@
 """What a swinging sole sees of the ground: a map of distances, and the plane through its highest part.
 
-What the taxels measure on their way down is kept as one map of distances, carried along with the sole as it moves, so
-that noise averages out though nothing stands still. A plane through the highest ground under the sole gives how far
-the first contact is and which way the ground slopes. The sensors' bias shows where the sole leaves the ground: it is
-as far away as the sole rose.
+The map moves with the sole, so that noise averages out. The plane gives the distance of the first contact and the slope
+of the ground. The sensors' bias shows at lift-off: the ground is as far away as the sole rose.
 """
 
 from __future__ import annotations
@@ -68,11 +66,10 @@ class GroundView:
     """The ground under a swinging sole.
 
     Attributes:
-        distance: How far down in m the first contact is.
-        middle: How far down in m the ground is under the middle of the sole; the same where it is no plane.
-        slope: Rise of the ground along the sole's x and y (tangents) that the sole has to turn by; None where there is
-            too little of it to follow.
-        even: Whether nearly all that is seen of the ground lies on one plane.
+        distance: Distance down in m to the first contact.
+        middle: Distance down in m under the middle of the sole; the same where it is no plane.
+        slope: Rise of the ground along the sole's x and y (tangents) to turn by; None where too little is seen.
+        even: Whether nearly all that is seen lies on one plane.
     """
 
     distance: float
@@ -141,16 +138,13 @@ class GroundMap:
     def update(
         self, percept: Percept, position: NDArray[np.float64], rotation: NDArray[np.float64], time: float
     ) -> GroundView | None:
-        """Take what the sole senses now into the map.
+        """Returns the ground with what the sole senses now, or None where it sees none.
 
         Args:
             percept: What the sole senses.
-            position: Sole position (3,) in the world as estimated in m.
-            rotation: Rotation (3, 3) from the sole to the world as estimated.
+            position: Estimated sole position (3,) in the world in m.
+            rotation: Estimated rotation (3, 3) from the sole to the world.
             time: Now in s.
-
-        Returns:
-            The ground, or None where nothing is seen.
         """
         if self._poses:
             _, before, turned = self._poses[-1]

@@ -1,9 +1,7 @@
 """What a stance foot stands on: the support polygon that its taxels show, from touchdown to lift-off (T 4.4.2-4.4.3).
 
-A single reading is no polygon: noise lights single taxels, and a cell goes dark when the ZMP moves away from it though
-the ground under it is still there. So loads are gathered from touchdown on: a taxel that has carried in this stance
-belongs to the contact polygon until lift-off. The polygon counts as settled once the foot has carried for a few
-readings, and is refined while more load comes on.
+A cell goes dark when the ZMP moves away from it, so a taxel that has carried belongs to the contact polygon until
+lift-off. The polygon is settled once the foot has carried for a few readings, and is refined with more load.
 """
 
 from __future__ import annotations
@@ -34,16 +32,16 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     """How the contact polygon of a foot is found from the taxels.
 
     Attributes:
-        minimum_load: Vertical force in N from which a foot's taxels tell what it stands on.
+        minimum_load: Vertical force in N from which a foot's taxels count.
         deep: Depth in m that counts for all that is deeper or out of range.
-        level: Slope in rad of the sole against the ground from which the silence of taxels on the side that rises tells
-            nothing: what its noise is.
+        level: Slope in rad of the sole against the ground above its noise: from there on silent taxels on the side that
+            rises show nothing.
         least_force: Running mean in N from which a taxel has carried.
-        least_beside: Share of the strongest neighbour's force up to which a taxel may be carried along by its cover and
-            have no ground: more than the twentieth that a crosstalk of 10 % gives one beside a straight edge.
-        model_error: Share of the largest force that a taxel's force may differ from the fit's.
+        least_beside: Share of the strongest neighbour's force up to which a taxel may be pulled along by its cover;
+            a crosstalk of 10 % makes a twentieth at a straight edge.
+        model_error: Allowed difference of a taxel's force from the fit, as a share of the largest force.
         subcell: Whether edges are found finer than a cell; else the polygon of cell corners counts (T 4.24).
-        remember: Whether a foot that does not see the ground presumes that edges of the foothold before go on under it.
+        remember: Whether a foot that does not see the ground presumes the edges of the foothold before.
         watch: Time in s into the single support until which a contact polygon is refined.
     """
 
@@ -146,15 +144,12 @@ class StanceContact:
         return found
 
     def update(self, reading: Reading, load: float, slope: NDArray[np.float64] | None = None) -> bool:
-        """Take the latest reading in.
+        """Returns whether a reading settles or changes the contact polygon.
 
         Args:
             reading: The sole's latest reading.
             load: Vertical force on the foot in N.
-            slope: How the sole rises (2,) along its x and y axes against the ground in m/m; level where None.
-
-        Returns:
-            Whether the contact polygon has just settled or become another.
+            slope: Rise (2,) of the sole along its x and y axes against the ground in m/m; level where None.
         """
         s = self.settings
         if reading.time <= self._time or load < s.minimum_load:
@@ -176,14 +171,7 @@ class StanceContact:
         return self._find()
 
     def expect(self, lines: NDArray[np.float64]) -> None:
-        """Presume that the ground of the foothold before goes on under this one; before the first load.
-
-        It is believed until loads beyond the lines, or silence between them, say otherwise.
-
-        Args:
-            lines: Edges (m, 3) n . x <= h in the sole frame; those that cut too little off, or leave too little, are
-                not believed.
-        """
+        """Presume edges (m, 3) n . x <= h of the foothold before, in the sole frame, until loads contradict."""
         least = (1.0 - self.settings.full_ratio) * self._whole_area
         cut = [line for line in lines if area(self._fit.polygon(line[None])) < self._whole_area - least]
         kept = np.array(cut).reshape(-1, 3)
@@ -218,14 +206,11 @@ class StanceContact:
         self._depth = np.where(sound, before + share * (depth - before), np.nan)
 
     def foresee(self, ahead: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """The ground that will carry a foot which comes down, from what its taxels see.
+        """The ground that will carry a foot that comes down, by its taxels: convex polygon (k, 2) in the sole frame in
+        m.
 
-        Args:
-            ahead: How far (2,) in m the sole still moves in its own plane before it lands.
-
-        Returns:
-            Convex polygon (k, 2) in the sole frame as it will land in m, counter-clockwise; None where too little is
-            seen, or where the ground is whole.
+        None where too little is seen, or where the ground is whole; `ahead` (2,) in m is how far the sole still moves
+        in its own plane before it lands.
         """
         if self._looks < self.settings.foresee_readings:
             return None
@@ -281,8 +266,8 @@ class StanceContact:
         return first or polygon is not before
 
     def _from_loads(self, mean: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Edges (m, 3) of the ground by what is remembered of the foothold before, while the loads do not deny it; else
-        by what the taxels have carried, and where they should have."""
+        """Edges (m, 3) of the ground by what is remembered of the foothold before, while the loads do not deny it;
+        else by what the taxels have carried, and where they should have."""
         if self._remembered is not None and self._beyond(self._remembered, mean):
             self._forget()
         silent = self._silent(mean)
@@ -338,8 +323,7 @@ class StanceContact:
         return silent if wrong else None
 
     def _risen(self, cop: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Taxels (n,) that a turned sole, which rests on an edge at a point (2,), has lifted off the ground: their
-        silence tells nothing."""
+        """Taxels (n,) that a turned sole, which rests on an edge at a point (2,), has lifted off the ground."""
         s, places, cell = self.settings, self.layout.positions[:, :2], math.sqrt(self.layout.cell_area)
         steep = float(np.hypot(self._slope[0], self._slope[1]))
         if steep <= s.level:

@@ -1,8 +1,7 @@
-"""Where the ground goes on: a strip that successive partial footholds lie on, such as a beam.
+"""Where the ground continues: a strip that successive partial footholds lie on, such as a beam.
 
-One partial foothold says nothing of the next. Two in a row, of both feet, that lie off the sole's middle on the same
-side say that the ground is a strip along the walk; a line through them, fitted with what is known of the errors, tells
-where the next foothold will carry and where the sole has to go to stay on it.
+Two in a row, of both feet, off the sole's middle on the same side make a strip along the walk; a line is fitted through
+them with what is known of the errors.
 """
 
 from __future__ import annotations
@@ -25,10 +24,10 @@ class SupportStrip:
     """Middle line of the ground, from the centroids of partial footholds.
 
     Attributes:
-        origin: A point (2,) of the walk's own line in m.
-        along: Its direction (2,), of length 1.
+        origin: A point (2,) of the walk's line in m.
+        along: Its unit direction (2,).
         spread: Standard deviation in m of a foothold's centroid.
-        slope: Standard deviation of the strip's slope against the walk before anything is known of it.
+        slope: Prior standard deviation of the strip's slope against the walk.
         agreement: Distance in m across the walk within which two footholds lie on the same strip.
         memory: Number of footholds that count.
     """
@@ -43,15 +42,12 @@ class SupportStrip:
 
     @classmethod
     def for_body(cls, body: BodyScale, origin: NDArray[np.float64], along: NDArray[np.float64]) -> SupportStrip:
-        """The strip of a robot's walk, with distances that are shares of its soles.
+        """Returns the strip of a robot's walk, with distances that are shares of its soles.
 
         Args:
             body: How large the robot is.
-            origin: A point (2,) of the walk's own line in m.
-            along: Its direction (2,), of length 1.
-
-        Returns:
-            The strip, of which nothing is known yet.
+            origin: A point (2,) of the walk's line in m.
+            along: Its unit direction (2,).
         """
         return cls(origin, along, spread=_SPREAD * body.sole, agreement=_AGREEMENT * body.sole)
 

@@ -1,8 +1,4 @@
-"""The one place that decides which change of the plan is applied.
-
-One change a tick, so that everybody who proposes knows the plan that the change is made of. The proposer with the first
-`Priority` has its way; of two with the same the one that is asked first.
-"""
+"""Decide which change of the plan is applied: one a tick, of the first `Priority`; among equals, of the first asked."""
 
 from __future__ import annotations
 
@@ -18,11 +14,11 @@ def decide(proposers: Sequence[Proposer], tick: Tick) -> PlanChange | None:
     """Ask every proposer, and choose.
 
     Args:
-        proposers: Who is asked, in this order.
-        tick: What there is to know.
+        proposers: Proposers in the order in which they are asked.
+        tick: What they receive.
 
     Returns:
-        The change to apply, or None where nobody wants one.
+        The change to apply, or None.
     """
     wanted = [(proposer.priority, change) for proposer in proposers if (change := proposer.propose(tick)) is not None]
     return min(wanted, key=lambda pair: pair[0])[1] if wanted else None

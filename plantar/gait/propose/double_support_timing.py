@@ -1,8 +1,6 @@
 """End a double support sooner or later, where no VRP of the support polygon brings the DCM to its goal (K 4.3).
 
-While one does (K 25-27), the double support keeps its length. Else it ends when the DCM misses the place where the next
-single support begins least, weighed against the change (DSP-Opt, `plantar.gait.propose.dsp_opt`): a longer one has the
-longest support polygon there is to brake in, a shorter one frees the foot that has to catch the body.
+The new end is the one at which the DCM misses its goal least, weighed against the change (`dsp_opt`).
 """
 
 from __future__ import annotations

@@ -1,13 +1,11 @@
 """DSP-Opt: how long a double support lasts, so that the DCM is where the next single support begins (K 34-38).
 
-One number, T_d, is weighed: the DCM that is missed at its end, and how far it leaves its nominal value and that of the
-tick before, shortening weighed more than lengthening (K 36). The DCM at the end of a double support that lasts T (K 34,
-with x = T - T_c to go, the VRP now at u*, and p the pull of `ankle_strategy.double_support_pull`) is
+The DCM at the end of a double support of length T (K 34; x = T - T_c, u* the VRP now, p the pull of
+`ankle_strategy.double_support_pull`) is
 
-    xi(T) = u_e - u_w + e^(w x) (xi_c - u_e + u_w + (u_e - u*) p(x, T)),
+    xi(T) = u_e - u_w + e^(w x) (xi_c - u_e + u_w + (u_e - u*) p(x, T)).
 
-smooth in T, but its cost need not be convex. The cost is sampled over the whole interval, and between the neighbours of
-the least sample the zero of its derivative, which is exact, is bracketed and found to rounding.
+The cost need not be convex: it is sampled over the whole interval, and the zero of its exact derivative is bracketed.
 """
 
 from __future__ import annotations
@@ -35,16 +33,16 @@ _TURNS = 100  # far more than any bracket takes, halved now and then, to come to
 class DspWeights(
     Part, table="dsp_weights", needs={"control.step_adjustment": (True,), "step_adjustment.double_support": (True,)}
 ):
-    """What a change of the double support is weighed by (K Table 1).
+    """Weights of a change of the double support (K Table 1).
 
     Attributes:
-        dynamics: w_d: of the DCM that is missed at its end.
-        nominal: w_n: of leaving the nominal duration, with the confidence.
-        smooth: w_s: of leaving the duration of the tick before, with what the confidence leaves.
-        longer: w_+: factor on a duration that is longer.
-        shorter: w_-: factor on one that is shorter: the risk of being too quick.
-        least: gamma_min: shortest duration as a share of the nominal one.
-        most: gamma_max: longest duration as a share of the nominal one.
+        dynamics: w_d, of the DCM error at its end.
+        nominal: w_n, of the difference from the nominal duration, times the confidence.
+        smooth: w_s, of the difference from the tick before, times the rest of the confidence.
+        longer: w_+, factor on a longer duration.
+        shorter: w_-, factor on a shorter one.
+        least: gamma_min, shortest duration as a share of the nominal one.
+        most: gamma_max, longest duration as a share of the nominal one.
     """
 
     dynamics: float = number(15.0, "1", 1e-3, 1e6)
@@ -57,19 +55,19 @@ class DspWeights(
 
 
 class DspProblem(NamedTuple):
-    """A double support, now. All places are in the world.
+    """A double support now, in the world.
 
     Attributes:
         omega: Pendulum frequency in rad/s.
         dcm: xi_c (2,) in m.
-        goal: xi_d (2,), where the next single support begins, in m (`plantar.gait.balance.ankle_strategy.target_dcms`).
-        vrp: u* (2,) in m: where the VRP is now, cut to the support.
-        end: u_e (2,), the middle of the foot that comes to carry, in m.
+        goal: xi_d (2,) in m, where the next single support begins.
+        vrp: u* (2,) in m, the VRP now, cut to the support.
+        end: u_e (2,) in m, the middle of the foot that comes to carry.
         offset: u_w (2,) in m by which a push is expected to move the VRP.
-        elapsed: T_c: time since the double support began in s.
+        elapsed: T_c in s since the double support began.
         target: T_d of the tick before in s.
-        nominal: The nominal T_d in s, above 0.
-        confidence: c: 1 keeps the nominal duration, 0 goes on from the tick before.
+        nominal: Nominal T_d in s, above 0.
+        confidence: c: 1 keeps the nominal duration, 0 that of the tick before.
     """
 
     omega: float
@@ -88,10 +86,10 @@ class DspSolution(NamedTuple):
     """The best duration.
 
     Attributes:
-        time: T_d in s, from the double support's begin.
-        missed: By how much (2,) in m the DCM is off where the next phase begins: xi(T_d) - xi_d.
-        at_bound: -1 where the shortest duration holds, 1 where the longest does, else 0.
-        residual: How fast the cost still falls in an allowed direction, beside the largest term of its derivative.
+        time: T_d in s.
+        missed: DCM error (2,) in m at its end.
+        at_bound: -1 at the shortest duration, 1 at the longest, else 0.
+        residual: Slope of the cost in an allowed direction, relative to its largest term.
     """
 
     time: float
@@ -154,11 +152,9 @@ def _solution(cost: _Cost, time: float, bound: int) -> DspSolution:
 
 
 def _zero(cost: _Cost, low: float, high: float, at_low: float, at_high: float) -> float:
-    """Where the slope, negative at one end and positive at the other, passes 0 (Chandrupatla's method).
+    """Where the slope, negative at one end and positive at the other, passes 0.
 
-    Inverse quadratic interpolation where the three last points allow it, else halving: T. R. Chandrupatla, "A new
-    hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives",
-    Advances in Engineering Software 28, 1997.
+    Chandrupatla's method: Advances in Engineering Software 28, 1997.
     """
     a, b, fa, fb = low, high, at_low, at_high
     share = fa / (fa - fb)
@@ -183,12 +179,7 @@ def _zero(cost: _Cost, low: float, high: float, at_low: float, at_high: float) -
 
 
 class _Cost:
-    """Cost of a duration (K 35-37) and its derivative.
-
-    Args:
-        problem: The double support.
-        weights: What a change is weighed by.
-    """
+    """Cost of a duration (K 35-37) and its derivative."""
 
     def __init__(self, problem: DspProblem, weights: DspWeights) -> None:
         x, y = array(problem.dcm, "DCM", (2,), finite=True).tolist()
@@ -248,13 +239,7 @@ class _Cost:
 
 
 def _pull_and_rate(omega: float, time: float, left: float) -> tuple[float, float]:
-    """Pull of a VRP over the rest of a double support, and its derivative by the duration.
-
-    Args:
-        omega: Pendulum frequency in rad/s.
-        time: T_d in s.
-        left: T_d - T_c in s, which grows with it.
-    """
+    """Pull of a VRP over the rest of a double support, and its derivative by the duration."""
     rate = 0.5 * math.pi / time
     angle = rate * left
     turning = rate * (1.0 - left / time)  # of the angle, by the duration

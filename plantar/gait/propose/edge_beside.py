@@ -1,7 +1,6 @@
-"""A foot that comes down with a side over nothing: the steps to come move off that edge.
+"""A foot that lands with a side over an edge: the steps to come move away from that edge.
 
-Dead reckoning knows the heading to some milliradians, and in a walk of twenty metres the feet are centimetres beside
-where they are thought to be. On ground that ends there, what the sole sees beyond its edge alone tells.
+After twenty metres dead reckoning is off by centimetres; at an edge only what the sole sees beyond it shows that.
 """
 
 from __future__ import annotations
@@ -29,10 +28,8 @@ _MOST_OVER = 0.5
 class EdgeBeside:
     """Proposes footsteps that lie further on the ground that a foot was seen to land on.
 
-    An edge along a side that cuts off a share f of a sole of the width w moves the middle of what is left by f w / 2,
-    and the steps to come move by as much. The next foot of that side then stands on whole ground, or shows what is
-    left.
-    Only what lies across the sole moves them: before and behind, the next foothold is another piece of ground.
+    An edge along a side that cuts off a share f of a sole of width w moves the steps to come by f w / 2. Only what lies
+    across the sole counts: in front and behind, the next foothold is other ground.
 
     Args:
         layouts: Sole layout of each side.

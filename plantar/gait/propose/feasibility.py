@@ -1,13 +1,12 @@
 """Is it safe to step on what the foot has met? (T 4.3.2, Fig. 44-46)
 
-A swing that meets ground where none is expected does not trust it. The single support is made longer, the foot presses
-with a part of the weight that the stance foot can spare, and one of two rules decides from what it feels:
+The foot presses on unexpected ground with a part of the weight, and one of two rules decides:
 
     a) force_torque: a flat foot on flat ground makes no moment;   |eta_s| >= epsilon_t refuses the foothold
     b) skin: a foothold has to support most of the sole;           A_p / A_s <= epsilon_A refuses it
 
-A refused foothold is walked around: the sole's outline is moved sideways, back or forward, whichever is easiest, until
-it clears the box around the obstacle that the taxels show (Fig. 45), and the foot is put down there.
+A refused foothold is walked around: the sole moves sideways, back or forward, whichever is easiest, until it clears the
+box around the obstacle that the taxels show (Fig. 45).
 """
 
 from __future__ import annotations
@@ -37,22 +36,21 @@ class FeasibilityRules(
 
     Attributes:
         rule: "skin" or "force_torque".
-        area_ratio: epsilon_A: a foothold that supports no more than this share of the sole is refused; above 1 none is
-            accepted.
-        surprise: How much higher than expected in m ground has to be to be checked.
-        hold: By how much the single support is made longer for that, in s.
+        area_ratio: epsilon_A: footholds that support no larger share of the sole are refused; above 1 all are.
+        surprise: Height in m above the expected ground from which ground is checked.
+        hold: Time in s by which the single support is extended for that.
         probe_force: Force in N that the foot presses with.
-        reserve: How long in s the single support goes on after that at least.
-        active_force: Mean force in N of a taxel that carries, above what its noise adds up to.
-        near: Distance in m of a taxel from the ground, seen at touchdown, that counts as supported.
-        clearance: Distance in m that the sole keeps from an obstacle.
+        reserve: Least time in s of single support after that.
+        active_force: Mean force in N of a taxel that carries, above its noise.
+        near: Distance in m of a taxel from the ground at touchdown that counts as supported.
+        clearance: Distance in m between sole and obstacle.
         swing_time: Duration in s of the swing around it.
-        outward: How far outwards a foothold may be moved in m.
-        inward: How far inwards.
-        forward: How far forward.
-        sideways_cost: How many times its length a move sideways counts: it asks the most of the stance hip.
-        backward: How far back.
-        attempts: How often one step is planned anew; then the robot stops.
+        outward: Largest move of a foothold outwards in m.
+        inward: Largest move inwards.
+        forward: Largest move forward.
+        sideways_cost: Factor on the length of a move sideways, which loads the stance hip most.
+        backward: Largest move backward.
+        attempts: How often one step is planned again before the robot stops.
     """
 
     rule: str = choice("skin", "force_torque")
@@ -83,9 +81,9 @@ class Foothold:
     """What a probe found.
 
     Attributes:
-        feasible: Whether the rule lets the robot step on it.
+        feasible: Whether the rule accepts it.
         area_ratio: A_p / A_s.
-        moment: Size of the moment at the ankle in N m while it pressed; None without a sensor.
+        moment: Moment at the ankle in N m while it pressed; None without a sensor.
         polygon_in_sole: Supporting polygon (k, 2) in the sole frame in m.
     """
 
@@ -96,12 +94,7 @@ class Foothold:
 
 
 class FootholdProbe:
-    """Gathers what a foot senses that presses on something unexpected.
-
-    Args:
-        layout: Its sole, n taxels.
-        rules: Rules.
-    """
+    """Collects what a foot measures that presses on unexpected ground."""
 
     def __init__(self, layout: SoleLayout, rules: FeasibilityRules) -> None:
         self.layout = layout
@@ -112,20 +105,16 @@ class FootholdProbe:
         self._count = self._moments = 0
 
     def update_view(self, distance: NDArray[np.float64]) -> None:
-        """Take in how far the taxels were from the ground when the foot touched it.
-
-        Args:
-            distance: Distances (n,) in m, less their bias; inf or NaN where nothing is seen.
-        """
+        """Store how far (n,) in m the taxels were from the ground at touchdown; inf or NaN where they see none."""
         with np.errstate(invalid="ignore"):
             self._near = distance < self.rules.near
 
     def update_load(self, force: NDArray[np.float64], moment: NDArray[np.float64] | None) -> None:
-        """Take in one reading.
+        """Add a reading.
 
         Args:
             force: Forces (n,) of the taxels in N; NaN for a dead one.
-            moment: Moment (2,) at the ankle in N m, from its force-torque sensor, or None.
+            moment: Moment (2,) at the ankle in N m, or None.
         """
         self._count += 1
         self._force += np.nan_to_num(force)
@@ -134,7 +123,7 @@ class FootholdProbe:
             self._moment += moment
 
     def verdict(self) -> Foothold:
-        """What the rule says of all that was sensed."""
+        """The rule's decision on all readings."""
         count = max(1, self._count)
         active = (self._force / count > self.rules.active_force) | self._near
         polygon = cells_polygon(self.layout, active)
@@ -150,16 +139,13 @@ class FootholdProbe:
 def way_around(
     obstacle: NDArray[np.float64], outline: NDArray[np.float64], side: Side, rules: FeasibilityRules
 ) -> NDArray[np.float64] | None:
-    """The easiest move of a foothold that clears an obstacle (T Fig. 45: obstacle width and clearance).
+    """Returns the easiest move (2,) in m of a foothold that clears an obstacle (T Fig. 45), None where none is allowed.
 
     Args:
         obstacle: Points (k, 2) of the obstacle in the sole frame in m.
-        outline: Outline (m, 2) of the sole in the sole frame in m.
+        outline: Outline (m, 2) of the sole in its frame in m.
         side: Which foot.
-        rules: How far a foothold may be moved which way.
-
-    Returns:
-        Move (2,) along the sole frame's axes in m; None where no move is allowed or nothing is known of the obstacle.
+        rules: How far a foothold may be moved.
 
     Example:
         >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
@@ -191,16 +177,14 @@ def way_around(
 def room_ahead(
     obstacle: NDArray[np.float64], outline: NDArray[np.float64], ahead: ArrayLike, rules: FeasibilityRules
 ) -> float:
-    """How much further ahead a later foothold of the same foot has to be to clear an obstacle that stays behind it.
+    """Returns how much further forward in m a later foothold of the same foot has to be to clear an obstacle; 0 if too
+    far.
 
     Args:
-        obstacle: Points (k, 2) of the obstacle in the sole frame of the foothold that was refused, in m.
+        obstacle: Points (k, 2) of the obstacle in the sole frame of the refused foothold, in m.
         outline: Outline (m, 2) of the sole in its frame in m.
-        ahead: Where (2,) the later foothold is planned, in the same frame in m.
+        ahead: Place (2,) of the later foothold in the same frame in m.
         rules: Clearance, and how far forward a foothold may be moved.
-
-    Returns:
-        Distance in m along the sole's x axis; 0 where the sole clears the obstacle, or would have to go too far.
 
     Example:
         >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])

@@ -1,7 +1,4 @@
-"""A foothold is not what was planned: the VRP moves over it, and the steps to come onto the strip that it is part of.
-
-T 4.4.2-4.4.3.
-"""
+"""A foothold differs from the plan: the VRP moves over it, the steps to come onto its strip (T 4.4.2-4.4.3)."""
 
 from __future__ import annotations
 
@@ -35,14 +32,14 @@ _BORNE = 0.75
 
 
 class FootholdCarries:
-    """Proposes the VRP over what a foot was found to stand on, and footsteps on the strip that the ground goes on as.
+    """Proposes the VRP over what a foot was found to stand on, and footsteps on the strip that the ground continues as.
 
     Args:
-        rules: How far a foothold has to lie off the plan, and how far one moves the footsteps to come.
-        middles: Where (2,) each sole is loaded where it stands whole, in its frame in m.
+        rules: Least and largest moves.
+        middles: Point (2,) at which each whole sole is loaded, in its frame in m.
         outlines: Outline (k, 2) of each sole in its frame in m.
-        strip: Where the ground goes on.
-        reach: How far in m from the sole frame's origin, along the sole, an ankle bears the robot.
+        strip: Where the ground continues.
+        reach: Distance in m from the sole frame's origin, along the sole, at which an ankle bears the robot.
     """
 
     priority = Priority.FOOTHOLD
@@ -88,9 +85,7 @@ class FootholdCarries:
         return rested and not found.as_planned
 
     def _is_narrow(self, found: FootholdFound, tick: Tick) -> bool:
-        """Whether a foothold may be a part of a strip along the walk: ground that ends along the walk is as wide as the
-        sole, and where its centroid lies says nothing of what comes. (How wide it is has to be seen: loads show one of
-        its edges after the other.)"""
+        """Whether a foothold may be a part of a strip along the walk."""
         turn = level_rotation(tick.plan.foothold(max(found.step, tick.plan.first)).yaw)[:2, :2]
         sole = self._outlines[found.side] @ turn.T @ self._strip.across
         ground = found.polygon @ self._strip.across

@@ -1,12 +1,10 @@
-"""Keeps a walk off bad footholds: doubt, probe, step on or walk around, stop where there is no way (T 4.3.2).
+"""Keeps a walk off bad footholds, before weight is transferred (T 4.3.2).
 
-    walking --(ground higher than expected)--> doubting: the single support is made longer, the foot lands softly
-    doubting --(touchdown)--> probing: the foot presses, the rule decides
-    probing --(feasible)--> walking on over it
-    probing --(refused)--> the foot lifts again and goes around: walking
-    probing --(no way around, or too many tries)--> the foot goes back beside the other one, and the walk ends
-
-All of it before weight is transferred.
+walking --(ground higher than expected)--> doubting: the single support is extended, the foot lands softly
+doubting --(touchdown)--> probing: the foot presses, the rule decides
+probing --(feasible)--> walking on over it
+probing --(refused)--> the foot lifts again and goes around: walking
+probing --(no way around, or too many tries)--> the foot goes back next to the other one, and the walk ends
 """
 
 from __future__ import annotations
@@ -61,13 +59,10 @@ class StepGuard:
     """Checks the footholds of a walk.
 
     Attributes:
-        checked: The footholds that were checked, in order.
+        checked: The checked footholds, in order.
         stopped: Whether it ended the walk because there was no way on.
-        press: Force in N that a foot that probes shall press with; None while none does.
-
-    Args:
-        rules: Rules.
-        layouts: Sole layout of each side.
+        press: Force in N that a probing foot should press with; None while none probes.
+        rules: The rules.
     """
 
     priority = Priority.SAFETY
@@ -113,9 +108,6 @@ class StepGuard:
 
         Args:
             tick: What there is to know, after the feet's motion.
-
-        Returns:
-            The change, or None.
         """
         phase, side = tick.phase, tick.phase.swing
         if side is None or self.stopped:
@@ -214,8 +206,7 @@ class StepGuard:
     def _shift_of_later(
         self, step: Footstep, shift: NDArray[np.float64], found: Foothold, side: Side, tick: Tick
     ) -> Point:
-        """By how much in m the steps to come move. A shorter or longer step shifts them; one to the side is made up for
-        by the next. What was not stepped on must not be met again by the same foot's next step."""
+        """By how much in m the steps to come move."""
         longer, following = float(shift[0]), tick.phase.step + 2
         if following < tick.plan.count:
             ahead = tick.plan.foothold(following).position - step.position

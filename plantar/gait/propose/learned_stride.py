@@ -1,9 +1,7 @@
-"""Strides that learn from who pushes (beyond K 6.1): what a partner asks for step after step becomes the robot's own.
+"""Strides that learn from pushes (beyond K 6.1): what a partner asks for step after step becomes the robot's own.
 
-A robot that goes along with pushes forgets them with the step: whoever wants longer strides has to push each one. Here
-two numbers are learned online, by how much strides along the walk and across it are longer than planned. Each step that
-went along moves them by a share of what it went too far; every later footstep of the plan is the planned stride, so
-much longer, from where the feet stand. Figures that close, such as a box, close at any size.
+Two numbers are learned: how much longer strides along and across the walk are than planned. Each pushed step moves them
+by a share of what it went too far, and later footsteps follow. Figures that close, such as a box, close at any size.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
-"""Who proposes changes of the plan: what they get, what they return, and whose change comes first.
+"""Proposers of plan changes: what they receive, what they return, and whose change comes first.
 
-A proposer is a small object in a file of its own. At each tick it gets a frozen `Tick` and returns a `PlanChange` or
-nothing; it never touches the plan. The change of one proposer is applied in a tick (see
-`plantar.gait.propose.decide`); a proposer whose change was not chosen sees that in `Tick.plan.last` and proposes again
-while it still wants it.
+At each tick a proposer receives a frozen `Tick` and returns a `PlanChange` or None. One change is applied in a tick
+(`plantar.gait.propose.decide`); `Tick.plan.last` shows which.
 """
 
 from __future__ import annotations
@@ -51,13 +49,13 @@ class Pendulum(Record, frozen=True):
     """The pendulum at one tick.
 
     Attributes:
-        omega: Its frequency in rad/s.
+        omega: Frequency in rad/s.
         dcm: Estimated DCM (2,) in m.
         reference: The plan now.
-        goal: Where the plan has the DCM (2,) at the end of the phase in m.
+        goal: Planned DCM (2,) in m at the end of the phase.
         zmp_region: Convex polygon (k, 2) in the world in m in which the ZMP may lie, counter-clockwise.
         offset: u_w (2,) in m by which a push is expected to move the VRP off the ZMP until the phase ends (K 18).
-        pushed: By how much (2,) in m pushes have lately moved the DCM, had nobody resisted.
+        pushed: Distance (2,) in m by which recent pushes would have moved an unbalanced DCM.
     """
 
     omega: float
@@ -69,17 +67,14 @@ class Pendulum(Record, frozen=True):
     pushed: NDArray[np.float64] = read_only(np.zeros(2))
 
     def beyond_zmp(self, left: float) -> tuple[float, tuple[float, float], tuple[float, float]]:
-        """What keeps the DCM from its goal after some time, wherever the ZMP is kept (K 25-27).
-
-        Plain numbers: a search over the time asks for this dozens of times in a tick.
+        """What keeps the DCM from its goal after some time, for the best ZMP in the region (K 25-27), in plain numbers.
 
         Args:
-            left: Time in s.
+            left: Time T in s.
 
         Returns:
-            e^(w T) - 1; the ZMP (x, y) in m that would bring the DCM to its goal; the nearest one to it of
-            `zmp_region`, which is not empty. The DCM misses its goal by the first times the way from the nearest to the
-            wanted ZMP.
+            e^(w T) - 1; the ZMP (x, y) in m that would bring the DCM to its goal; the nearest one of `zmp_region`,
+            which is not empty. The DCM misses its goal by the first times the distance between these two.
         """
         growth = math.expm1(self.omega * left)
         (x, y), (gx, gy), (wx, wy) = self.dcm.tolist(), self.goal.tolist(), self.offset.tolist()
@@ -88,12 +83,12 @@ class Pendulum(Record, frozen=True):
 
 
 class Tick(Record, frozen=True):
-    """All that a proposer gets to know at one tick.
+    """What proposers receive at one tick.
 
     Attributes:
         time: Time in s.
         phase: Phase of the walk.
-        plan: The plan as it stands.
+        plan: The current plan.
         feet: Where the feet are commanded.
         frame: The frame that they are commanded in.
         readings: Reading of each sole.
@@ -101,9 +96,9 @@ class Tick(Record, frozen=True):
         moments: Moment (2,) at each ankle in N m, where there are force-torque sensors.
         found: What feet have been found to stand on at this tick.
         seen: What the swing foot has been seen to stand on soon.
-        inward: By how much in m, along its y axis, a foot that touches down now shall carry further inside.
-        pendulum: Where the body is, where balance is fed back.
-        firm: Whether the ground has carried every sole as a whole lately, so that a foot may be put down anywhere.
+        inward: Distance in m along its y axis by which a foot that touches down now should carry further inside.
+        pendulum: The pendulum, where balance is fed back.
+        firm: Whether the ground has lately carried every sole as a whole, so that a foot may be put down anywhere.
     """
 
     time: float
@@ -128,36 +123,26 @@ class Tick(Record, frozen=True):
 
 
 class Proposer(Protocol):
-    """Somebody who may want the plan to change.
+    """Proposes changes of the plan.
 
     Attributes:
-        priority: Where its change stands among those of others.
+        priority: Its rank among proposers.
     """
 
     priority: Priority
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """What it wants to change now.
-
-        Args:
-            tick: What there is to know.
-
-        Returns:
-            The change, or None.
-        """
+        """The change that it wants now, or None."""
         ...
 
 
 def nearest_place(region: NDArray[np.float64], x: float, y: float) -> tuple[float, float]:
-    """The place of a region that is nearest to a wanted one, in plain numbers.
+    """Returns the place of a region that is nearest to a wanted one, in plain numbers.
 
     Args:
         region: Convex polygon (k, 2) in m, not empty.
         x: Wanted place in m.
         y: The same.
-
-    Returns:
-        Place (x, y) in m.
 
     Example:
         >>> nearest_place(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), 2.0, 0.5)
@@ -168,13 +153,5 @@ def nearest_place(region: NDArray[np.float64], x: float, y: float) -> tuple[floa
 
 
 def was_applied(change: PlanChange, tick: Tick) -> bool:
-    """Whether a change that was proposed at the tick before was the one that was applied.
-
-    Args:
-        change: The change.
-        tick: The tick now.
-
-    Returns:
-        True if the plan's last change is this one.
-    """
+    """Returns whether a change, proposed at the tick before `tick`, was applied."""
     return tick.plan.last is not None and tick.plan.last.change is change

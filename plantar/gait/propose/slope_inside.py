@@ -12,16 +12,13 @@ __all__ = ["SlopeInside", "SlopeRules", "inward_distance"]
 
 
 def inward_distance(side: Side, outward_rise: float, ankle_reach: float, com_height: float) -> float:
-    """How far a foot that stands on a slope shall carry nearer to the robot's middle.
+    """Returns how far in m along the sole's y axis a foot on a slope should carry nearer to the robot's middle.
 
     Args:
         side: Which foot.
-        outward_rise: Slope in rad across its stand, positive where its outer edge is the higher one.
+        outward_rise: Slope in rad across its stand, positive where its outer edge is higher.
         ankle_reach: Slope in rad that the ankle can follow.
         com_height: Height of the CoM above the foot in m.
-
-    Returns:
-        Distance in m along the sole's y axis; 0 on a slope that the ankle can follow.
 
     Example:
         >>> round(inward_distance("left", 0.145, 0.095, 0.8), 3)

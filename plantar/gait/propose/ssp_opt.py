@@ -1,18 +1,14 @@
 """SSP-Opt: where and when the swing foot lands, so that the DCM is where the next phase begins (K 28-33).
 
-With tau = e^(w t) the DCM at touchdown and the one that is wanted there are both linear (K 28, K 23-24), so footstep
-and time together are a convex quadratic program of three numbers: the footstep in a convex polygon, tau between bounds.
+With tau = e^(w t) the DCM at touchdown and the wanted one are both linear (K 28, K 23-24), so footstep and time are a
+convex quadratic program of three numbers: the footstep in a convex polygon, tau between bounds.
 
     w_d |xi_s(u_e) - xi(tau)|^2 + c w_n (w_u |u_e - u_n|^2 + w_tau (tau - tau_n)^2) + (1 - c) w_s (same, u_s, tau_s)
 
-It has a solution in closed form. Without bounds on tau the best tau follows from the footstep, and what is left is the
-closest point of the polygon in the metric of the reduced cost. If that tau is out of its bounds, then, the cost being
-strictly convex, the bound that it passes holds at the optimum, and the closest point for that tau is the answer. So two
-projections on a polygon are the most it takes, no iteration is left to converge, and the KKT conditions hold to
-rounding.
-
-tau is kept as a share of its upper bound, so that times of 100 s do not overflow; w t is cut at
-`plantar.gait.balance.ankle_strategy.MOST_GROWTH`.
+Its solution is closed: without bounds on tau the best tau follows from the footstep, which is the closest point of the
+polygon in the metric of the reduced cost; if that tau passes a bound, the bound holds at the optimum, and the closest
+point for it is the answer. tau is kept as a share of its upper bound, and w t cut at `ankle_strategy.MOST_GROWTH`, so
+that long times do not overflow.
 """
 
 from __future__ import annotations
@@ -46,14 +42,14 @@ __all__ = [
 class StepWeights(
     Part, table="step_weights", needs={"control.step_adjustment": (True,), "step_adjustment.method": ("ssp_opt",)}
 ):
-    """What a change of a footstep is weighed by (K Table 1).
+    """Weights of a change of a footstep (K Table 1).
 
     Attributes:
-        dynamics: w_d: of the DCM that is missed at touchdown.
-        nominal: w_n: of leaving the nominal footstep, with the confidence.
-        smooth: w_s: of leaving the footstep of the tick before, with what the confidence leaves.
-        location: Factor on w_u = 1 / (s_max - s_min), which the region gives.
-        time: Factor on w_tau = 1 / (tau_max - tau_min), which the bounds of the time give.
+        dynamics: w_d, of the DCM error at touchdown.
+        nominal: w_n, of the difference from the nominal footstep, times the confidence.
+        smooth: w_s, of the difference from the tick before, times the rest of the confidence.
+        location: Factor on w_u = 1 / (s_max - s_min) of the region.
+        time: Factor on w_tau = 1 / (tau_max - tau_min) of the time's bounds.
     """
 
     dynamics: float = number(15.0, "1", 1e-3, 1e6)
@@ -64,17 +60,16 @@ class StepWeights(
 
 
 class StepRegionRules(Part, table="step_region", needs={"control.step_adjustment": (True,)}):
-    """Where the swing foot may land beside the stance foot (K 32).
+    """Where the swing foot may land next to the stance foot (K 32).
 
-    The paper's numbers are for a leg of 0.6 m with 0.15 m between the legs: 0.2 m forward and backward, 0 to 0.12 m out
-    beyond those 0.15 m. Such a leg with its knee bent by 15 degrees reaches 0.33 m aside, and a walk with
-    steps of 0.2 m could not lengthen them at all: 0.25 m forward and 0.33 m outside are allowed here.
+    The paper allows 0.2 m forward and 0.12 m outwards for a leg of 0.6 m, which cannot lengthen steps of 0.2 m; such a
+    leg with its knee bent by 15 degrees reaches 0.33 m aside.
 
     Attributes:
         forward: Farthest forward in m.
         backward: Farthest backward in m.
-        clearance: Least gap in m between the soles' inner edges, side by side. (With 10 mm on a leg of 0.6 m, soles of
-            a body that a push has rolled by 2 degrees touched.)
+        clearance: Least gap in m between the soles' inner edges, side by side; with 10 mm on a leg of 0.6 m, soles of a
+            body that a push had rolled by 2 degrees touched.
         outside: Largest distance between the soles' middle lines in m.
     """
 
@@ -91,17 +86,14 @@ def footstep_region(
     touching: float,
     half_planes: tuple[tuple[float, float, float], ...] = (),
 ) -> NDArray[np.float64]:
-    """Where the swing foot may land (K 32): the box beside the stance foot, less what lies beyond lines.
+    """Returns where the swing foot may land (K 32): convex polygon (k, 2) in the world in m, or an empty one.
 
     Args:
-        rules: The box.
+        rules: The box next to the stance foot.
         swing: Which foot swings.
         stance: Place and heading (x, y, yaw) of the stance foot in the world in m, m, rad.
         touching: Distance in m between the sole frames at which the soles' inner edges touch.
         half_planes: Lines (nx, ny, h) in the world: what has n . u > h is cut off.
-
-    Returns:
-        Convex polygon (k, 2) in the world in m, counter-clockwise; empty where nothing is left.
 
     Example:
         >>> rules = StepRegionRules(forward=0.2, backward=0.2, clearance=0.01, outside=0.27)
@@ -136,24 +128,24 @@ def touching_distance(outlines: Mapping[Side, NDArray[np.float64]]) -> float:
 
 
 class SspProblem(NamedTuple):
-    """A single support, now. All places are in the world.
+    """A single support now, in the world.
 
     Attributes:
         omega: Pendulum frequency in rad/s.
         dcm: xi_c (2,) in m.
-        vrp: u* (2,) in m: where the ankle strategy keeps the VRP until touchdown, cut to the support.
+        vrp: u* (2,) in m until touchdown, cut to the support.
         offset: u_w (2,) in m by which a push is expected to move the VRP.
-        stance: u_i (2,), the middle of the stance foot, in m.
-        elapsed: T_c: time since the single support began in s.
-        target: Footstep (2,) and its T_s in s of the tick before: (x, y, time).
+        stance: u_i (2,) in m, the middle of the stance foot.
+        elapsed: T_c in s since the single support began.
+        target: Footstep and T_s in s of the tick before: (x, y, time).
         nominal: The nominal ones: (x, y, time).
-        region: Convex polygon (k, 2) in m, counter-clockwise, in which the footstep has to lie (`footstep_region`).
-        shortest: T_s in s from which the foot can have landed.
-        longest: T_s in s at which it has to.
-        next_stride: s_n (2,) from the footstep to the one after it in m.
-        next_duration: T_n of the single support after it in s.
+        region: Convex polygon (k, 2) in m of the footstep, counter-clockwise (`footstep_region`).
+        shortest: Least T_s in s.
+        longest: Largest T_s in s.
+        next_stride: s_n (2,) in m to the footstep after it.
+        next_duration: T_n in s of the single support after it.
         double_support: T_d in s, 0 or more.
-        confidence: c: 1 keeps the nominal footstep, 0 goes on from the tick before.
+        confidence: c: 1 keeps the nominal footstep, 0 that of the tick before.
     """
 
     omega: float
@@ -178,11 +170,11 @@ class SspSolution(NamedTuple):
 
     Attributes:
         place: u_e (2,) in m.
-        time: T_s in s, from the single support's begin.
-        missed: By how much (2,) in m the DCM is off where the next phase begins: xi(T_s) - xi_s.
+        time: T_s in s.
+        missed: DCM error (2,) in m where the next phase begins: xi(T_s) - xi_s.
         at_edge: Whether the footstep lies on the edge of its region.
-        at_bound: -1 where the shortest time holds, 1 where the longest does, else 0.
-        residual: Largest violation of the KKT conditions, beside the largest term of the gradient.
+        at_bound: -1 at the shortest time, 1 at the longest, else 0.
+        residual: Largest violation of the KKT conditions, relative to the largest term of the gradient.
     """
 
     place: NDArray[np.float64]
@@ -194,19 +186,7 @@ class SspSolution(NamedTuple):
 
 
 class _Program(NamedTuple):
-    """The cost in (u_x, u_y, s), s = tau / tau_max: a sum of weights on squares.
-
-    Attributes:
-        dynamics: Weight of the DCM that is missed, `slope` u + `fixed` - `grown` s.
-        slope: d xi_s / d u_e.
-        fixed: Its part that depends on nothing.
-        grown: Its part that grows with s.
-        place_weights: Weights of the footstep along x and y.
-        places: Where those are drawn to.
-        time_weight: Weight of s.
-        time: Where it is drawn to.
-        low: Least s; the largest is 1.
-    """
+    """The cost in (u_x, u_y, s), s = tau / tau_max: a sum of weights on squares."""
 
     dynamics: float
     slope: float

@@ -1,22 +1,15 @@
 """Step elsewhere, or sooner, when the ZMP alone cannot bring the DCM to where the next step begins (K 4.1-4.2).
 
-With the ZMP at p for the rest T of a single support the DCM xi comes to p + e^(w T) (xi - p). What the plan wants of
-it, xi_s, moves with the footstep: by (1 - a) d where the footstep and all after it move by d, and the VRP still takes
-the share a of the double support's way from the old foot (K 23-24). A push that is expected to go on moves p by -u_w
-(K 9).
+With the ZMP at p for the rest T of a single support the DCM xi comes to p + e^(w T) (xi - p). The wanted one, xi_s,
+moves by (1 - a) d where the footstep and all after it move by d; the VRP takes the share a of the double support's way
+from the old foot (K 23-24). A push that is expected to continue moves p by -u_w (K 9).
 
-Two ways to the best footstep and time:
-
-- "search" takes time after time, for each the ZMP of the support polygon that brings the DCM nearest, and the footstep
-  that makes up for the rest, as far as the foot can get by then. How far that is grows with the time, which no convex
-  program says; one number is searched for, the others are in closed form.
+- "search" scans the time; for each, the ZMP of the support polygon and then the footstep, as far as the foot can get,
+  make up for the DCM.
 - "ssp_opt" solves K 31 (`plantar.gait.propose.ssp_opt`), with the place that the foot can reach in the planned time.
 
-Somebody who pushes may want the robot to go along. A robot that yields moves a step by (1 - c) of what the push has
-moved the DCM by, even where the ankles could resist it: the plan gives way, and so does the DCM.
-
-A foot that lands while its step is adjusted ends the single support, whatever the plan's time is: the DCM does not
-wait. One that stands beside its place stands there from then on; legs that pull it back would make it slip.
+A robot that yields moves a step by (1 - c) of what a push has moved the DCM by, even where the ankles could resist.
+A foot that lands while its step is adjusted ends the single support; one that lands next to its place stays there.
 """
 
 from __future__ import annotations
@@ -50,23 +43,20 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
 
     Attributes:
         method: How the footstep is found: "search" or "ssp_opt".
-        confidence: c of K 2.5: 1 keeps the nominal footsteps as long as balance lets it, 0 follows whoever pushes.
-        yielding: Share of what a push moves the DCM by that the steps of a robot without confidence go along with, even
-            where its ankles could resist; 0 steps for balance alone, above 1 it goes farther than it is pushed.
-        double_support: Whether double supports end sooner or later, too
-            (`plantar.gait.propose.double_support_timing`). Off: in pushes of 0.47 m/s on h1 and hrp2kai it changed no
-            outcome for the better.
-        least_error: Distance in m by which the DCM would be off at the end, below which the plan stays.
+        confidence: c of K 2.5: 1 keeps the nominal footsteps as far as balance lets it, 0 follows pushes.
+        yielding: Share of a push's DCM motion that the steps of a robot without confidence follow, even where its
+            ankles could resist; 0 steps for balance alone, above 1 it goes farther than it is pushed.
+        double_support: Whether double supports end sooner or later, too (`double_support_timing`); in pushes of
+            0.47 m/s on h1 and hrp2kai that improved no outcome.
+        least_error: DCM error in m at the end below which the plan stays.
         acceleration: Largest acceleration in m/s^2 of the swing foot.
-        sideways: Share of it that is left to the side. (With all of it the swing leg's hip, 71 N m on h1, rolls the
-            pelvis, whose other hip bears the body at its limit already: the foot sinks, and lands 95 mm beside its
-            place.)
-        shortest: Share of what is left of a single support by which it becomes shorter at most.
-        longest: Share of a single support by which it becomes longer at most.
+        sideways: Share of it to the side; all of it makes h1's hips sink, and the foot lands 95 mm off.
+        shortest: Largest share of the rest of a single support by which it is shortened.
+        longest: Largest share of a single support by which it is extended.
         least_left: Time in s until touchdown from which a foot is not aimed any more.
         pause: Time in s between two changes.
-        price_time: What a second costs in m/s of DCM error.
-        price_place: What a metre of footstep costs in metres of DCM error, with confidence 1; with none a tenth of it.
+        price_time: Cost of a second in m/s of DCM error.
+        price_place: Cost of a metre of footstep in metres of DCM error, with confidence 1; without, a tenth of it.
     """
 
     method: str = choice("search", "ssp_opt")
@@ -116,12 +106,12 @@ class StepAdjustment:
 
     Args:
         rules: When, and how far.
-        region: Where a foot may land beside the other one.
+        region: Where a foot may land next to the other one.
         touching: Distance in m between the sole frames at which the soles' inner edges touch.
         weights: Weights of "ssp_opt".
         ankle: Which part of the support polygon a changed footstep is planned with.
         period: Control period in s, the unit of a change of time.
-        timing: What changes only the time of a step, for ground that does not carry everywhere.
+        timing: Changes only the time of a step, for ground that does not carry everywhere.
     """
 
     priority = Priority.TIMING
@@ -204,10 +194,7 @@ class StepAdjustment:
         return _moved(planned, step, (dx, dy), "goes along with a push", 0.0)
 
     def _relied_on(self, tick: Tick, support: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The part (k, 2) in m of the support polygon that a changed footstep is planned with: f(c) S (K 27).
-
-        A step that needs all of it leaves nothing for what no pendulum foresees, and ends on the new foot's outer edge.
-        """
+        """The part (k, 2) in m of the support polygon that a changed footstep is planned with: f(c) S (K 27)."""
         swing = tick.phase.swing
         assert swing is not None
         return shrunk_support(support, self._ankle, support.mean(axis=0), tick.place(other_side(swing)).yaw)
@@ -334,29 +321,13 @@ class StepAdjustment:
     def _landing(
         self, foot: _Foot, wanted: tuple[float, float], time: float, region: NDArray[np.float64]
     ) -> tuple[tuple[float, float], float]:
-        """Where in a region the swing foot lands that is wanted somewhere, and how far it would leave the region.
-
-        One that moves too fast to brake in time has to brake harder than it should: that costs what it would go beyond.
-
-        Args:
-            foot: The foot.
-            wanted: The wanted place in m.
-            time: Time in s until it lands.
-            region: Convex polygon (k, 2) in m.
-
-        Returns:
-            Place (x, y) in m, and distance in m.
-        """
+        """Where in a region the swing foot lands that is wanted somewhere, and how far it would leave the region."""
         x, y = self._reached(foot, nearest_place(region, *wanted), time)
         inside = nearest_place(region, x, y)
         return inside, math.dist(inside, (x, y))
 
     def _reached(self, foot: _Foot, wanted: tuple[float, float], time: float) -> tuple[float, float]:
-        """The place (x, y) in m nearest to a wanted one that the swing foot gets to, at rest, in some time in s.
-
-        From rest a minimum-jerk motion gets a t^2 / 5.77 far with a peak of a. A foot that moves at v gets v t / 2
-        farther and, for braking, v^2 / 5.77 a less far: as with a constant acceleration, whose numbers are 1/4.
-        """
+        """The place (x, y) in m nearest to a wanted one that the swing foot gets to, at rest, in some time in s."""
         most, (vx, vy), (x, y) = self._rules.acceleration, foot.velocity, foot.place
         c, s, narrow = math.cos(foot.yaw), math.sin(foot.yaw), self._rules.sideways
         # In the foot's axes, those to the side stretched: what it reaches is a circle then.
@@ -390,8 +361,7 @@ def _missed(pendulum: Pendulum, left: float) -> tuple[float, float]:
 
 
 def _slope(tick: Tick, pendulum: Pendulum) -> float:
-    """By how much the DCM that is wanted at the end of the single support moves with the footstep: 1 less the share of
-    the double support's VRP that stays with the foot before, which moves linearly from the one to the other."""
+    """By how much the DCM that is wanted at the end of the single support moves with the footstep."""
     following = tick.plan.schedule.following(tick.phase)
     growth = pendulum.omega * (following.end - following.start)
     return -math.expm1(-growth) / growth

@@ -1,17 +1,12 @@
 """End a single support when the DCM is where the next one begins, if the ZMP alone cannot bring it there in time.
 
-With the ZMP at p for the rest T of a single support the DCM xi comes to
-
-    xi(T) = p + e^(w T) (xi - p),
-
-so what the plan wants of it at the end, xi_e, takes the ZMP
+With the ZMP at p for the rest T of a single support the DCM comes to xi(T) = p + e^(w T) (xi - p), so a wanted xi_e
+takes the ZMP
 
     p(T) = xi + (xi - xi_e) / (e^(w T) - 1).
 
-As long as that lies in the support polygon the balance law has its way, and nothing is done. Where it lies at a
-distance d from the polygon, the DCM ends off by (e^(w T) - 1) d, which on a partial foothold soon is more than the next
-one can make up for. Most of it lies along the DCM's way, as when a foothold that is not where it was planned is seen in
-the last moment: another T takes that away (time instead of the ZMP; the same pendulum as T 4.9-4.14).
+Where that lies a distance d outside the support polygon, the DCM ends off by (e^(w T) - 1) d; another T takes most of
+that away (the same pendulum as T 4.9-4.14).
 """
 
 from __future__ import annotations
@@ -30,11 +25,11 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
     """When a single support ends sooner or later than planned.
 
     Attributes:
-        least_error: Distance in m by which the DCM would be off at the end, below which the timing stays.
-        price: What a second costs in m/s of DCM error: a change of timing has to be worth it.
-        longest: Share of a single support by which it becomes longer at most. (A push to the side is not made up for by
-            time: with half of it, h1 fell after one of six pushes of 40 N s that it takes without.)
-        shortest: Share of it by which it becomes shorter at most: the foot has to be there.
+        least_error: DCM error in m at the end below which the timing stays.
+        price: Cost of a second in m/s of DCM error.
+        longest: Largest share of a single support by which it is extended; with half of it, h1 fell after one of six
+            pushes of 40 N s to the side that it withstands otherwise.
+        shortest: Largest share by which it is shortened.
         least_left: Time in s until touchdown from which a foot is not hurried any more.
         pause: Time in s between two changes.
     """

@@ -1,16 +1,15 @@
-"""Walk at a commanded velocity: one step after another, without an end, until a stop is commanded.
+"""Walk at a commanded velocity until a stop is commanded.
 
-At each touchdown the next steps are planned anew from the command that holds then: two that follow it and one that
-closes the feet, so that the plan always ends at rest. Of steps of duration T, with a velocity (v_x, v_y, w_z),
+At each touchdown the next steps are planned again: two that follow the command and one that closes the feet, so that
+the plan always ends at rest. Of steps of duration T, with a velocity (v_x, v_y, w_z),
 
     forward      each step leads the other foot by v_x T;
     sideways     the foot on that side opens by 2 v_y T, and the other one closes up to it;
     turning      each step turns its foot by w_z T against the other one, about the middle between the feet, and stands
                  so much wider that heels, or toes where the feet turn in, keep their distance; what the foot that turns
-                 in may not do (`Stride.turn_in`) the other one does, too,
+                 in may not do (`Stride.turn_in`) the other one does, too.
 
-so that legs do not cross. The heading is the mean of the feet's: it follows a command by half a step whichever foot is
-next, where a foot that only turns out would leave it by a whole step every other time.
+The heading is the mean of the feet's, which follows a command by half a step.
 """
 
 from __future__ import annotations
@@ -87,11 +86,11 @@ class VelocityTable:
 
 
 class Stride(Settings):
-    """How far a step goes at most; a command that asks for more is walked slower.
+    """Largest step; a command that asks for more is walked slower.
 
     Attributes:
-        lead: By how much a foot leads the other one, as a share of the CoM's height.
-        opening: By how much a foot opens to its side, as a share of the CoM's height.
+        lead: Lead over the other foot, as a share of the CoM's height.
+        opening: Opening to the side, as a share of the CoM's height.
         turn: Angle by which a foot turns out against the other one, which the two hips share.
         turn_in: Angle by which a foot turns in against the other one.
     """
@@ -104,14 +103,14 @@ class Stride(Settings):
 
 @dataclass(frozen=True)
 class Legs:
-    """What decides how far a step may go, in m.
+    """Lengths in m that limit a step.
 
     Attributes:
-        width: Distance of the sole frames' origins when the feet stand side by side.
+        width: Distance of the sole frames' origins with the feet side by side.
         com_height: Height of the CoM.
-        heel: How far the sole reaches behind its frame's origin.
-        toe: How far it reaches ahead of it.
-        inner: How far it reaches from there to its inner edge.
+        heel: Length of the sole behind its frame's origin.
+        toe: Length in front of it.
+        inner: Width to its inner edge.
     """
 
     width: float
@@ -137,7 +136,7 @@ class Legs:
 def next_step(
     stance: Footstep, other: Footstep, velocity: Velocity, legs: Legs, stride: Stride, duration: float
 ) -> Footstep:
-    """Where a foot goes next.
+    """Returns where a foot goes next.
 
     Args:
         stance: The foot that stands.
@@ -146,9 +145,6 @@ def next_step(
         legs: What decides how far.
         stride: How far at most.
         duration: Time in s from step to step.
-
-    Returns:
-        The footstep.
 
     Example:
         >>> left, right = Footstep("left", 0.0, 0.085), Footstep("right", 0.0, -0.085)
@@ -253,14 +249,11 @@ class VelocityCommand:
 
 
 def table_of(rows: Sequence[Sequence[float | str]], begin: float) -> VelocityTable:
-    """A table of commands from rows of a scene.
+    """Returns a table of commands from rows of a scene.
 
     Args:
         rows: Each [time, forward, left, turn] in s, m/s, m/s and rad/s, or [time, "stop"].
         begin: Time in s from which the rows count.
-
-    Returns:
-        The table.
 
     Raises:
         InputError: If a row is neither; the message names it.

@@ -233,11 +233,7 @@ class Footing:
             self.damping[side].level(load, slope.slope(side), landing.levelling)
 
     def _damp(self, phase: Phase, sensed: Sensed, state: BaseState, feet: FeetView, looks: bool) -> None:
-        """Damp feet that come to carry, once each: on its edge a sole shows no foothold, and makes a moment.
-
-        A foot that does not see the ground comes down level; then its load turns it towards the middle of what it is
-        believed to stand on, so that all of that is loaded, or denied.
-        """
+        """Damp feet that come to carry, once each: on its edge a sole shows no foothold, and makes a moment."""
         damped: dict[Side, tuple[SoleLoad, float]] = {}
         if looks and self._slope is not None:
             self._level(self._slope, phase, state)

@@ -1,8 +1,6 @@
-"""What the interpreted kernels call where the compiled ones have the processor's fused multiply-add
-(`fused_in_c.pxd`).
+"""The processor's fused multiply-add for interpreted kernels (`fused_in_c.pxd` has the compiled one).
 
-Numpy leaves products of matrices to BLAS, which rounds a product and its sum at once where the processor can. A kernel
-that takes over such a product keeps its bits by doing the same, on every machine.
+BLAS rounds a product and its sum at once; a kernel that takes over such a product keeps its bits by doing the same.
 """
 
 from __future__ import annotations
@@ -14,17 +12,7 @@ __all__ = ["multiply_add"]
 
 
 def multiply_add(a, b, c):
-    """a b + c, rounded once: that of IEEE 754, here by exact fractions.
-
-    Args:
-        a: A number.
-        b: A number.
-        c: A number.
-
-    Returns:
-        The number nearest to a b + c; where one of them is not finite, or the result beyond all numbers, as the
-        processor has it.
-    """
+    """Returns a b + c, rounded once as in IEEE 754, by exact fractions; as the processor has it where not finite."""
     if math.isfinite(a) and math.isfinite(b) and math.isfinite(c):
         exact = Fraction(a) * Fraction(b) + Fraction(c)
         if exact:

@@ -1,9 +1,6 @@
-"""Kernel of the torques that hold a tree of bodies at rest: against gravity, less what other forces take.
+"""Kernel of the torques that hold a tree of bodies at rest against gravity, less what other forces take.
 
-What a velocity has to hold is its unit motion (w, v) times the moment and the force of the bodies that it moves, both
-about the center of their tree. That is MuJoCo's `mj_rne` for a model at rest, with its sums in its order.
-
-Plain Python that also compiles ahead of time (`static_load.pxd` gives the C types).
+It is MuJoCo's `mj_rne` at rest, with its sums in its order. `static_load.pxd` gives the C types.
 """
 
 from __future__ import annotations

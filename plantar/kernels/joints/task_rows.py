@@ -1,13 +1,8 @@
-"""Kernels of the tasks of inverse kinematics: what each lacks, and how a tree of joints moves it.
+"""Kernels of the tasks of inverse kinematics: error and Jacobian of each.
 
-A velocity of the tree moves a body by the unit motion (w, v): it turns about w, and the point of the body at a center
-c goes along v. A point p of the body goes along v + w x (p - c). These are the motions `cdof` of MuJoCo, whose centers
-are the CoM of each tree, and the results are those of its `mj_jac` to the last bit: the same sums in the same order.
-Which velocities move a body, its chain, is found once.
-
-Plain Python that also compiles ahead of time (`task_rows.pxd` gives the C types); the tasks in
-`plantar.robots.kinematics.tasks` are the public face. Each object writes to its own
-arrays, which begin at zero, and has views of those that it reads.
+A velocity moves a body by the unit motion (w, v), MuJoCo's `cdof`: a point p goes along v + w x (p - c). The results
+are those of `mj_jac` to the last bit. `plantar.robots.kinematics.tasks` is the public face. Each object writes to its
+own arrays, which begin at zero.
 """
 
 from __future__ import annotations

@@ -2,10 +2,9 @@
 # cython: infer_types=True
 """Kernel of strict task hierarchies: directions of acceleration that levels of tasks own, and what is left.
 
-In mass-weighted coordinates y = L^T q'', M = L L^T. A row of a Jacobian becomes L^-1 J^T, each level's rows are brought
-to triangular form by Householder reflections of what the levels before left, and y is kept in the basis that these
-make. `plantar.wholebody.fusion.hierarchy` says what that is for. Plain Python that also compiles ahead of time
-(`task_space.pxd` gives the C types).
+In mass-weighted coordinates y = L^T q'', M = L L^T, a row of a Jacobian becomes L^-1 J^T. Each level's rows are brought
+to triangular form by Householder reflections of what the levels before left; y is in the basis that these make
+(`plantar.wholebody.fusion.hierarchy`).
 """
 
 from __future__ import annotations
@@ -59,9 +58,6 @@ class TaskSpace:
 
         Args:
             mass: M (n, n).
-
-        Returns:
-            Whether it is positive definite.
         """
         n, factor = self.size, self.factor
         self.used = 0
@@ -234,10 +230,7 @@ class TaskSpace:
                 out[k] -= factor[i, k] * out[i]
 
     def _turn(self, row):
-        """A row (n,) of a Jacobian as a mass-weighted one in the basis of the owned directions, in its place.
-
-        Sums run over every fourth term apart, here and in `_reflect`: one alone would wait for each addition.
-        """
+        """A row (n,) of a Jacobian as a mass-weighted one in the basis of the owned directions, in its place."""
         n, factor, vectors = self.size, self.factor, self.vectors
         begin = 0
         while begin < n and row[begin] == 0.0:
@@ -304,10 +297,8 @@ class TaskSpace:
             out[j] = math.sqrt(out[j])
 
     def _bound(self, rank):
-        """Bound from below of the singular values of the scaled triangle: of its inverse, the Frobenius norm's inverse.
-
-        Every row of the triangle is no longer than 1, so that nothing here overflows before `least` stops the rank.
-        """
+        """Bound from below of the singular values of the scaled triangle: of its inverse, the Frobenius norm's
+        inverse."""
         columns, full, column, first = self.columns, self.full, self.left, self.used - rank
         squares = 0.0
         for k in range(rank):
@@ -333,10 +324,7 @@ class TaskSpace:
         order[a], order[b] = order[b], order[a]
 
     def _reflect(self, place, count, smallest):
-        """Turn the first direction that is left into that of the column at `place`; the others and y turn with it.
-
-        Columns before `place` have nothing in these directions.
-        """
+        """Turn the first direction that is left into that of the column at `place`; the others and y turn with it."""
         n, columns, sizes, left, y, first = self.size, self.columns, self.sizes, self.left, self.y, self.used + place
         vector, sums = self.vectors[first], self.sums
         total = 0.0

@@ -29,9 +29,6 @@ class TaskStep:
 
         Args:
             largest: Largest entry of a step in units.
-
-        Returns:
-            Whether it was taken.
         """
         self.near = True
         for rows in self.rows:
