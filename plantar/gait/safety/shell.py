@@ -27,6 +27,7 @@ from plantar.sides import Side, other_side
 __all__ = ["SafetyShell"]
 
 _STUCK = 0.12  # s for which sensors may report the very same: a train of 0.1 s is walked through
+_SLIP, _JERK = 0.02, 800.0  # rad, rad/s^2: a joint's speed changes faster only where its encoder jumps; walks reach 80
 _SILENT = 0.06  # s for which a reading that cannot be taken is bridged by the last one that could
 _LATE = 0.15  # s of times that cannot be taken, until the state is "late"
 _UNLOADED, _WEIGHTLESS = 0.3, 0.04  # weight on both soles below which one must be silent, and for how long in s
@@ -98,15 +99,22 @@ class SafetyShell:
             The command: of the controller, or of the state that holds.
         """
         try:
-            command = self._stepped(sensors)
+            reported = float(sensors.time)
+        except (AttributeError, TypeError, ValueError):
+            reported = math.nan
+        time = self._clock.time_of(reported)
+        try:
+            command = self._stepped(sensors, time)
         except Exception:  # of any kind: a robot that walks needs a command
             self.errors += 1
-            command = self._bridge(None)
+            try:
+                command = self._bridge(time)
+            except Exception:  # the last sound reading makes the tick raise, too
+                command = self._held()
         self._last = command
         return command
 
-    def _stepped(self, sensors: Sensors) -> Command:
-        time = self._clock.time_of(float(sensors.time))
+    def _stepped(self, sensors: Sensors, time: float) -> Command:
         if self.state in ("fallen", "blind"):
             return self._held()
         self.state = "late" if self._clock.odd * self._period > _LATE else None
@@ -135,12 +143,12 @@ class SafetyShell:
             return command
         return self._limits.limited(self._last, command)
 
-    def _bridge(self, time: float | None) -> Command:
+    def _bridge(self, time: float) -> Command:
         """A tick without a reading that can be taken: on with the last one for a moment, then blind."""
         self._silent += 1
         if self._silent > self._bridged and self._begun:
             self.state = "blind"
-        if self.state is None and time is not None and self._sound is not None:
+        if self.state is None and self._sound is not None:
             return self._limits.limited(self._last, self._tick(self._sound.changed(time=time)))
         return self._held()
 
@@ -152,7 +160,7 @@ class SafetyShell:
         joints, gyro, accelerometer = sensors.joint_positions, sensors.gyro, sensors.accelerometer
         if self._body is None:
             self._joints = len(joints) if self._joints is None else self._joints
-            self._body = BodyCheck(self._joints, self._stuck)
+            self._body = BodyCheck(self._joints, self._stuck, max(_SLIP, _JERK * self._period**2))
         if len(joints) != self._joints or len(gyro) != 3 or len(accelerometer) != 3:
             return 1
         found = self._body.check(joints, gyro, accelerometer)

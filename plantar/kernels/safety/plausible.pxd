@@ -2,7 +2,6 @@
 cimport cython
 from ..base cimport pointers as memory
 
-cdef double _SLIPPED
 cdef double _FAST
 cdef double _TURNED
 cdef double _SPIN
@@ -16,6 +15,7 @@ cdef class BodyCheck:
     cdef readonly int imu_same
     cdef readonly int joints_same
     cdef object kept
+    cdef double slip
     cdef readonly bint slipped
     cdef readonly object slips
     cdef object steps

@@ -14,9 +14,6 @@ from ..base import memory
 
 __all__ = ["BodyCheck", "SoleCheck", "farthest"]
 
-_SLIPPED = (
-    0.02  # rad by which a joint's step differs from its last one where its encoder jumped; walks stay under 0.002
-)
 _FAST = 0.25  # rad that a joint's angle may change by in a tick: 50 rad/s at 200 Hz
 _TURNED = 12.0  # rad: beyond, no joint of a leg has an angle
 _SPIN = 20.0  # rad/s: faster, no robot turns that is on its feet
@@ -29,6 +26,7 @@ class BodyCheck:
     Args:
         joints: Number of joint angles.
         frozen: Ticks after which sensors that report the very same bits are stuck.
+        slip: Angle in rad by which a joint's step differs from its last one where its encoder has jumped.
 
     Attributes:
         imu_same: Ticks for which the IMU has reported the same.
@@ -36,13 +34,13 @@ class BodyCheck:
         slipped: Whether an encoder has jumped; `slips` (k,) in rad is by how much each has.
     """
 
-    def __init__(self, joints, frozen):
+    def __init__(self, joints, frozen, slip=0.02):
         self.joints = joints
         self.frozen = frozen
         self.begun = False
         self.imu_same = self.joints_same = 0
         self.kept = np.zeros(joints + 6)
-        self.slipped = False
+        self.slip, self.slipped = slip, False
         self.slips, self.steps = np.zeros(joints), np.zeros(joints)
 
     def check(self, joints, gyro, accelerometer):
@@ -82,7 +80,7 @@ class BodyCheck:
         for i in range(n):
             value = q[i] - kept[i] if self.begun else 0.0
             # A joint that was stuck catches up; several that jump together moved, as at an impact.
-            if math.fabs(value - steps[i]) > _SLIPPED and steps[i] != 0.0:
+            if math.fabs(value - steps[i]) > self.slip and steps[i] != 0.0:
                 jumped, jump = (i, value - steps[i]) if jumped == -1 else (n, 0.0)
             steps[i] = value
             kept[i] = q[i]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -43,7 +45,7 @@ def test_a_blind_robot_puts_its_foot_down_and_then_sits(swinging: tuple[Simulati
     assert (found[down - 1].com == command.com).all()  # not before the foot is down
     forces = [found[-1].feet[side].force for side in ("left", "right")]
     assert np.sum(forces, axis=0)[2] == pytest.approx(sum(f.force[2] for f in command.feet.values()), rel=1e-6)
-    ticks = [np.abs(b.com - a.com).max() for a, b in zip(found, found[1:], strict=False)]
+    ticks = [np.abs(b.com - a.com).max() for a, b in pairwise(found)]
     assert max(ticks) < 0.5e-3
 
 
