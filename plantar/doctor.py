@@ -37,6 +37,7 @@ LIBRARIES: dict[str, dict[str, str]] = {
     "formats": {"rosbags": "rosbags", "ezc3d": "ezc3d", "opencv-contrib-python-headless": "cv2"},
     "cluster": {"distributed": "distributed"},
     "gym": {"gymnasium": "gymnasium"},
+    "warp": {"mujoco-warp": "mujoco_warp", "warp-lang": "warp"},
 }
 """Distribution and module of the libraries that each extra brings; those without an extra are always needed."""
 
@@ -45,6 +46,7 @@ PURPOSES = {
     "shoes": "plantar shoe: printable shoes",
     "sim": "plantar sim, sweep, robot, demo: walking in MuJoCo",
     "formats": "ROS bags, C3D files and images of footprints",
+    "warp": "skin in many worlds of MuJoCo Warp at once",
     "gym": "environments for learning, PlantarWalk-v0",
     "cluster": "plantar sweep --scheduler: workers on other machines",
 }

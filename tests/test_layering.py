@@ -123,6 +123,7 @@ PLACE_OF_LIBRARY = {
     "matplotlib": "plantar.plotting",
     "mpl_toolkits": "plantar.plotting",
     "gymnasium": "plantar.sim.environments",
+    "warp": ("plantar.mujoco.warp_kernels", "plantar.mujoco.warp_skin"),
     "mink": None,  # a reference in tests and benchmarks only
     "pink": None,
     "pytest": None,

@@ -67,6 +67,8 @@ class BoundSkin:
         geom_ids: Ids of the geoms that can touch.
         position_in_body: Origin (3,) of the sole frame in the body's frame in m.
         rotation_to_body: Rotation (3, 3) from the sole frame to the body's.
+        reach: Gap in m up to which a contact that carries nothing counts as near.
+        static: Places, axes, areas and widths of the taxels and the hull of the places, as `TaxelLoad` takes them.
     """
 
     def __init__(
@@ -87,13 +89,13 @@ class BoundSkin:
         self.geom_ids = tuple(int(g) for g in geom_ids)
         self.position_in_body = np.array(position)
         self.rotation_to_body = np.array(rotation)
-        self._reach = reach
+        self.reach = reach
         self._range = proximity
         axes = layout.rotations[:, :, 2]
         widths = [
             float(np.hypot(*(layout.cell_polygon(i) - layout.positions[i, :2]).T).max()) for i in range(len(layout))
         ]
-        self._sole = (
+        self.static = (
             np.array(layout.positions),
             np.ascontiguousarray(axes),
             np.array(layout.areas),
@@ -226,8 +228,8 @@ class BoundSkin:
     def _distances(self, view: _View) -> NDArray[np.float64]:
         """Distance (n,) from each taxel along its outward axis to the nearest geom of another body in m; inf beyond the
         range."""
-        axes = self._sole[1] @ view.rotation.T
-        starts = view.origin + self._sole[0] @ view.rotation.T + _LIFT * axes
+        axes = self.static[1] @ view.rotation.T
+        starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes
         geom = np.empty(1, dtype=np.int32)
         out = np.full(len(self), math.inf)
         for i, (start, axis) in enumerate(zip(starts, axes, strict=True)):
@@ -243,9 +245,9 @@ class _View:
     def __init__(self, skin: BoundSkin, data: Any) -> None:
         self.data = data
         self._reader = ContactReader(skin.model, data, (skin.geom_ids,))
-        self._load = TaxelLoad(*skin._sole)
+        self._load = TaxelLoad(*skin.static)
         self._seen = ContactsInSole()
-        self._reach = skin._reach
+        self._reach = skin.reach
         self._place, self._turn = data.xpos[skin.body], data.xmat[skin.body].reshape(3, 3)
         self._position, self._rotation = skin.position_in_body, skin.rotation_to_body
         self.origin, self.rotation = np.zeros(3), np.eye(3)

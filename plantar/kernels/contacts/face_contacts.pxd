@@ -1,22 +1,16 @@
-# C types of face_contacts.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
 
 from ..base cimport addresses_in_c as addresses, pointers as memory
 
-
 cdef double _SAME
 cdef double _TILTED
-
 
 @cython.final
 cdef class FaceContacts:
     cdef size_t stride
     cdef readonly Py_ssize_t count
-    cdef object from_memory
-    cdef object cut_memory
-    cdef object turn_memory
-    cdef object shift_memory
+    cdef object from_memory, cut_memory, turn_memory, shift_memory
     cdef double* corners
     cdef double* cut
     cdef double* turn

@@ -1,4 +1,3 @@
-# C types of foundation.py. Without a compiler this file is not read.
 cimport cython
 
 @cython.locals(i=Py_ssize_t, a=double, b=double, c=double, total=double, pressure=double)

@@ -1,21 +1,17 @@
-# C types of pressed_sole.py. Without a compiler this file is not read.
 cimport cython
 from . cimport pressed_patch
 from .contacts_in_sole cimport ContactsInSole
 from .foot_contacts cimport FootContacts
 from .pressed_patch cimport PressedPatch
 
-
 cdef int _RECENT
-
 
 @cython.final
 cdef class PressedSole:
     cdef const double[::1] gains
     cdef double grid
     cdef Py_ssize_t most
-    cdef object make
-    cdef object settle
+    cdef object make, settle
     cdef readonly dict made
     cdef object carried
     cdef readonly double[::1] forces
@@ -55,7 +51,6 @@ cdef class PressedSole:
 
     @cython.locals(i=Py_ssize_t, x=double, y=double)
     cdef bint _is_recent(self, Py_ssize_t slot, Py_ssize_t count) noexcept
-
 
 cdef bint _counts(
     FootContacts contacts, const double[:, ::1] vectors, double reach, Py_ssize_t k

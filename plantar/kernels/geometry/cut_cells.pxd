@@ -1,4 +1,3 @@
-# C types of cut_cells.py. Without a compiler this file is not read.
 cimport cython
 
 @cython.locals(

@@ -1,4 +1,3 @@
-# C types of enclosing.py. Without a compiler this file is not read.
 from libc cimport math
 
 cpdef double least_box(double[::1] ring, Py_ssize_t n, double[::1] out) noexcept

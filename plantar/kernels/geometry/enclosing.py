@@ -1,4 +1,3 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
 """Kernels around a convex ring: oriented box of least area, enclosing parallelogram of least area."""
 

@@ -1,4 +1,3 @@
-# C types of half_plane.py. Without a compiler this file is not read.
 cimport cython
 
 from ..base cimport pointers as memory

@@ -1,4 +1,3 @@
-# C types of hull.py. Without a compiler this file is not read.
 cimport cython
 
 cdef double _LARGEST

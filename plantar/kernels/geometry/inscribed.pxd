@@ -1,4 +1,3 @@
-# C types of inscribed.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
 

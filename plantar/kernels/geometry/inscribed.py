@@ -1,4 +1,3 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
 """Kernels on a convex ring: ends of a flat one, largest inscribed triangle and circle.
 

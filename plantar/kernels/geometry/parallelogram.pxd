@@ -1,8 +1,6 @@
-# C types of parallelogram.py. Without a compiler this file is not read.
 cimport cython
 
 cdef int _B_ENDS, _D_ENDS, _C_ENDS, _C_RETURNS
-
 
 @cython.final
 @cython.no_gc
@@ -31,7 +29,6 @@ cdef class _ChordWalk:
     cdef bint is_on(self, double wx, double wy, double ex, double ey) noexcept
     cdef void keep(self, double ux, double uy, double vx, double vy) noexcept
     cdef void step_over(self, int event) noexcept
-
 
 @cython.locals(walk=_ChordWalk)
 cpdef double largest_parallelogram(double[::1] ring, Py_ssize_t n, double[::1] out) noexcept

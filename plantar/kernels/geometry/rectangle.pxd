@@ -1,7 +1,5 @@
-# C types of rectangle.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-
 
 @cython.final
 @cython.no_gc
@@ -22,7 +20,6 @@ cdef class _Gap:
     cdef void find_highest(self, double w) noexcept
     cdef void keep(self, double x, double height, double top, double bottom) noexcept
 
-
 @cython.final
 cdef class _Widths:
     cdef double left, left_height, left_slope, right, right_height, right_slope
@@ -33,7 +30,6 @@ cdef class _Widths:
     cdef double under_left(self, double w) noexcept
     cdef double under_right(self, double w) noexcept
     cdef double next_width(self, double best) noexcept
-
 
 @cython.locals(gap=_Gap, widths=_Widths, best=double, best_x=double, best_w=double, best_b=double, best_t=double)
 cpdef double largest_rectangle(

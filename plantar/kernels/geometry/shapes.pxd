@@ -1,4 +1,3 @@
-# C types of shapes.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
 from ..base cimport work_arrays
@@ -10,14 +9,10 @@ cdef double _QUARTER
 
 cdef class ConvexShapes:
     cdef bint lists
-    cdef double[::1] ring
-    cdef double[::1] work
-    cdef double[::1] out
+    cdef double[::1] ring, work, out
     cdef concave.OutlineRectangles outline
     cdef Py_ssize_t n
-    cdef double x
-    cdef double y
-
+    cdef double x, y
 
     @cython.locals(k=Py_ssize_t, i=Py_ssize_t, turn=int)
     cdef Py_ssize_t _clean(self, const double[:, :] polygon) except -1

@@ -1,4 +1,3 @@
-# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
 """Kernels from a polygon as it comes to the corners of a shape in or around it."""
 

@@ -1,4 +1,3 @@
-# C types of frames.py. Without a compiler this file is not read.
 cimport cython
 from .sole cimport SoleKernel, SoleScratch
 

@@ -49,7 +49,7 @@ def compare(model, contact_wrench, steps, **options):
         else:  # only where the centre of pressure is beyond the outermost taxels
             cop = np.array([-wrench[4], wrench[3]]) / wrench[2]
             assert Percept(feel.layout, reading).position_cop_in_sole is not None
-            ring = feel._sole[-1]
+            ring = feel.static[-1]
             edge = np.roll(ring, -1, axis=0) - ring
             inside = (edge[:, 0] * (cop - ring)[:, 1] - edge[:, 1] * (cop - ring)[:, 0]) / np.hypot(*edge.T)
             assert inside.min() < 1e-3

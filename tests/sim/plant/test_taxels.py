@@ -36,16 +36,6 @@ def errors_of(side: Side = "left", **settings: object) -> TaxelErrors:
     return TaxelErrors(LAYOUTS[side], plant_of(**settings), side)
 
 
-@pytest.mark.parametrize("side", SIDES)
-def test_crosstalk_keeps_the_sum_and_goes_to_neighbours_alone(side: Side) -> None:
-    layout = LAYOUTS[side]
-    for i, force in enumerate(100.0 * np.eye(len(layout))):
-        felt = errors_of(side, crosstalk=0.1).read(force, 0.0)
-        assert felt.sum() == pytest.approx(100.0)
-        assert felt[i] == pytest.approx(90.0)
-        assert set(np.flatnonzero(felt)) == {i, *layout.neighbours[i]}
-
-
 def test_taxels_read_their_gain_times_what_is_on_them() -> None:
     plant = plant_of(taxel_gain=0.2)
     force = np.linspace(1.0, 5.0, COUNT)

@@ -1,0 +1,453 @@
+# mypy: ignore-errors
+"""What `plantar.kernels.contacts.taxel_load` computes, for many worlds at once by NVIDIA Warp, a thread a world.
+
+The steps and names are those of the kernel, where they are explained. Numbers are float64; MuJoCo Warp's contacts that
+they are computed from are float32. `wp.int32(0)` declares a variable that a loop changes.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+try:
+    import warp as wp
+except ImportError:  # then the functions are not called
+    wp = None
+
+__all__ = ["Contacts", "Sole", "Work", "gather", "press"]
+
+
+def _as_it_is(function: Any) -> Any:
+    return function
+
+
+_func: Any = _as_it_is if wp is None else wp.func
+_kernel: Any = _as_it_is if wp is None else wp.kernel
+_struct: Any = _as_it_is if wp is None else wp.struct
+
+
+@_struct
+class Sole:
+    """A sole of n taxels and its frame in a body; arrays are named as in the kernel."""
+
+    positions: wp.array(dtype=wp.vec3d)
+    normals: wp.array(dtype=wp.vec3d)
+    areas: wp.array(dtype=wp.float64)
+    widths: wp.array(dtype=wp.float64)
+    hull: wp.array(dtype=wp.vec2d)
+    own: wp.array(dtype=wp.int32)
+    body: wp.int32
+    place: wp.vec3d
+    turn: wp.mat33d
+    reach: wp.float64
+    level: wp.bool
+
+
+@_struct
+class Contacts:
+    """The contacts of all worlds as MuJoCo Warp lists them."""
+
+    count: wp.array(dtype=wp.int32)
+    world: wp.array(dtype=wp.int32)
+    dist: wp.array(dtype=wp.float32)
+    pos: wp.array(dtype=wp.vec3f)
+    frame: wp.array(dtype=wp.mat33f)
+    geom: wp.array(dtype=wp.vec2i)
+    dim: wp.array(dtype=wp.int32)
+    friction: wp.array2d(dtype=wp.float32)
+    address: wp.array2d(dtype=wp.int32)
+    force: wp.array2d(dtype=wp.float32)
+    xpos: wp.array2d(dtype=wp.vec3f)
+    xmat: wp.array2d(dtype=wp.mat33f)
+    elliptic: wp.bool
+
+
+@_struct
+class Work:
+    """Contacts of the sole in each world in the sole frame, and arrays that a world's thread works in."""
+
+    size: wp.array(dtype=wp.int32)
+    pair: wp.array2d(dtype=wp.vec2i)
+    gap: wp.array2d(dtype=wp.float64)
+    at: wp.array2d(dtype=wp.vec3d)
+    force: wp.array2d(dtype=wp.vec3d)
+    torque: wp.array2d(dtype=wp.vec3d)
+    points: wp.array2d(dtype=wp.vec3d)
+    ring: wp.array2d(dtype=wp.vec2d)
+    edges: wp.array2d(dtype=wp.vec3d)
+    weights: wp.array2d(dtype=wp.float64)
+    prior: wp.array2d(dtype=wp.float64)
+    normal: wp.array2d(dtype=wp.float64)
+    gaps: wp.array2d(dtype=wp.float64)
+    rows: wp.array2d(dtype=wp.vec3d)
+    vectors: wp.array2d(dtype=wp.vec3d)
+    wrench: wp.array2d(dtype=wp.float64)
+    carried: wp.array(dtype=wp.int32)
+
+
+@_kernel
+def gather(sole: Sole, contacts: Contacts, work: Work):
+    """Put each contact of the sole into its world's list, in the sole frame; one thread a contact.
+
+    Args:
+        sole: The sole.
+        contacts: Contacts of all worlds.
+        work: Receives the lists.
+    """
+    i = wp.tid()
+    if i >= contacts.count[0]:
+        return
+    geoms = contacts.geom[i]
+    first, second = geoms[0], geoms[1]
+    if first < 0 or second < 0 or (sole.own[first] != 0) == (sole.own[second] != 0):
+        return
+    world = contacts.world[i]
+    k = wp.atomic_add(work.size, world, 1)
+    if k >= work.gap.shape[1]:
+        return
+    local = wp.vec3d()
+    twist = wp.vec3d()
+    if contacts.address[i, 0] >= 0:
+        dim = contacts.dim[i]
+        if contacts.elliptic or dim == 1:
+            for j in range(dim):
+                value = wp.float64(contacts.force[world, contacts.address[i, j]])
+                if j < 3:
+                    local[j] = value
+                else:
+                    twist[j - 3] = value
+        else:
+            for j in range(1, dim):
+                plus = wp.float64(contacts.force[world, contacts.address[i, 2 * j - 2]])
+                minus = wp.float64(contacts.force[world, contacts.address[i, 2 * j - 1]])
+                local[0] += plus + minus
+                side = (plus - minus) * wp.float64(contacts.friction[i, j - 1])
+                if j < 3:
+                    local[j] = side
+                else:
+                    twist[j - 3] = side
+    sign = wp.float64(1.0)
+    if sole.own[first] != 0:
+        sign = wp.float64(-1.0)
+    turn = wp.mat33d(contacts.xmat[world, sole.body])
+    to_sole = wp.transpose(turn @ sole.turn)
+    origin = wp.vec3d(contacts.xpos[world, sole.body]) + turn @ sole.place
+    axes = wp.transpose(wp.mat33d(contacts.frame[i])) * sign
+    work.pair[world, k] = geoms
+    work.gap[world, k] = wp.float64(contacts.dist[i])
+    work.at[world, k] = to_sole @ (wp.vec3d(contacts.pos[i]) - origin)
+    work.force[world, k] = to_sole @ (axes @ local)
+    work.torque[world, k] = to_sole @ (axes @ twist)
+
+
+@_func
+def _counts(sole: Sole, work: Work, w: wp.int32, k: wp.int32) -> wp.bool:
+    return work.gap[w, k] <= sole.reach or work.force[w, k][2] != wp.float64(0.0)
+
+
+@_func
+def _join(work: Work, w: wp.int32, corners: wp.int32, floor: wp.int32, p: wp.vec2d) -> wp.int32:
+    while corners - floor >= 2:
+        a = work.ring[w, corners - 1] - work.ring[w, corners - 2]
+        b = p - work.ring[w, corners - 2]
+        if a[0] * b[1] - a[1] * b[0] > wp.float64(0.0):
+            break
+        corners -= 1
+    if corners > 0 and work.ring[w, corners - 1] == p:
+        return corners
+    work.ring[w, corners] = p
+    return corners + 1
+
+
+@_func
+def _hull_of(work: Work, w: wp.int32, size: wp.int32) -> wp.int32:
+    for k in range(1, size):
+        p = work.points[w, k] + wp.vec3d()  # a copy, not a reference
+        j = k
+        while j > 0:
+            q = work.points[w, j - 1]
+            if not (q[0] > p[0] or (q[0] == p[0] and q[1] > p[1])):
+                break
+            work.points[w, j] = q
+            j -= 1
+        work.points[w, j] = p
+    corners = wp.int32(0)
+    for k in range(size):
+        corners = _join(work, w, corners, 0, wp.vec2d(work.points[w, k][0], work.points[w, k][1]))
+    floor = corners - 1
+    for i in range(size - 1):
+        p = work.points[w, size - 2 - i]
+        corners = _join(work, w, corners, floor, wp.vec2d(p[0], p[1]))
+    if corners > 1:
+        corners -= 1
+    return corners
+
+
+@_func
+def _distance(work: Work, w: wp.int32, corners: wp.int32, p: wp.vec2d) -> wp.float64:
+    deepest = wp.float64(-1e300)
+    for k in range(corners):
+        e = work.edges[w, k]
+        off = p - work.ring[w, k]
+        deepest = wp.max(deepest, e[1] * off[0] - e[0] * off[1])
+    if corners >= 3 and deepest <= wp.float64(0.0):
+        return deepest
+    nearest = wp.float64(1e300)
+    for k in range(corners):
+        edge = work.edges[w, k]
+        way = wp.vec2d(edge[0], edge[1])
+        away = p - work.ring[w, k]
+        away -= wp.clamp(wp.dot(way, away), wp.float64(0.0), edge[2]) * way
+        nearest = wp.min(nearest, wp.dot(away, away))
+    return wp.sqrt(nearest)
+
+
+@_func
+def _cover(sole: Sole, work: Work, w: wp.int32, size: wp.int32):
+    corners = _hull_of(work, w, size)
+    for k in range(corners):
+        j = k + 1
+        if j == corners:
+            j = 0
+        way = work.ring[w, j] - work.ring[w, k]
+        length = wp.length(way)
+        if corners > 1:
+            way /= length
+        else:
+            way = wp.vec2d(wp.float64(1.0), wp.float64(0.0))
+        work.edges[w, k] = wp.vec3d(way[0], way[1], length)
+    half = wp.float64(0.5)
+    least = wp.float64(1e300)
+    for i in range(sole.areas.shape[0]):
+        gap = _distance(work, w, corners, wp.vec2d(sole.positions[i][0], sole.positions[i][1]))
+        work.gaps[w, i] = gap
+        least = wp.min(least, gap - half * sole.widths[i])
+    shift = wp.max(least, wp.float64(0.0))
+    for i in range(sole.areas.shape[0]):
+        gap = (work.gaps[w, i] - shift) / sole.widths[i]
+        share = wp.clamp(half - half * gap, wp.float64(0.0), wp.float64(1.0))
+        if gap < wp.float64(2.0):
+            share += wp.float64(0.02) * (wp.float64(1.0) - half * wp.max(gap, wp.float64(0.0)))
+        work.weights[w, i] = sole.areas[i] * share
+
+
+@_func
+def _tilt(
+    sole: Sole, work: Work, weights: wp.array2d(dtype=wp.float64), w: wp.int32, force: wp.float64, at: wp.vec2d
+) -> wp.bool:
+    zero = wp.float64(0.0)
+    one = wp.float64(1.0)
+    total = wp.float64(0.0)
+    middle = wp.vec2d()
+    for i in range(sole.areas.shape[0]):
+        p = wp.vec2d(sole.positions[i][0], sole.positions[i][1])
+        total += weights[w, i]
+        middle += weights[w, i] * p
+    if total <= zero:
+        return False
+    middle /= total
+    spread = wp.float64(0.0)
+    for i in range(sole.areas.shape[0]):
+        off = wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle
+        spread += weights[w, i] * wp.dot(off, off)
+    scale = wp.max(wp.sqrt(spread / total), wp.float64(1e-4))
+    for i in range(sole.areas.shape[0]):
+        off = (wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle) / scale
+        work.rows[w, i] = wp.vec3d(one, off[0], off[1])
+    off = (at - middle) / scale
+    load = wp.vec3d(one, off[0], off[1])
+    field = wp.vec3d(one, zero, zero)
+    step = wp.vec3d()
+    slope = wp.float64(0.0)
+    value = wp.float64(0.0)
+    rate = wp.float64(1.0)
+    for turn in range(60):
+        matrix = wp.mat33d()
+        for i in range(sole.areas.shape[0]):
+            row = work.rows[w, i]
+            if weights[w, i] > zero and wp.dot(field, row) > zero:
+                matrix += (weights[w, i] / total) * wp.outer(row, row)
+        rest = matrix @ field
+        energy = wp.float64(0.5) * wp.dot(field, rest) - wp.dot(field, load)
+        rest -= load
+        if wp.max(wp.max(wp.abs(rest[0]), wp.abs(rest[1])), wp.abs(rest[2])) <= wp.float64(1e-12):
+            for i in range(sole.areas.shape[0]):
+                pressure = wp.max(wp.dot(field, work.rows[w, i]), zero)
+                work.normal[w, i] = force * weights[w, i] / total * pressure
+            return True
+        too_far = energy > value - wp.float64(1e-4) * rate * slope + wp.float64(1e-15)
+        if turn > 0 and too_far and rate > wp.float64(1e-3):
+            rate *= wp.float64(0.5)
+            field += rate * step
+            continue
+        value = energy
+        ridge = wp.float64(1e-14) * wp.trace(matrix) + wp.float64(1e-300)
+        for j in range(3):
+            matrix[j, j] += ridge
+        if not wp.determinant(matrix) > zero:
+            return False
+        step = wp.inverse(matrix) @ rest
+        if wp.length(step) > wp.float64(1e6) * (one + wp.length(field)):
+            return False
+        slope = wp.dot(rest, step)
+        rate = wp.float64(1.0)
+        field -= step
+    return False
+
+
+@_func
+def _spread_pairs(sole: Sole, work: Work, w: wp.int32, count: wp.int32):
+    zero = wp.float64(0.0)
+    for k in range(count):
+        known = not _counts(sole, work, w, k)
+        for j in range(k):
+            if work.pair[w, j] == work.pair[w, k] and _counts(sole, work, w, j):
+                known = True
+        if not known:
+            force = wp.float64(0.0)
+            about = wp.vec2d()
+            size = wp.int32(0)
+            for j in range(k, count):
+                if work.pair[w, j] == work.pair[w, k] and _counts(sole, work, w, j):
+                    at, f = work.at[w, j], work.force[w, j]
+                    moment = work.torque[w, j] + wp.cross(at, f)
+                    force += f[2]
+                    about += wp.vec2d(moment[0], moment[1])
+                    work.points[w, size] = wp.vec3d(at[0], at[1], -work.gap[w, j])
+                    size += 1
+            if force > zero:
+                _cover(sole, work, w, size)
+                place = wp.vec2d(-about[1] / force, about[0] / force)
+                if not _tilt(sole, work, work.weights, w, force, place):
+                    total = wp.float64(0.0)
+                    for i in range(sole.areas.shape[0]):
+                        total += work.weights[w, i]
+                    for i in range(sole.areas.shape[0]):
+                        work.normal[w, i] = force * work.weights[w, i] / total
+                for i in range(sole.areas.shape[0]):
+                    work.prior[w, i] += work.normal[w, i]
+
+
+@_func
+def _nearest(sole: Sole, p: wp.vec2d) -> wp.vec2d:
+    best = wp.float64(1e300)
+    found = wp.vec2d(p[0], p[1])
+    corners = sole.hull.shape[0]
+    for k in range(corners):
+        way = sole.hull[(k + 1) % corners] - sole.hull[k]
+        off = p - sole.hull[k]
+        square = wp.dot(way, way)
+        along = wp.float64(0.0)
+        if square > wp.float64(0.0):
+            along = wp.clamp(wp.dot(way, off) / square, wp.float64(0.0), wp.float64(1.0))
+        away = off - along * way
+        if wp.dot(away, away) < best:
+            best = wp.dot(away, away)
+            found = sole.hull[k] + along * way
+    return found
+
+
+@_func
+def _carry(sole: Sole, work: Work, w: wp.int32, force: wp.float64, at: wp.vec2d) -> wp.bool:
+    zero = wp.float64(0.0)
+    count = sole.areas.shape[0]
+    if _tilt(sole, work, work.prior, w, force, at):
+        return True
+    for stage in range(2):
+        area = wp.float64(0.0)
+        for i in range(count):
+            near = stage == 1
+            for j in range(count):
+                off = sole.positions[i] - sole.positions[j]
+                reach = wp.float64(4.0) * sole.widths[j] * sole.widths[j]
+                if work.prior[w, j] > zero and off[0] * off[0] + off[1] * off[1] < reach:
+                    near = True
+            work.gaps[w, i] = zero
+            if near:
+                work.gaps[w, i] = sole.areas[i]
+            area += work.gaps[w, i]
+        for i in range(count):
+            work.weights[w, i] = work.prior[w, i] + wp.float64(1e-3) * force * work.gaps[w, i] / area
+        if _tilt(sole, work, work.weights, w, force, at):
+            return True
+    inside = wp.vec2d()
+    for k in range(sole.hull.shape[0]):
+        inside += sole.hull[k] / wp.float64(sole.hull.shape[0])
+    place = _nearest(sole, at)
+    for _ in range(20):
+        place += wp.float64(1e-3) * (inside - place)
+        if _tilt(sole, work, work.weights, w, force, place):
+            return False
+    total = wp.float64(0.0)
+    for i in range(count):
+        total += work.weights[w, i]
+    for i in range(count):
+        work.normal[w, i] = force * work.weights[w, i] / total
+    return False
+
+
+@_func
+def _shear(sole: Sole, work: Work, w: wp.int32, force: wp.vec3d, about_z: wp.float64) -> wp.bool:
+    middle = wp.vec2d()
+    spread = wp.float64(0.0)
+    turn = wp.float64(0.0)
+    for i in range(sole.areas.shape[0]):
+        middle += work.normal[w, i] / force[2] * wp.vec2d(sole.positions[i][0], sole.positions[i][1])
+    for i in range(sole.areas.shape[0]):
+        off = wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle
+        spread += work.normal[w, i] * wp.dot(off, off)
+    twist = about_z - (middle[0] * force[1] - middle[1] * force[0])
+    holds = True
+    if spread > wp.float64(1e-12) * force[2]:
+        turn = twist / spread
+    elif wp.abs(twist) > wp.float64(1e-12) * force[2]:
+        holds = False
+    for i in range(sole.areas.shape[0]):
+        n, share = work.normal[w, i], work.normal[w, i] / force[2]
+        off = wp.vec2d(sole.positions[i][0], sole.positions[i][1]) - middle
+        work.vectors[w, i] = wp.vec3d(share * force[0] - turn * n * off[1], share * force[1] + turn * n * off[0], n)
+    return holds
+
+
+@_kernel
+def press(sole: Sole, work: Work):
+    """Spread the wrench of each world's contacts over the taxels; one thread a world.
+
+    Args:
+        sole: The sole.
+        work: Holds the lists of `gather`; receives forces, wrench and whether it is carried.
+    """
+    w = wp.tid()
+    count = wp.min(work.size[w], work.gap.shape[1])
+    force = wp.vec3d()
+    moment = wp.vec3d()
+    for k in range(count):
+        force += work.force[w, k]
+        moment += work.torque[w, k] + wp.cross(work.at[w, k], work.force[w, k])
+    for j in range(3):
+        work.wrench[w, j] = force[j]
+        work.wrench[w, 3 + j] = moment[j]
+    for i in range(sole.areas.shape[0]):
+        work.prior[w, i] = wp.float64(0.0)
+        work.vectors[w, i] = wp.vec3d()
+    work.carried[w] = 1
+    if not force[2] > wp.float64(0.0):
+        if wp.length(force) + wp.length(moment) > wp.float64(0.0):
+            work.carried[w] = 0
+        return
+    _spread_pairs(sole, work, w, count)
+    about = wp.vec2d(moment[0], moment[1])
+    for _ in range(60):
+        if not _carry(sole, work, w, force[2], wp.vec2d(-about[1] / force[2], about[0] / force[2])):
+            work.carried[w] = 0
+        if not _shear(sole, work, w, force, moment[2]):
+            work.carried[w] = 0
+        if sole.level:
+            break
+        off = wp.vec2d(moment[0], moment[1])
+        for i in range(sole.areas.shape[0]):
+            turned = wp.cross(sole.positions[i], work.vectors[w, i])
+            off -= wp.vec2d(turned[0], turned[1])
+        if work.carried[w] == 0 or wp.max(wp.abs(off[0]), wp.abs(off[1])) <= wp.float64(1e-12) * force[2]:
+            break
+        about += off

@@ -1,0 +1,105 @@
+"""A plantar skin in many worlds of MuJoCo Warp at once, on a GPU or, with the same numbers, on the CPU."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.arguments import instance, integer
+from plantar.errors import InputError
+from plantar.mujoco import warp_kernels
+from plantar.mujoco.bound_skin import BoundSkin
+from plantar.optional_library import need_libraries
+
+__all__ = ["WarpSkin"]
+
+_CONTACTS = 32
+
+
+class WarpSkin:
+    """Reads a bound skin in the worlds of a `mujoco_warp.Data`.
+
+    Args:
+        skin: The skin, bound to the MjModel that the worlds are of.
+        worlds: Number of worlds.
+        contacts: Most contacts that the sole has in one world.
+        elliptic: Whether the model has elliptic friction cones; as the MjModel where None.
+
+    Attributes:
+        vectors: Force (worlds, n) of vec3d on each taxel in the sole frame in N; the same Warp array at each reading.
+        wrench: Wrench (worlds, 6) about the sole frame's origin in N and N m, likewise.
+        carried: 1 for each world (worlds,) whose taxels have the whole wrench, else 0.
+
+    Raises:
+        DependencyError: If Warp is not installed.
+        InputError: If a number is below 1.
+    """
+
+    def __init__(self, skin: BoundSkin, worlds: int, contacts: int = _CONTACTS, elliptic: bool | None = None) -> None:
+        need_libraries("warp", "warp")
+        import warp as wp
+
+        self._wp, self._skin = wp, instance(skin, BoundSkin, "skin")
+        self._worlds, room = integer(worlds, "worlds", 1), integer(contacts, "contacts", 1)
+        self._elliptic = bool(skin.model.opt.cone) if elliptic is None else elliptic
+        positions, normals, areas, widths, hull = skin.static
+        own = np.zeros(skin.model.ngeom, dtype=np.int32)
+        own[list(skin.geom_ids)] = 1
+        sole: Any = warp_kernels.Sole()
+        sole.positions, sole.normals = wp.array(positions, dtype=wp.vec3d), wp.array(normals, dtype=wp.vec3d)
+        sole.areas, sole.widths = wp.array(areas, dtype=wp.float64), wp.array(widths, dtype=wp.float64)
+        sole.hull, sole.own = wp.array(hull, dtype=wp.vec2d), wp.array(own, dtype=wp.int32)
+        sole.body, sole.reach, sole.level = skin.body, skin.reach, bool((positions[:, 2] == 0.0).all())
+        sole.place = wp.vec3d(*skin.position_in_body)
+        sole.turn = wp.mat33d(*skin.rotation_to_body.ravel())
+        self._sole = sole
+        self._work = self._room(len(skin), room)
+        self.vectors, self.wrench, self.carried = self._work.vectors, self._work.wrench, self._work.carried
+
+    def _room(self, count: int, room: int) -> Any:
+        """The arrays that the worlds work in."""
+        wp, b = self._wp, self._worlds
+        work: Any = warp_kernels.Work()
+        work.size, work.carried = wp.zeros(b, dtype=wp.int32), wp.zeros(b, dtype=wp.int32)
+        work.pair, work.gap = wp.zeros((b, room), dtype=wp.vec2i), wp.zeros((b, room), dtype=wp.float64)
+        for name in ("at", "force", "torque", "points"):
+            setattr(work, name, wp.zeros((b, room), dtype=wp.vec3d))
+        work.ring, work.edges = (wp.zeros((b, 2 * room + 2), dtype=kind) for kind in (wp.vec2d, wp.vec3d))
+        for name in ("weights", "prior", "normal", "gaps"):
+            setattr(work, name, wp.zeros((b, count), dtype=wp.float64))
+        work.rows, work.vectors = (wp.zeros((b, count), dtype=wp.vec3d) for _ in range(2))
+        work.wrench = wp.zeros((b, 6), dtype=wp.float64)
+        return work
+
+    def read(self, data: Any) -> None:
+        """Read the skin in all worlds: `vectors`, `wrench` and `carried` hold it afterwards.
+
+        Args:
+            data: A `mujoco_warp.Data` of the worlds after a step or `forward`.
+
+        Raises:
+            InputError: If it has another number of worlds.
+        """
+        if data.xpos.shape[0] != self._worlds:
+            raise InputError(f"data have {data.xpos.shape[0]} worlds; the skin was made for {self._worlds}")
+        wp, listed = self._wp, data.contact
+        contacts: Any = warp_kernels.Contacts()
+        contacts.count, contacts.world, contacts.dist, contacts.pos = (
+            data.nacon,
+            listed.worldid,
+            listed.dist,
+            listed.pos,
+        )
+        contacts.frame, contacts.geom, contacts.dim = listed.frame, listed.geom, listed.dim
+        contacts.friction = listed.friction.view(wp.float32) if listed.friction.ndim == 1 else listed.friction
+        contacts.address, contacts.force = listed.efc_address, data.efc.force
+        contacts.xpos, contacts.xmat, contacts.elliptic = data.xpos, data.xmat, self._elliptic
+        self._work.size.zero_()
+        wp.launch(warp_kernels.gather, dim=listed.dist.shape[0], inputs=[self._sole, contacts, self._work])
+        wp.launch(warp_kernels.press, dim=self._worlds, inputs=[self._sole, self._work])
+
+    def numpy(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
+        """What was read last: force (worlds, n, 3), wrench (worlds, 6) and whether it is carried (worlds,)."""
+        return self.vectors.numpy(), self.wrench.numpy(), self.carried.numpy().astype(bool)

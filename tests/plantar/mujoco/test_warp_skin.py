@@ -1,0 +1,56 @@
+"""Skin in the worlds of MuJoCo Warp, on the CPU, against `BoundSkin`."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar import InputError
+from plantar.mujoco import Skin
+from plantar.mujoco.warp_skin import WarpSkin
+
+wp = pytest.importorskip("warp")
+mjw = pytest.importorskip("mujoco_warp")
+
+spec = importlib.util.spec_from_file_location("warp_skin_models", Path(__file__).with_name("conftest.py"))
+models = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(models)
+pytestmark = [pytest.mark.long, pytest.mark.filterwarnings("ignore")]  # compiles for a minute
+
+
+@pytest.mark.parametrize("kind", models.KINDS)
+def test_forces_are_those_of_the_skin(kind):
+    model = mujoco.MjModel.from_xml_string(models.KINDS[kind])
+    data, feel = mujoco.MjData(model), Skin(body="foot").bind(model)
+    many = WarpSkin(feel, 2)
+    for _ in range(3):
+        mujoco.mj_step(model, data, 60)
+        mujoco.mj_forward(model, data)
+        many.read(mjw.put_data(model, data, nworld=2))
+        vectors, wrench, carried = many.numpy()
+        reading = feel(data)
+        size = max(np.linalg.norm(reading.wrench[:3]), 1.0)
+        assert np.abs(wrench - reading.wrench).max() < 1e-5 * size
+        assert np.abs(vectors - reading.vectors).max() < 1e-5 * size
+        assert (carried == reading.carried).all()
+
+
+def test_worlds_are_read_apart_and_their_number_is_checked():
+    model = mujoco.MjModel.from_xml_string(models.box())
+    data, feel = mujoco.MjData(model), Skin(body="foot").bind(model)
+    mujoco.mj_step(model, data, 200)
+    mujoco.mj_forward(model, data)
+    worlds = mjw.put_data(model, data, nworld=3)
+    force = worlds.efc.force.numpy()
+    force[1] *= 2.0
+    worlds.efc.force.assign(force)
+    many = WarpSkin(feel, 3)
+    many.read(worlds)
+    loads = many.numpy()[1][:, 2]
+    assert loads == pytest.approx(feel(data).wrench[2] * np.array([1.0, 2.0, 1.0]), rel=1e-5)
+    with pytest.raises(InputError, match="3 worlds; the skin was made for 2"):
+        WarpSkin(feel, 2).read(worlds)
