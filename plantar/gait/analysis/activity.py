@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.gait.analysis.steps.cop_path import chords
+from plantar.gait.analysis.steps.events import true_runs
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
@@ -230,16 +232,16 @@ def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dic
     if known.sum() < 10 or float(np.ptp(time[known])) < _SHORTEST:
         return {}
     at = points[known]
-    both = known[1:] & known[:-1]  # a gap has neither a path nor a time
-    pieces, seconds = np.linalg.norm(np.diff(points, axis=0)[both], axis=1), np.diff(time)[both]
-    if not len(pieces):
+    spans = [chords(time[i:j], points[i:j]) for i, j in true_runs(known) if j - i > 1]  # a gap has no path and no time
+    if not spans:
         return {}
+    path, seconds = (float(sum(part.sum() for part in column)) for column in zip(*spans, strict=True))
     covariance = np.cov(at.T)
     ahead, across = (float(v) for v in at.std(axis=0, ddof=1))
     return {
         "sway_ellipse_m2": math.pi * _CHI2 * math.sqrt(max(0.0, float(np.linalg.det(covariance)))),
-        "sway_path_m": float(pieces.sum()),
-        "sway_velocity_m_s": float(pieces.sum()) / float(seconds.sum()),
+        "sway_path_m": path,
+        "sway_velocity_m_s": path / seconds,
         "sway_ap_m": ahead,
         "sway_ml_m": across,
     }

@@ -80,7 +80,7 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
                 duration = view.step.toe_off_s - view.step.heel_strike_s
                 for name, ring in rings.items():
                     region = np.where(_inside(view.places, ring), 0, -1)
-                    row |= region_measures(view.load, region, [name], duration)
+                    row |= region_measures(view.load, region, [name], [duration])[0]
             rows.append(row)
         out[side] = rows
     return out

@@ -169,7 +169,11 @@ def _keys(raw: bool) -> Callable[[str], str]:
 def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
     foot, named = gait.foot, _keys(recording.raw)
     landings = [c.heel_strike for c in gait.contacts if c.heel_strike is not None]
-    impacts = (landing_impact(recording.time, foot.vertical_force, strike) for strike in landings)
+    known = {step.heel_strike_s: step["landing_impact_N"] for step in gait.steps}
+    impacts = (
+        known[strike] if strike in known else landing_impact(recording.time, foot.vertical_force, strike)
+        for strike in landings
+    )
     return {
         "steps": len(gait.steps),
         "steps_used": [step.number for step in gait.used],

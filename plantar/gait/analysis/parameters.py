@@ -18,7 +18,7 @@ from plantar.gait.analysis.steps.baseline import resting_level
 from plantar.gait.analysis.steps.cop_path import averaged_path
 from plantar.gait.analysis.steps.events import EVENT_LEVELS, Contact, Levels, find_contacts, force_levels, run_together
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
-from plantar.gait.analysis.steps.pressure_measures import region_measures
+from plantar.gait.analysis.steps.pressure_measures import pressure_measures, region_measures
 from plantar.gait.analysis.steps.segments import with_activities, without_standing
 from plantar.gait.analysis.steps.stated import stated_contacts
 from plantar.gait.analysis.steps.steady import in_one_window, with_used_steps
@@ -149,16 +149,22 @@ def analyse_foot(
     gait = with_picture(recording, gait, loads)
     others = _other_foot(recording, side, events)
     strides, longest = iter(stride_times(gait.contacts)), longest_stride(gait.contacts)
+    complete = [c for c in gait.contacts if c.complete]
+    before = dict(zip(map(id, gait.contacts), [None, *gait.contacts], strict=False))
     steps: list[Step] = []
-    for contact, previous in zip(gait.contacts, [None, *gait.contacts], strict=False):
-        if contact.complete:
-            print_, region = footprint_of_step(recording, gait, loads, contact, prints)
-            load = loads.of(contact)
-            times = time_measures(contact, previous, next(strides), longest, others)
-            measures = {**times, **step_measures(recording, gait, load, contact, print_)}
+    platform, robot = recording.kind == "platform", recording.kind == "robot" and not recording.raw
+    for group in [[c] for c in complete] if platform else loads.blocks(complete):
+        load = loads.of(*group)
+        print_, region = footprint_of_step(recording, gait, loads, group[0], prints)
+        lasts = [cast(float, c.toe_off) - cast(float, c.heel_strike) for c in group]
+        regions = _regions(load, region, lasts)
+        pressures = [{}] * len(group) if load.pressure is None else pressure_measures(load, gait.foot.layout)
+        for contact, pressure, own in zip(group, pressures, regions, strict=True):
+            times = time_measures(contact, before[id(contact)], next(strides), longest, others)
+            part = loads.of(contact) if robot else None
+            measures = {**times, **step_measures(recording, gait, contact, print_, pressure, part)}
             strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
-            regions = _regions(load, region, lift - strike)
-            steps.append(Step(side, len(steps) + 1, strike, lift, contact, measures, regions, print_, region))
+            steps.append(Step(side, len(steps) + 1, strike, lift, contact, measures, own, print_, region))
     return replace(gait, steps=tuple(steps), warnings=tuple(_doubts(recording, gait)))
 
 
@@ -211,11 +217,13 @@ def _levels(recording: PressureRecording, side: Side) -> Levels | None:
     return force_levels(force, recording.kind, lifted=False)
 
 
-def _regions(load: StepLoad, region: NDArray[np.int64] | None, duration: float) -> dict[str, dict[str, float]]:
-    """Measures of each region of the foot in a step; none without geometry."""
+def _regions(
+    load: StepLoad, region: NDArray[np.int64] | None, lasts: Sequence[float]
+) -> list[dict[str, dict[str, float]]]:
+    """Measures of each region of the foot in each contact of a load; none without geometry."""
     if region is None or load.pressure is None:
-        return {}
-    return region_measures(load, region, list(REGIONS), duration)
+        return [{} for _ in lasts]
+    return region_measures(load, region, list(REGIONS), lasts)
 
 
 def _place(recording: PressureRecording, gait: FootGait, step: Step, prints: Sequence[PlatformPrint]) -> Place | None:

@@ -56,7 +56,7 @@ class Analysis:
             "number": np.array([s.number for s in steps], dtype=int),
             "heel_strike_s": np.array([s.heel_strike_s for s in steps], dtype=float),
             "toe_off_s": np.array([s.toe_off_s for s in steps], dtype=float),
-            **{named(key): np.array([s[key] for s in steps], dtype=float) for key in MEASURES},
+            **{named(key): np.array([s.measures.get(key, math.nan) for s in steps], dtype=float) for key in MEASURES},
             "used": np.array([s.used for s in steps], dtype=bool),
             "note": np.array([s.unused or s.odd for s in steps], dtype=object),
         }

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.spread import spread
 from plantar.gait.analysis.study.statistics import student_quantile
 
+from ...fuzz.made_tables import made_table
 from .walks import made_walk
 
 
@@ -32,6 +35,37 @@ def test_physical_bounds(kind: str, noise: float) -> None:
         assert step["pressure_time_integral_cell_Pas"] <= step["pressure_time_integral_Pas"]
         if kind == "robot":
             assert 0.0 <= step["cop_margin_polygon_m"] <= step["cop_margin_polygon_mean_m"]
+
+
+def _check_bounds(walk: Analysis) -> int:
+    """Bounds of every complete step of a recording, and how many there are."""
+    steps = walk.steps
+    for row in range(len(steps["side"])):
+        step = {key: float(v[row]) for key, v in steps.items() if v.dtype == float}
+        both = step["double_support_percent"] + step["single_support_percent"]
+        assert np.isnan(both) or both == pytest.approx(step["stance_percent"])
+        assert min(step.get("double_support_percent", 0.0) + 1e-9, step["contact_time_s"]) >= 0.0 or np.isnan(both)
+        length = step["stride_velocity_m_s"] * step["stride_time_s"]
+        assert np.isnan(length) or length == pytest.approx(step["stride_length_m"])
+        assert not step["cop_margin_polygon_m"] < 0.0
+        assert not step["cop_path_m"] < 0.999 * step["cop_excursion_ap_m"]
+        force = "peak_force_raw" if walk.recording.raw else "peak_force_N"
+        mean = "mean_force_raw" if walk.recording.raw else "mean_force_N"
+        assert 0.0 < step[mean] < step[force]
+    return len(steps["side"])
+
+
+@pytest.mark.parametrize(
+    "name", ["emed_step.lst", "fscan_walk_left.asf", "moticon_walk_a.txt", "pedar_walk.asc", "xsensor_walk.csv"]
+)
+def test_bounds_of_recordings(real_data: Path, name: str) -> None:
+    assert _check_bounds(analyse(real_data / "recordings" / name)) > 0
+
+
+@pytest.mark.parametrize("seed", range(0, 60, 7))
+def test_bounds_of_made_files(tmp_path: Path, seed: int) -> None:
+    made_table(seed, tmp_path / "walk.csv")
+    assert _check_bounds(analyse(tmp_path / "walk.csv")) > 0
 
 
 def test_angles_have_a_circular_mean() -> None:

@@ -151,6 +151,7 @@ def bioware() -> str:
     ("name", "text", "kind", "sides"),
     [
         ("walk.mot", mot, "plate", ("left", "right")),
+        ("walk.sto", mot, "plate", ("left", "right")),
         ("walk.forces", forces, "plate", ("left", "right")),
         ("loadsol.txt", loadsol, "insole", ("left", "right")),
         ("GaCo01_01.txt", gaitpdb, "insole", ("left", "right")),

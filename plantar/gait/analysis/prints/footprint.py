@@ -104,9 +104,13 @@ class Footprint:
         thirds = [self.area_between(i * length / 3.0, (i + 1) * length / 3.0) for i in range(3)]
         return thirds[1] / sum(thirds) if sum(thirds) > 0.0 else float("nan")
 
+    @cached_property
+    def _hull(self) -> NDArray[np.float64]:
+        return convex_hull(self.rings.reshape(-1, 2))
+
     def width_at(self, u: float) -> float:
         """Width in m of the print's convex hull at a line across the axis; 0 where it crosses none."""
-        across = _crossing(convex_hull(self.rings.reshape(-1, 2)), u)
+        across = _crossing(self._hull, u)
         return 0.0 if across is None else across[1] - across[0]
 
     def in_foot(self, points: NDArray[np.float64]) -> NDArray[np.float64]:

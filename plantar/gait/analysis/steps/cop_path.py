@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,7 +11,10 @@ from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.geometry.polygon import convex_hull
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["averaged_path", "cop_measures", "excursion_index", "margin_to_outline"]
+__all__ = ["CHORD", "averaged_path", "chords", "cop_measures", "excursion_index", "margin_to_outline"]
+
+CHORD = 0.05
+"""Time in s of the pieces that a path's length is the sum of."""
 
 
 def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
@@ -60,16 +65,33 @@ def cop_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict
     if known.sum() < 2:
         return {}
     points, time = points[known], time[known]
-    pieces = np.hypot(*np.diff(points, axis=0).T)
+    pieces, seconds = chords(time, points)
     path = float(pieces.sum())
     along, across = (float(v) for v in np.ptp(points, axis=0))
+    whole = seconds >= 0.5 * min(CHORD, float(seconds.max()))
     return {
         "cop_path_m": path,
         "cop_excursion_ap_m": along,
         "cop_excursion_ml_m": across,
         "cop_velocity_m_s": path / float(time[-1] - time[0]),
-        "cop_velocity_max_m_s": float((pieces / np.diff(time)).max()),
+        "cop_velocity_max_m_s": float((pieces[whole] / seconds[whole]).max()),
     }
+
+
+def chords(time: NDArray[np.float64], points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A path in straight pieces of up to 50 ms: between frames, noise would lengthen it.
+
+    Args:
+        time: Times (m,) in s, 2 or more.
+        points: Positions (m, 2).
+
+    Returns:
+        Length (k,) of each piece, and its time (k,) in s.
+    """
+    every = max(1, round(CHORD * (len(time) - 1) / float(time[-1] - time[0])))
+    ends = [*points.argmin(axis=0), *points.argmax(axis=0), len(time) - 1]  # no path is shorter than its range
+    at = np.unique([*range(0, len(time), every), *ends])
+    return np.hypot(*np.diff(points[at], axis=0).T), np.diff(time[at])
 
 
 def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
@@ -106,7 +128,14 @@ def margin_to_outline(layout: SoleLayout, points: NDArray[np.float64]) -> float:
     Returns:
         The distance in m, positive where all points are inside.
     """
+    normal, offset = _edges(layout)
+    return float((points @ normal.T - offset).min())
+
+
+@lru_cache(maxsize=8)
+def _edges(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Inward normals (k, 2) of the edges of a sole's convex outline, and where along them each edge is (k,)."""
     hull = convex_hull(layout.outline)
     edge = np.roll(hull, -1, axis=0) - hull
     normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(edge[:, 0], edge[:, 1])[:, None]
-    return float(((points[:, None, :] - hull) * normal).sum(axis=2).min())
+    return normal, (normal * hull).sum(axis=1)

@@ -84,6 +84,9 @@ falling at 0.4 of that or more; where the force hardly falls any more the shoe p
 continued straight. Of shares and slopes tried, these have the least largest mean over the sets of
 `benchmarks/gait_events.py`."""
 
+_BESIDE = 0.5
+"""Time in s before a landing and after a push-off in which the force at rest is looked for."""
+
 _RISE = (0.20, 0.50)
 """Shares of the range that part the rise of a landing, from the event level on: its steepest piece is continued back
 straight. A shoe that touches lightly before the foot lands makes the first piece flat."""
@@ -182,7 +185,12 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool 
 
 def smoothed(force: NDArray[np.float64]) -> NDArray[np.float64]:
     """The middle one of five frames of a force (n,): a single damaged frame is not a peak."""
-    return np.asarray(np.median(np.lib.stride_tricks.sliding_window_view(np.pad(force, 2, mode="edge"), 5), axis=1))
+    padded = np.pad(force, 2, mode="edge")
+    a, b, c, d, e = (padded[k : len(force) + k] for k in range(5))
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    least, most = np.minimum(c, d), np.maximum(c, d)
+    inner = np.maximum(low, least), np.minimum(high, most)  # without the smallest and the largest of four
+    return np.maximum(np.minimum(*inner), np.minimum(np.maximum(*inner), e))
 
 
 def _peak_above_noise(measured: NDArray[np.float64], smooth: NDArray[np.float64]) -> float | None:
@@ -356,7 +364,8 @@ def _begin_of_rise(
     slow = [(b - a) / (h - g) for a, b, g, h in zip(at, at[1:], heights, heights[1:], strict=False)]
     steepest = int(np.argmin(slow))
     straight = at[steepest] - slow[steepest] * (heights[steepest] - levels.rest)
-    before = np.flatnonzero(force[:begin] <= levels.clear)
+    first = int(np.searchsorted(time, strike - _BESIDE))
+    before = first + np.flatnonzero(force[first:begin] <= levels.clear)
     least = _crossing(time, force, int(before[-1]) + 1, levels.clear) if len(before) else strike
     least -= slow[steepest] * (levels.clear - levels.rest)
     return min(strike, max(straight, least))
@@ -368,11 +377,12 @@ def _end_of_push_off(
     """Time at which push-off, continued straight, ends: after `lift`, and not after the force is clear of the foot."""
     begin, end = span
     assert levels.clear is not None
+    after = force[end : int(np.searchsorted(time, time[end] + _BESIDE)) + 1]
     at = []
     for share in _FALL:
         level = levels.rest + share * (levels.peak - levels.rest)
         loaded = np.flatnonzero(force[begin:end] >= level)
-        below = np.flatnonzero(force[end:] < level) if level < force[end - 1] else loaded[-1:] + 1 + begin - end
+        below = np.flatnonzero(after < level) if level < force[end - 1] else loaded[-1:] + 1 + begin - end
         at.append(_crossing(time, force, end + int(below[0]), level) if len(loaded) and len(below) else np.inf)
     slow = [
         (b - a) / (g - h) if a < b < np.inf else np.inf

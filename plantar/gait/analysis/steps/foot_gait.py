@@ -97,4 +97,5 @@ class FootGait:
     def columns(self) -> Mapping[str, NDArray[np.float64]]:
         """Each measure over the steps that are in the means, NaN where a step has none of it."""
         keys = dict.fromkeys(key for step in self.used for key in step.measures)
-        return {key: np.array([step[key] for step in self.used]) for key in keys}
+        used = [step.measures for step in self.used]
+        return {key: np.array([measures.get(key, np.nan) for measures in used]) for key in keys}

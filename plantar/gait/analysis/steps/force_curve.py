@@ -86,7 +86,9 @@ def force_measures(
 def _first_hump(force: NDArray[np.float64], least: float) -> int:
     """The first place from which a force falls by a share before it rises above it."""
     width = max(1, 2 * (len(force) // 60) + 1)  # 3 % of the stance: noise makes no hump
-    even = np.convolve(np.pad(force, width // 2, mode="edge"), np.full(width, 1.0 / width), mode="valid")
+    half = width // 2
+    padded = np.concatenate([np.full(half, force[0]), force, np.full(half, force[-1])])
+    even = np.convolve(padded, np.full(width, 1.0 / width), mode="valid") if half else force
     start = 0
     while start < len(even):
         most = np.maximum.accumulate(even[start:])  # below zero where a sensor's offset is

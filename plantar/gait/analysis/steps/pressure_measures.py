@@ -18,57 +18,50 @@ _MOST_FRAMES = 200
 """Frames of a contact in which support polygons are looked at; of more, every n-th."""
 
 
-def _integral(values: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Integral over time (trapezoids) of each column; of (m,) or (m, k) values."""
-    if len(time) < 2:
-        return np.zeros(values.shape[1:])
-    step = np.diff(time)
-    weight = 0.5 * (np.concatenate([step, [0.0]]) + np.concatenate([[0.0], step]))
-    return np.asarray(weight @ values)
-
-
-def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> dict[str, float]:
-    """Measures of a contact's pressures.
+def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[str, float]]:
+    """Measures of the pressures of each contact.
 
     Args:
-        load: The contact, with pressures.
+        load: The contacts, with pressures.
         layout: Where the cells are; None where only the values are known.
     """
     assert load.pressure is not None
     highest = load.pressure.max(axis=1)
     out = {
-        "peak_pressure_Pa": float(highest.max()),
-        "pressure_time_integral_Pas": float(_integral(highest, load.time)),
-        "pressure_time_integral_cell_Pas": float(_integral(load.pressure, load.time).max()),
+        "peak_pressure_Pa": load.most(highest),
+        "pressure_time_integral_Pas": load.integral(highest),
+        "pressure_time_integral_cell_Pas": load.integral(load.pressure).max(axis=1),
     }
-    if load.areas is None or layout is None:
-        return out
-    area = load.loaded @ load.areas
-    force = np.where(load.loaded, load.force, 0.0)
-    pressure = np.divide(force.sum(axis=1), area, out=np.zeros(len(area)), where=area > 0.0)
-    every = -(-len(area) // _MOST_FRAMES)
-    polygons = support_polygons(layout, force[::every], 0.0).area
-    footprint = float(load.areas[load.loaded.any(axis=0)].sum())
-    on = area > 0.0
-    return out | {
-        "mean_pressure_Pa": float(pressure[on].mean()) if on.any() else 0.0,
-        "mean_pressure_max_Pa": float(pressure.max()),
-        "contact_area_m2": float(area.max()),
-        "footprint_area_m2": footprint,
-        "support_polygon_area_m2": float(polygons.max()),
-        "support_polygon_mean_m2": float(polygons.mean()),
-    }
+    if load.areas is not None and layout is not None:
+        area = load.loaded @ load.areas
+        force = np.where(load.loaded, load.force, 0.0)
+        pressure = np.divide(force.sum(axis=1), area, out=np.zeros(len(area)), where=area > 0.0)
+        frames = np.add.reduceat((area > 0.0).astype(float), load.starts)
+        every = -(-load.lengths // _MOST_FRAMES)
+        chosen = (np.arange(len(area)) - np.repeat(load.starts, load.lengths)) % np.repeat(every, load.lengths) == 0
+        polygons = support_polygons(layout, force[chosen], 0.0).area
+        counts = -(-load.lengths // every)
+        starts = np.cumsum(counts) - counts
+        out |= {
+            "mean_pressure_Pa": np.add.reduceat(pressure, load.starts) / np.maximum(frames, 1.0),
+            "mean_pressure_max_Pa": load.most(pressure),
+            "contact_area_m2": load.most(area),
+            "footprint_area_m2": np.logical_or.reduceat(load.loaded, load.starts, axis=0) @ load.areas,
+            "support_polygon_area_m2": np.maximum.reduceat(polygons, starts),
+            "support_polygon_mean_m2": np.add.reduceat(polygons, starts) / counts,
+        }
+    return [dict(zip(out, row, strict=True)) for row in zip(*(v.tolist() for v in out.values()), strict=True)]
 
 
 def region_measures(
-    load: StepLoad, region: NDArray[np.int64], names: Sequence[str], duration: float
-) -> dict[str, dict[str, float]]:
-    """Measures of each region of the foot in one contact.
+    load: StepLoad, region: NDArray[np.int64], names: Sequence[str], durations: Sequence[float]
+) -> list[dict[str, dict[str, float]]]:
+    """Measures of each region of the foot in each contact.
 
     Args:
-        load: The contact, with pressures.
+        load: The contacts, with pressures.
         region: Index (k,) into `names` of each cell, -1 for none.
-        duration: Contact time of the whole foot in s.
+        durations: Contact times (c,) of the whole foot in s.
 
     Returns:
         The measures of each region that has cells; those of `plantar.gait.analysis.measures.REGION_MEASURES`.
@@ -77,32 +70,32 @@ def region_measures(
     order = np.argsort(region, kind="stable")
     order = order[region[order] >= 0]  # cells of a region lie side by side: one pass serves all regions
     if len(order) == 0:
-        return {}
+        return [{} for _ in durations]
     present, starts = np.unique(region[order], return_index=True)
     force = np.add.reduceat(load.force[:, order], starts, axis=1)
     pressure = np.maximum.reduceat(load.pressure[:, order], starts, axis=1)
     loaded = load.loaded[:, order]
-    on = np.logical_or.reduceat(loaded, starts, axis=1).sum(axis=0)
-    impulses, integrals = _integral(force, load.time), _integral(pressure, load.time)
-    whole = float(_integral(load.force.sum(axis=1), load.time))
-    step = float(np.median(np.diff(load.time))) if len(load.time) > 1 else 0.0
-    contact = np.minimum(on * step, duration)
-    areas = None if load.areas is None else np.add.reduceat(loaded * load.areas[order], starts, axis=1).max(axis=0)
-    peak_force, peak_pressure = force.max(axis=0), pressure.max(axis=0)
-    out: dict[str, dict[str, float]] = {}
-    for i, index in enumerate(present.tolist()):
-        out[names[index]] = {
-            "peak_force_N": float(peak_force[i]),
-            "peak_pressure_Pa": float(peak_pressure[i]),
-            "impulse_Ns": float(impulses[i]),
-            "impulse_percent": 100.0 * float(impulses[i]) / whole if whole > 0.0 else np.nan,
-            "pressure_time_integral_Pas": float(integrals[i]),
-            "contact_time_s": float(contact[i]),
-            "contact_percent": 100.0 * float(contact[i]) / duration if duration > 0.0 else np.nan,
+    on = np.logical_or.reduceat(loaded, starts, axis=1).astype(float)
+    whole, time = load.integral(load.force.sum(axis=1)), np.array(durations)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        impulse = load.integral(force)
+        step = np.diff(load.time)
+        usual = float(np.median(step[step > 0.0])) if (step > 0.0).any() else 0.0
+        contact = np.minimum(np.add.reduceat(on, load.starts, axis=0) * usual, time[:, None])
+        out = {
+            "peak_force_N": load.most(force),
+            "peak_pressure_Pa": load.most(pressure),
+            "impulse_Ns": impulse,
+            "impulse_percent": 100.0 * impulse / np.where(whole > 0.0, whole, np.nan)[:, None],
+            "pressure_time_integral_Pas": load.integral(pressure),
+            "contact_time_s": contact,
+            "contact_percent": 100.0 * contact / np.where(time > 0.0, time, np.nan)[:, None],
         }
-        if areas is not None:
-            out[names[index]]["contact_area_m2"] = float(areas[i])
-    return out
+    if load.areas is not None:
+        out["contact_area_m2"] = load.most(np.add.reduceat(loaded * load.areas[order], starts, axis=1))
+    own = [names[index] for index in present.tolist()]
+    table = np.stack(list(out.values()), axis=2).tolist()  # (contacts, regions, measures)
+    return [{name: dict(zip(out, row, strict=True)) for name, row in zip(own, rows, strict=True)} for rows in table]
 
 
 def robot_measures(load: StepLoad, layout: SoleLayout) -> dict[str, float]:

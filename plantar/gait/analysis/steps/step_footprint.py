@@ -47,7 +47,8 @@ def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads)
 
 def _highest_of_steps(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> NDArray[np.float64]:
     """Largest force (k,) of each cell in N: the mean over the complete steps, of a platform the largest of all."""
-    highest = [loads.highest(c) for c in gait.contacts if c.complete] or [gait.foot.measured.max(axis=0, initial=0.0)]
+    highest = loads.highest([c for c in gait.contacts if c.complete])
+    highest = highest if len(highest) else gait.foot.measured.max(axis=0, initial=0.0)[None]
     return np.asarray(np.max(highest, axis=0) if recording.kind == "platform" else np.mean(highest, axis=0))
 
 
@@ -79,7 +80,7 @@ def footprint_of_step(
     layout = gait.foot.layout
     if recording.kind != "platform" or layout is None:
         return gait.footprint, gait.region
-    highest = loads.highest(contact)
+    (highest,) = loads.highest([contact])
     of_step = print_of_contact(contact, gait.foot.side, prints)
     loaded = highest > gait.cell_threshold
     forward = of_step.forward if of_step is not None else np.array([1.0, 0.0])

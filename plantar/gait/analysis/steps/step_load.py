@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +15,16 @@ from plantar.recordings.pressure_recording import FootRecording, PressureRecordi
 
 __all__ = ["StepLoad", "StepLoads", "cell_threshold"]
 
+_BLOCK = 1_000_000
+"""Values of cells that are looked at together."""
+
 NOISE_FRAMES = 5000
 """Frames of swing from which a cell's noise is judged: enough for 2 %."""
 
 
 @dataclass(frozen=True, eq=False)
 class StepLoad:
-    """What the cells carried in one contact.
+    """What the cells carried in one contact, or in several, one after the other.
 
     Attributes:
         time: Times (m,) in s.
@@ -28,6 +32,7 @@ class StepLoad:
         pressure: Pressure (m, k) in Pa, counts of a raw recording; None where no areas are known.
         loaded: Which cells (m, k) count as loaded.
         areas: Area (k,) of each cell in m^2; None without geometry.
+        starts: First frame (c,) of each contact.
     """
 
     time: NDArray[np.float64]
@@ -35,6 +40,28 @@ class StepLoad:
     pressure: NDArray[np.float64] | None
     loaded: NDArray[np.bool_]
     areas: NDArray[np.float64] | None
+    starts: NDArray[np.int64] = field(default_factory=lambda: np.zeros(1, dtype=np.int64))
+
+    @cached_property
+    def lengths(self) -> NDArray[np.int64]:
+        """Frames (c,) of each contact."""
+        return np.diff(np.append(self.starts, len(self.time)))
+
+    @cached_property
+    def weights(self) -> NDArray[np.float64]:
+        """Seconds (m,) that each frame counts for in an integral over its contact, by trapezoids."""
+        step = np.diff(self.time, append=0.0)
+        step[np.append(self.starts[1:], len(self.time)) - 1] = 0.0
+        return np.asarray(0.5 * (step + np.append(0.0, step[:-1])))
+
+    def integral(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral (c,) or (c, j) over each contact of values (m,) or (m, j)."""
+        weights = self.weights if values.ndim == 1 else self.weights[:, None]
+        return np.asarray(np.add.reduceat(weights * values, self.starts, axis=0))
+
+    def most(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Largest (c,) or (c, j) in each contact of values (m,) or (m, j)."""
+        return np.asarray(np.maximum.reduceat(values, self.starts, axis=0))
 
 
 class StepLoads:
@@ -48,24 +75,49 @@ class StepLoads:
         self.recording, self.foot, self.threshold = recording, foot, threshold
         self._read = 0
 
-    def of(self, contact: Contact) -> StepLoad:
-        """Forces and pressures of one contact."""
-        self._count(contact)
-        span = slice(contact.begin, contact.end)
-        time = self.recording.time[span]
-        force = self.foot.force[span]
-        if self.foot.missing is not None and self.foot.missing[span].any():
-            force = _filled(time, force)
+    def of(self, *contacts: Contact) -> StepLoad:
+        """Forces and pressures of some contacts, one after the other."""
+        for contact in contacts:
+            self._count(contact)
+        parts = [self._part(c) for c in contacts]
+        force = parts[0] if len(parts) == 1 else np.concatenate(parts)
+        time = np.concatenate([self.recording.time[c.begin : c.end] for c in contacts])
         areas = self.foot.layout.areas if self.foot.layout is not None else None
         pressure = force if self.recording.raw else None if areas is None else force / areas
-        return StepLoad(time, force, pressure, force > self.threshold, areas)
+        starts = np.cumsum([0, *(len(part) for part in parts[:-1])])
+        return StepLoad(time, force, pressure, force > self.threshold, areas, starts)
 
-    def highest(self, contact: Contact) -> NDArray[np.float64]:
-        """Largest force (k,) of each cell in one contact."""
-        self._count(contact)
-        part = self.foot.force[contact.begin : contact.end]
-        missing = np.isnan(part)
-        return np.asarray((np.where(missing, 0.0, part) if missing.any() else part).max(axis=0))
+    def _part(self, contact: Contact) -> NDArray[np.float64]:
+        span = slice(contact.begin, contact.end)
+        force = self.foot.force[span]
+        if self.foot.missing is not None and self.foot.missing[span].any():
+            return _filled(self.recording.time[span], force)
+        return force
+
+    def blocks(self, contacts: Sequence[Contact]) -> Iterator[list[Contact]]:
+        """Contacts in groups that take little memory together."""
+        most = max(1, _BLOCK // max(1, self.foot.force.shape[1]))
+        group: list[Contact] = []
+        frames = 0
+        for contact in contacts:
+            if group and frames + contact.end - contact.begin > most:
+                yield group
+                group, frames = [], 0
+            group.append(contact)
+            frames += contact.end - contact.begin
+        if group:
+            yield group
+
+    def highest(self, contacts: Sequence[Contact]) -> NDArray[np.float64]:
+        """Largest force (c, k) of each cell in each contact; 0 of a cell that measured nothing."""
+        out = [np.zeros((0, self.foot.force.shape[1]))]
+        for group in self.blocks(contacts):
+            for contact in group:
+                self._count(contact)
+            part = np.concatenate([self.foot.force[c.begin : c.end] for c in group])
+            starts = np.cumsum([0, *(c.end - c.begin for c in group[:-1])])
+            out.append(np.nan_to_num(np.fmax.reduceat(part, starts, axis=0)))
+        return np.concatenate(out)
 
     def _count(self, contact: Contact) -> None:
         """Let the contacts that were read before go, now and then."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import cast
 
 import numpy as np
@@ -12,7 +13,7 @@ from plantar.gait.analysis.steps.cop_path import cop_measures, excursion_index, 
 from plantar.gait.analysis.steps.events import Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.steps.force_curve import force_measures, landing_impact
-from plantar.gait.analysis.steps.pressure_measures import pressure_measures, robot_measures
+from plantar.gait.analysis.steps.pressure_measures import robot_measures
 from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.recordings.pressure_recording import PressureRecording
 
@@ -20,43 +21,53 @@ __all__ = ["step_measures"]
 
 
 def step_measures(
-    recording: PressureRecording, gait: FootGait, load: StepLoad, contact: Contact, print_: Footprint | None
+    recording: PressureRecording,
+    gait: FootGait,
+    contact: Contact,
+    print_: Footprint | None,
+    pressures: Mapping[str, float],
+    load: StepLoad | None = None,
 ) -> dict[str, float]:
     """Everything of one step that does not need other steps.
 
     Args:
-        load: What its cells carried in the step.
         contact: The step, complete.
+        pressures: Measures of its pressures; empty where none are known.
+        load: What a robot's cells carried in the step.
 
     Returns:
         The measures by their key; what is not in it is not known.
     """
-    foot = gait.foot
-    force = foot.vertical_force[contact.begin : contact.end]
+    foot, span = gait.foot, slice(contact.begin, contact.end)
+    force, time = foot.vertical_force[span], recording.time[span]
     known = np.isfinite(force)
     strike = cast(float, contact.heel_strike)
-    out = force_measures(load.time[known], force[known], strike, cast(float, contact.toe_off))
+    out = force_measures(time[known], force[known], strike, cast(float, contact.toe_off)) | dict(pressures)
     out["landing_impact_N"] = landing_impact(recording.time, foot.vertical_force, strike)
-    if load.pressure is not None:
-        out |= pressure_measures(load, foot.layout)
-        if out.get("footprint_area_m2", 0.0) > 0.0:
-            out["force_time_integral_area_Pas"] = out["impulse_Ns"] / out["footprint_area_m2"]
+    if out.get("footprint_area_m2", 0.0) > 0.0:
+        out["force_time_integral_area_Pas"] = out["impulse_Ns"] / out["footprint_area_m2"]
     if gait.cop is not None:
-        out |= _cop_measures(recording, gait, load, gait.cop[contact.begin : contact.end], print_)
+        out |= _cop_measures(recording, gait, time, gait.cop[span], print_)
+    if load is not None and foot.layout is not None and gait.cop is not None:
+        out |= robot_measures(load, foot.layout)
     if foot.wrench is not None:
-        out |= _wrench_measures(recording, foot.wrench[contact.begin : contact.end])
+        out |= _wrench_measures(recording, foot.wrench[span])
     if print_ is not None and recording.kind == "platform":
         out |= {"arch_index": print_.arch_index(), "foot_length_m": print_.length, "foot_width_m": print_.width}
     return {key: float(value) for key, value in out.items()}
 
 
 def _cop_measures(
-    recording: PressureRecording, gait: FootGait, load: StepLoad, cop: NDArray[np.float64], print_: Footprint | None
+    recording: PressureRecording,
+    gait: FootGait,
+    time: NDArray[np.float64],
+    cop: NDArray[np.float64],
+    print_: Footprint | None,
 ) -> dict[str, float]:
     """Measures of the CoP (m, 2) of one step: its path, and how far it stays from the edges."""
     kind, layout = recording.kind, gait.foot.layout
     # On a platform the foot's own axis is forward, in a sole the sole's.
-    out = cop_measures(load.time, print_.in_foot(cop) if print_ is not None and kind == "platform" else cop)
+    out = cop_measures(time, print_.in_foot(cop) if print_ is not None and kind == "platform" else cop)
     across = gait.sole if kind == "insole" else print_
     if across is not None and kind != "robot":
         out["cpei_percent"] = excursion_index(across, cop)
@@ -64,8 +75,6 @@ def _cop_measures(
         inside = cop[np.isfinite(cop[:, 0])]
         if kind in ("insole", "robot") and len(inside):
             out["cop_margin_m"] = margin_to_outline(layout, inside)
-        if kind == "robot" and not recording.raw:
-            out |= robot_measures(load, layout)
     return out
 
 

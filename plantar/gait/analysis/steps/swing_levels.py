@@ -110,11 +110,17 @@ def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
     if len(found) < _FEWEST:
         return None
     places, spans = _known_places(force, course, found, span)
-    level = np.interp(np.arange(len(force)), places, [np.median(course[a:b]) for a, b in spans])
+    level = np.interp(np.arange(len(force)), places, [_middle(course[a:b]) for a, b in spans])
     swing = np.zeros(len(force), dtype=bool)
     for a, b in found:
         swing[a:b] = True
     return SwingLevels(places, spans, level, swing & np.isfinite(force), span)
+
+
+def _middle(values: NDArray[np.float64]) -> float:
+    """The median of a few values."""
+    ordered = np.sort(values)
+    return 0.5 * float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2])
 
 
 def _measured(found: Sequence[tuple[int, int]], force: NDArray[np.float64], rate: float) -> list[tuple[int, int]]:
@@ -135,14 +141,14 @@ def _known_places(
     for a, b in found:
         if rows:
             _, before, until = rows[-1]
-            change = float(np.median(course[a : (a + b) // 2]) - np.median(course[before:until]))
+            change = _middle(course[a : (a + b) // 2]) - _middle(course[before:until])
             quarter = (a - until) // 4  # a foot that lands or lifts may jump, too
             jump = _jump(force[until + quarter : a - quarter], change) if abs(change) > _JUMP * span else None
             if jump is not None:
                 jump += until + quarter
                 rows += [(float(jump), before, until), (jump + 1.0, a, (a + b) // 2)]
         middle = (a + b) // 2
-        change = float(np.median(course[b - (b - a) // 3 : b]) - np.median(course[a : a + (b - a) // 3]))
+        change = _middle(course[b - (b - a) // 3 : b]) - _middle(course[a : a + (b - a) // 3])
         jump = _jump(force[a:b], change) if abs(change) > _JUMP * span else None
         if jump is not None and 1 < jump < b - a - 3:
             middle = a + jump + 1
@@ -222,7 +228,7 @@ def _swings(
         edge = (b - a) // 5
         found.append((a + edge, b - edge))
         inner += not (at_start or at_end)
-    levels = np.array([np.median(course[a:b]) for a, b in found])
+    levels = np.array([_middle(course[a:b]) for a, b in found])
     kept = [run for run, stands in zip(found, _stand_out(levels, _OUTLIER * span), strict=True) if not stands]
     share = inner / max(1, steps - 1)
     return (kept, share) if inner >= _FEWEST and share >= _OFTEN else ([], 0.0)
@@ -232,7 +238,7 @@ def _level_at_end(course: NDArray[np.float64], a: int, b: int, span: float, leas
     """The frames a to b of a swing, at an end of the recording only as far as they are level next to the contact."""
     if a > 0 and b < len(course):
         return a, b
-    beside = float(np.median(course[b - least : b] if a == 0 else course[a : a + least]))
+    beside = _middle(course[b - least : b] if a == 0 else course[a : a + least])
     off = np.flatnonzero(np.abs(course[a:b] - beside) > _NEAR * span)
     if not len(off):
         return a, b
