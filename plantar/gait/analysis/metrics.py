@@ -12,6 +12,7 @@ import numpy as np
 from plantar.gait.analysis.activity import activity_of, progression_doubts, sway_measures
 from plantar.gait.analysis.body_weight import implied_weight, weight_doubts
 from plantar.gait.analysis.health import creep_doubts, silent_cell_doubts
+from plantar.gait.analysis.measure_errors import errors_of_foot
 from plantar.gait.analysis.measures import raw_name
 from plantar.gait.analysis.mirrored_feet import mirrored_doubts
 from plantar.gait.analysis.pages.summary import gait_of_feet, regions_of_foot, summary_of_foot, symmetry
@@ -169,6 +170,7 @@ def _keys(raw: bool) -> Callable[[str], str]:
 def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
     foot, named = gait.foot, _keys(recording.raw)
     landings = [c.heel_strike for c in gait.contacts if c.heel_strike is not None]
+    errors = errors_of_foot(recording, gait)
     known = {step.heel_strike_s: step["landing_impact_N"] for step in gait.steps}
     impacts = (
         known[strike] if strike in known else landing_impact(recording.time, foot.vertical_force, strike)
@@ -189,7 +191,10 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
         "cell_area_m2": None if foot.layout is None else float(foot.layout.areas.mean()),
         "missing_percent": _missing_percent(recording, foot),
         **{named(key): level for key, level in _levels(gait).items()},
-        "measures": _spreads(summary_of_foot(gait), named),
+        "measures": {
+            named(key): {**dataclasses.asdict(value), "error": errors.get(key)}
+            for key, value in summary_of_foot(gait).items()
+        },
         "regions": {region: _spreads(values, named) for region, values in regions_of_foot(gait).items()},
     }
 

@@ -109,7 +109,7 @@ def write_analysis(
     progress: Callable[[float, str], None] | None = None,
     figures: bool = True,
 ) -> None:
-    """Write metrics.json, steps.csv and regions.csv of an analysis, and its figures and report.html.
+    """Write metrics.json, steps.csv and regions.csv of an analysis, its figures, report.html and summary.html.
 
     Args:
         folder: Folder to write to, which exists.
@@ -125,6 +125,8 @@ def write_analysis(
     if not figures:
         return
     from plantar.gait.analysis.pages.draw_analysis import draw_figures
+    from plantar.gait.analysis.pages.figure_files import write_figures
+    from plantar.gait.analysis.pages.one_page import figure_summary, one_page
     from plantar.gait.analysis.pages.player import player_data
     from plantar.gait.analysis.pages.report import report_page
 
@@ -132,6 +134,10 @@ def write_analysis(
     player = player_data(recording, feet)
     page = report_page(metrics, embedded, title=recording.path.name, player=player)
     (folder / "report.html").write_text(page, encoding="utf-8")
+    sheet = write_figures(
+        [("summary", figure_summary(recording, feet), "Force, butterfly and trend of the steps")], folder
+    )
+    (folder / "summary.html").write_text(one_page(metrics, sheet, recording.path.name), encoding="utf-8")
 
 
 def _in_order(feet: Mapping[Side, FootGait]) -> list[Step]:

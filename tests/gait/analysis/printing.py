@@ -35,16 +35,21 @@ def printed_images(page: Path, work: Path) -> list[PrintedImage]:
     Returns:
         The images in the order of the sheets.
     """
+    content = printed(page, work)
+    parts = {m[1]: m[2] for m in re.finditer(rb"(?:^|\n)(\d+) 0 obj\n(.*?)endobj", content, re.DOTALL)}
+    images = {number for number, part in parts.items() if b"/Subtype /Image" in part.partition(b"stream\n")[0]}
+    sheets = [part for part in parts.values() if b"/Type /Page\n" in part]
+    return [image for i, sheet in enumerate(sheets) for image in _images_of(sheet, i, parts, images)]
+
+
+def printed(page: Path, work: Path) -> bytes:
+    """A page as PDF."""
     target = work / "printed.pdf"
     command = [browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
     command += [f"--user-data-dir={work / 'printing'}", "--no-first-run", "--disable-background-networking"]
     command += ["--no-pdf-header-footer", f"--print-to-pdf={target}", page.resolve().as_uri()]
     subprocess.run(command, check=True, capture_output=True, timeout=90)
-    content = target.read_bytes()
-    parts = {m[1]: m[2] for m in re.finditer(rb"(?:^|\n)(\d+) 0 obj\n(.*?)endobj", content, re.DOTALL)}
-    images = {number for number, part in parts.items() if b"/Subtype /Image" in part.partition(b"stream\n")[0]}
-    sheets = [part for part in parts.values() if b"/Type /Page\n" in part]
-    return [image for i, sheet in enumerate(sheets) for image in _images_of(sheet, i, parts, images)]
+    return target.read_bytes()
 
 
 def _images_of(sheet: bytes, number: int, parts: dict[bytes, bytes], images: set[bytes]) -> list[PrintedImage]:

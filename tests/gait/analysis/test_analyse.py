@@ -24,8 +24,8 @@ from plantar.gait.analysis.parameters import analyse_foot
 from plantar.plotting import thinned
 from plantar.recordings.recorder import Recorder
 
-FIGURES = ("pressure", "regions", "force", "steps", "symmetry", "wrench")
-FILES = {"metrics.json", "steps.csv", "regions.csv", "report.html"} | {
+FIGURES = ("pressure", "regions", "force", "steps", "symmetry", "wrench", "summary")
+FILES = {"metrics.json", "steps.csv", "regions.csv", "report.html", "summary.html"} | {
     f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")
 }
 

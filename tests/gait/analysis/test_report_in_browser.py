@@ -13,7 +13,7 @@ from plantar.gait.analysis.analyse import analyse_recording
 from plantar.gait.analysis.compare import compare_recordings
 
 from .browser import AXE, axe_script, visit
-from .printing import PrintedImage, printed_images
+from .printing import PrintedImage, printed, printed_images
 
 WAIT = """
 const player = document.getElementById('player');
@@ -194,6 +194,15 @@ def test_axe_is_there() -> None:
     if not AXE.exists():
         pytest.skip(f"no axe-core at {AXE}: pages are not checked by it (sh tools/fetch-axe .venv/axe)")
     assert "axe.run" in axe_script()
+
+
+def test_the_summary_is_one_sheet(report: Path, tmp_path: Path) -> None:
+    page = report.with_name("summary.html")
+    assert printed(page, tmp_path).count(b"/Type /Page\n") == 1
+    images = printed_images(page, tmp_path)
+    assert len(images) == 1
+    assert (images[0].low >= 0.0).all()
+    assert (images[0].high <= 1.0).all()
 
 
 def test_no_figure_is_cut_in_print(report: Path, tmp_path: Path) -> None:

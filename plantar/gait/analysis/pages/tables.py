@@ -11,7 +11,7 @@ from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gravity import GRAVITY
 from plantar.pages.page import group_row, number, row, scaled, table, titled
 
-__all__ = ["EACH_STEP", "comparison_table", "measures_table", "regions_tables", "steps_table"]
+__all__ = ["EACH_STEP", "comparison_table", "measures_table", "regions_tables", "shown_as", "steps_table"]
 
 EACH_STEP = ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns", "peak_pressure_Pa", "contact_area_m2")
 """Measures that are shown of each step."""
@@ -34,7 +34,12 @@ class _Shown(NamedTuple):
     factor: float
 
 
-def _shown(key: str, measure: Measure, raw: bool) -> _Shown:
+def shown_as(key: str, measure: Measure, raw: bool) -> _Shown:
+    """How a measure is shown.
+
+    Args:
+        raw: Whether the recording is of counts.
+    """
     if raw and raw_name(key) != key:
         unit = next((u for end, u in _UNITS_OF_COUNTS.items() if key.endswith(end)), "counts")
         return _Shown(raw_name(key), titled(measure.title, unit), 1.0)
@@ -53,19 +58,22 @@ def measures_table(metrics: Mapping[str, Any]) -> str:
     rows = list(_rows_of_measures(metrics, both))
     if not rows:
         return "<p>The recording holds no complete step.</p>"
-    head = ["Measure", *(name for side in feet for name in (f"{side}: mean ± SD", "median", "CV (%)"))]
+    head = ["Measure", *(name for side in feet for name in (f"{side}: mean ± SD", "error", "median", "CV (%)"))]
     note = "; symmetry index 100 (L − R) / ((L + R) / 2), 0 is symmetric" if both else ""
-    caption = f"Over the steps in the means: mean, standard deviation, median, coefficient of variation{note}."
+    caption = (
+        "Over the steps in the means: mean, standard deviation, median, coefficient of variation; error: standard "
+        f"error of one step by noise, frames, cells and events, without the sensor's calibration{note}."
+    )
     return table("Measures", caption, [*head, "Symmetry index (%)"] if both else head, rows)
 
 
 def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
     """A row for each measure that a foot has, under the heading of its group."""
     feet = metrics["feet"].values()
-    columns = 3 * len(feet) + 1 + both
+    columns = 4 * len(feet) + 1 + both
     group = ""
     for plain, measure in MEASURES.items():
-        key, title, factor = _shown(plain, measure, bool(metrics.get("raw")))
+        key, title, factor = shown_as(plain, measure, bool(metrics.get("raw")))
         spreads = [foot["measures"].get(key) for foot in feet]
         if all(s is None or s["mean"] is None for s in spreads):
             continue
@@ -95,11 +103,12 @@ def _rows_of_body_weight(metrics: Mapping[str, Any], columns: int, both: bool) -
         yield row(f"{MEASURES[key].title} (% of body weight)", [*cells, *index])
 
 
-def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str, str, str]:
+def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str, str, str, str]:
     if spread is None or spread["mean"] is None:
-        return "–", "–", "–"
+        return "–", "–", "–", "–"
     return (
         _mean_and_sd(spread, factor),
+        number(scaled(spread.get("error"), factor), 2),
         number(scaled(spread.get("median"), factor)),
         number(spread["cv_percent"], 2),
     )
@@ -116,7 +125,7 @@ def steps_table(metrics: Mapping[str, Any]) -> str:
     steps.sort(key=lambda one: one[1]["heel_strike_s"])
     if not steps:
         return ""
-    shown = [_shown(key, MEASURES[key], raw) for key in EACH_STEP]
+    shown = [shown_as(key, MEASURES[key], raw) for key in EACH_STEP]
     rows = [
         row(
             f"{side}\u00a0{step['number']}",
@@ -139,7 +148,7 @@ def regions_tables(metrics: Mapping[str, Any]) -> str:
     Returns:
         HTML, empty where no foot has regions.
     """
-    shown = [_shown(key, measure, bool(metrics.get("raw"))) for key, measure in REGION_MEASURES.items()]
+    shown = [shown_as(key, measure, bool(metrics.get("raw"))) for key, measure in REGION_MEASURES.items()]
     return "".join(
         table(
             f"Regions of the {side} foot",
@@ -164,7 +173,7 @@ def _mean(values: Mapping[str, Any], key: str) -> float | None:
 def comparison_table(comparison: Mapping[str, Any]) -> str:
     """Every measure that both recordings have, side by side."""
     raw = bool(comparison["a"].get("raw") or comparison["b"].get("raw"))
-    shown = [_shown(key, measure, raw) for key, measure in MEASURES.items()]
+    shown = [shown_as(key, measure, raw) for key, measure in MEASURES.items()]
     rows: list[str] = []
     for side, measures in comparison["difference"].items():
         rows.append(group_row(f"{side.capitalize()} foot", 6))

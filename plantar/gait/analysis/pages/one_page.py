@@ -1,0 +1,183 @@
+"""The page that a clinician hands out: one sheet with the main measures, their norms, both feet's loads and trends."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from plantar.gait.analysis.measures import MEASURES
+from plantar.gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
+from plantar.gait.analysis.pages.heading import facts_of
+from plantar.gait.analysis.pages.report import summary_text
+from plantar.gait.analysis.pages.tables import shown_as
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.pages.page import Section, embedded, number, page, row, table, warning_list
+from plantar.plotting import COLOURS, new_figure
+from plantar.recordings.pressure_recording import PressureRecording
+from plantar.sides import Side
+
+__all__ = ["figure_summary", "one_page"]
+
+NORMS: Mapping[str, tuple[float, float]] = {
+    "stride_time_s": (0.87, 1.32),
+    "cadence_steps_per_min": (91.0, 138.0),
+    "stride_length_m": (1.06, 1.85),
+    "stride_velocity_m_s": (0.94, 1.82),
+}
+"""95 % ranges of women and men of 18 to 49 years who walk freely (Whittle 2007, Gait Analysis, 4th ed., table 2.1)."""
+
+_ROWS = (
+    *("contact_time_s", "stride_time_s", "stance_percent", "double_support_percent", "stride_length_m"),
+    *("stride_velocity_m_s", "peak_force_N", "first_peak_N", "second_peak_N", "impulse_Ns", "peak_pressure_Pa"),
+    *("contact_area_m2", "cop_velocity_m_s", "cpei_percent"),
+)
+_APART = 0.1
+"""Distance in m at which insoles are drawn, which measure no step width."""
+_MOST_WARNINGS = 4
+_STYLE = """
+.band { width: 6rem; height: .8rem; } td:last-child, th:last-child { white-space: nowrap; }
+@media print { @page { size: A4; margin: 9mm; } body { font-size: 7.5pt; line-height: 1.2; }
+  main, section, header { margin: 0; padding: 0; }
+  h1 { font-size: 12pt; margin: 0; } h2 { font-size: 9pt; margin: .4rem 0 .1rem; } p, ul, dl { margin: .1rem 0; }
+  dl.facts dd, table, caption { font-size: 7.5pt; } .band { width: 3rem; height: .5rem; }
+  th, td { padding: 0 .3rem; } figure { margin: 0; } figure img, figure.wide img { max-height: 52mm; } }
+"""
+
+
+def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str) -> str:
+    """The sheet as text; a browser prints it on one page of A4.
+
+    Args:
+        metrics: What metrics.json holds.
+        figures: The PNG file of `figure_summary`, with its caption.
+        title: Title of the page, for example the file's name.
+
+    Returns:
+        HTML that refers to no other file and no network.
+    """
+    warnings = metrics["warnings"]
+    more = len(warnings) - _MOST_WARNINGS
+    notes = [*warnings[:_MOST_WARNINGS], *([f"{more} more notes are in report.html"] if more > 0 else [])]
+    sections = [
+        Section("summary", "Summary", f"<p>{html.escape(summary_text(metrics))}</p>"),
+        Section("main", "Measures", _table(metrics)),
+        Section("figures", "Feet and steps", embedded(figures)),
+        Section("notes", "Notes", warning_list(notes) or "<p>None.</p>"),
+    ]
+    return page(f"Gait summary: {title}", facts_of(metrics, title), sections, style=_STYLE)
+
+
+def _table(metrics: Mapping[str, Any]) -> str:
+    """Main measures of both feet, each with the error of a step, and the norm where there is one."""
+    feet, gait, raw = metrics["feet"], metrics["gait"], bool(metrics.get("raw"))
+    rows = []
+    cadence = gait.get("steady_cadence_steps_per_min")
+    if cadence is not None:
+        both = [f"{number(cadence)} (both feet)", *[""] * (len(feet) - 1)]
+        rows.append(row("Cadence (steps/min)", [*both, "", _band("cadence_steps_per_min", {"both": cadence}, 1.0)]))
+    for plain in _ROWS:
+        key, title, factor = shown_as(plain, MEASURES[plain], raw)
+        spreads = {side: foot["measures"].get(key) for side, foot in feet.items()}
+        means = {side: s["mean"] for side, s in spreads.items() if s and s["mean"] is not None}
+        if means:
+            cells = [_with_error(spreads[side], factor) for side in feet]
+            rows.append(row(title, [*cells, number(gait["symmetry_percent"].get(key), 2), _band(plain, means, factor)]))
+    if not rows:
+        return "<p>The recording holds no complete step.</p>"
+    caption = (
+        "Means ± standard error of one step. Bands: 95 % of women and men of 18 to 49 years who walk freely (Whittle "
+        "2007, <i>Gait Analysis</i>); left blue, right red. Symmetry: 0 is symmetric."
+    )
+    head = ("Measure", *(f"{side} foot" for side in feet), "Symmetry (%)", "Norm")
+    return table("Main measures", caption, head, rows)
+
+
+def _with_error(spread: Mapping[str, Any] | None, factor: float) -> str:
+    if spread is None or spread["mean"] is None:
+        return "–"
+    error = spread.get("error")
+    return number(spread["mean"] * factor) + ("" if error is None else f"\u00a0±\u00a0{number(error * factor, 2)}")
+
+
+def _band(key: str, means: Mapping[str, float], factor: float) -> str:
+    """A norm as a band with a mark for each foot; empty where none is stated."""
+    if key not in NORMS:
+        return ""
+    low, high = NORMS[key]
+    begin, end = low - 0.5 * (high - low), high + 0.5 * (high - low)
+
+    def place(value: float) -> float:
+        return 100.0 * min(1.0, max(0.0, (value - begin) / (end - begin)))
+
+    marks = "".join(
+        f'<rect x="{place(value) - 1.0:.1f}" y="0" width="2" height="12" fill="{COLOURS.get(side, "#111111")}"/>'
+        for side, value in means.items()
+    )
+    words = f"{number(low * factor)} to {number(high * factor)}"
+    return (
+        f'<svg class="band" viewBox="0 0 100 12" preserveAspectRatio="none" role="img" aria-label="norm {words}">'
+        f'<rect x="{place(low):.1f}" y="3" width="{place(high) - place(low):.1f}" height="6" fill="#b8c4d0"/>'
+        f"{marks}</svg> {words}"
+    )
+
+
+def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
+    """Mean force over the stance, the butterfly of both feet's CoP, and the trend over the steps.
+
+    Returns:
+        The figure, or None where no foot has a step in the means.
+    """
+    shown = {side: gait for side, gait in feet.items() if gait.used}
+    if not shown:
+        return None
+    figure, (curves, wings, trend) = new_figure(10.0, 3.2, columns=3)
+    for side, gait in shown.items():
+        own = stance_curves(recording, gait)
+        curves.plot(STANCE, own.mean(axis=0), color=COLOURS[side], linewidth=1.8, label=f"{side}, {len(own)} steps")
+        draw_sd(curves, own, color=COLOURS[side], alpha=0.2)
+        impulse = np.array([step["impulse_Ns"] for step in gait.used])
+        begin = np.array([step.heel_strike_s for step in gait.used])
+        trend.plot(begin, 100.0 * impulse / np.nanmean(impulse), ".", color=COLOURS[side], markersize=4)
+        if len(begin) > 2:
+            line = np.polyfit(begin - begin[0], 100.0 * impulse / np.nanmean(impulse), 1)
+            trend.plot(begin, np.polyval(line, begin - begin[0]), color=COLOURS[side], linewidth=1.2)
+    _draw_butterfly(wings, recording, shown)
+    for panel, name, across, up in (
+        (curves, "Force over the stance", "stance (%)", force_label(recording)),
+        (wings, "Butterfly: CoP of both feet", "to the right (mm)", "forward (mm)"),
+        (trend, "Trend: impulse of each step", "time (s)", "% of the mean"),
+    ):
+        panel.set_title(name, fontsize=9)
+        panel.set_xlabel(across, fontsize=8)
+        panel.set_ylabel(up, fontsize=8)
+        panel.grid(alpha=0.3)
+    curves.legend(fontsize=7, loc="lower center")
+    return figure
+
+
+def _draw_butterfly(panel: Any, recording: PressureRecording, feet: Mapping[Side, FootGait]) -> None:
+    """The CoP of both feet together; insoles are drawn next to each other, plates where they are."""
+    known = {s: g for s, g in feet.items() if g.cop is not None}
+    if len(known) < 2:
+        panel.text(0.5, 0.5, "takes both feet with cells", ha="center", va="center", transform=panel.transAxes)
+        return
+    force = {s: np.nan_to_num(g.foot.vertical_force) for s, g in known.items()}
+    total = np.sum(list(force.values()), axis=0)
+    beside = {"left": np.array([0.0, _APART]), "right": np.array([0.0, -_APART])}
+    plates = recording.kind in ("plate", "platform")
+    with np.errstate(invalid="ignore", divide="ignore"):
+        parts = [
+            force[s][:, None] * np.nan_to_num(g.cop + (0.0 if plates else beside[s]))
+            for s, g in known.items()
+            if g.cop is not None
+        ]
+        both = np.sum(parts, axis=0) / total[:, None]
+    on = total > 0.3 * float(np.percentile(total, 98.0))
+    step = next(iter(known.values())).used
+    window = (recording.time >= step[0].heel_strike_s) & (recording.time <= step[-1].toe_off_s) & on
+    points = np.where(window[:, None], both, np.nan)[: max(1, round(20.0 * recording.rate_hz)) + int(np.argmax(window))]
+    panel.plot(-1e3 * points[:, 1], 1e3 * points[:, 0], color=COLOURS["cop"], linewidth=0.6, alpha=0.7)
