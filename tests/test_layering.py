@@ -60,7 +60,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     ),
     "plantar.gait.analysis": (
         *("measures", "options", "subject", "spread", "prints", "steps", "health", "body_weight", "activity"),
-        *("mirrored_feet", "parameters", "pages", "metrics", "results", "analyse_one"),
+        *("mirrored_feet", "parameters", "measure_errors", "pages", "metrics", "results", "analyse_one"),
         *("study", "compare", "custom", "ground_reactions", "exports", "analyse"),
     ),
     "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
