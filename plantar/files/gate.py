@@ -79,6 +79,9 @@ def read_apart(
     """Read a file in a process apart.
 
     Args:
+        kind: A key of HELPERS.
+        path: The file.
+        error: What is raised.
         size: Bytes of the file; None for those of a single file. Give it for a folder.
 
     Returns:

@@ -66,8 +66,13 @@ def open_input(path: Name, error: type[PlantarError], most: float | None = None,
     """Open a regular file for reading.
 
     Args:
+        path: The file.
+        error: What is raised.
         most: Largest size in bytes; None where there is no limit.
         where: Beginning of the message; the path where None.
+
+    Returns:
+        The open file.
 
     Raises:
         PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.
@@ -104,8 +109,13 @@ def read_input(path: Name, error: type[PlantarError], most: float, where: str | 
     """All bytes of a regular file.
 
     Args:
+        path: The file.
+        error: What is raised.
         most: Largest size in bytes.
         where: Beginning of the message; the path where None.
+
+    Returns:
+        The bytes.
 
     Raises:
         PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.

@@ -49,8 +49,13 @@ def named_file(path: Path, folders: tuple[Path, ...], error: type[PlantarError],
     """A file that another file names, if it lies where it may.
 
     Args:
+        path: The file.
         folders: Folders that it may lie in or below.
+        error: What is raised.
         where: Beginning of the message: what names it.
+
+    Returns:
+        The path.
 
     Raises:
         PlantarError: If it lies elsewhere, links followed; of the class `error`.
@@ -130,6 +135,13 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
 def parsed_model(file: Path, error: type[PlantarError]) -> Element:
     """The XML of an MJCF or URDF, MJCF includes put in their place.
 
+    Args:
+        file: The model.
+        error: What is raised.
+
+    Returns:
+        The outermost element.
+
     Raises:
         PlantarError: If a file cannot be read, is no XML, is included twice, or lies where it may not; of the class
             `error`.
@@ -144,6 +156,13 @@ def parsed_model(file: Path, error: type[PlantarError]) -> Element:
 
 def files_of_model(file: Path, error: type[PlantarError]) -> set[Path]:
     """An MJCF or URDF and the files that it includes.
+
+    Args:
+        file: The model.
+        error: What is raised.
+
+    Returns:
+        Their full paths.
 
     Raises:
         PlantarError: As `parsed_model`.

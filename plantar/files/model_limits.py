@@ -40,6 +40,8 @@ def check_model_size(root: Element, error: type[PlantarError], where: str) -> No
 
     Args:
         root: Its outermost element, includes in their place.
+        error: What is raised.
+        where: Beginning of the message.
 
     Raises:
         PlantarError: If it passes a limit; of the class `error`.

@@ -63,7 +63,11 @@ def read_toml(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
     Args:
         path: The file, of up to TOML_MOST bytes.
+        error: What is raised.
         where: Beginning of the message, for example "scene file walk.toml".
+
+    Returns:
+        The table.
 
     Raises:
         PlantarError: If it cannot be read or is not valid TOML; of the class `error`.
@@ -85,8 +89,12 @@ def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
     Args:
         path: The file, of up to JSON_MOST bytes.
+        error: What is raised.
         where: Beginning of the message, for example "layout file sole.json".
         kind: What it should have been, for the message.
+
+    Returns:
+        The value.
 
     Raises:
         PlantarError: If it cannot be read or is not valid JSON; of the class `error`.

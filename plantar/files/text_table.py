@@ -42,6 +42,10 @@ def read_text_table(path: str | os.PathLike[str], error: type[PlantarError]) -> 
 
     Args:
         path: The file, of up to TABLE_MOST bytes; UTF-8, UTF-16 or Latin-1.
+        error: What is raised.
+
+    Returns:
+        The table.
 
     Raises:
         PlantarError: If it cannot be read, is no text, or has too many rows or columns; of the class `error`.

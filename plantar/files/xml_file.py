@@ -42,7 +42,12 @@ def parse_xml(data: bytes, error: type[PlantarError], where: str) -> ElementTree
     """The outermost element of an XML text.
 
     Args:
+        data: The text.
+        error: What is raised.
         where: Beginning of the message, for example the file's name.
+
+    Returns:
+        The element.
 
     Raises:
         PlantarError: If it is no XML, declares entities, or is too deep or of too many elements; of the class `error`.

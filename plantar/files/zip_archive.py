@@ -29,7 +29,11 @@ def is_bomb(size: float, unpacked: float) -> bool:
     """Whether what a file unpacks to is more than measurements and meshes pack to.
 
     Args:
+        size: Bytes of the file.
         unpacked: Bytes that it states it unpacks to.
+
+    Returns:
+        Whether it is.
 
     Example:
         >>> is_bomb(1e6, 99e6), is_bomb(1e6, 101e6), is_bomb(2e6, 101e6)
@@ -45,6 +49,8 @@ def open_archive(
     """Open a ZIP archive whose contents are of a size that can be read.
 
     Args:
+        path: The file.
+        error: What is raised.
         most: Bytes that all its parts may unpack to.
 
     Yields:
@@ -92,6 +98,15 @@ def open_archive(
 
 def read_part(archive: zipfile.ZipFile, name: str, error: type[PlantarError], where: str) -> bytes:
     """A part of an archive, as long and with the checksum that its list states.
+
+    Args:
+        archive: An archive of `open_archive`.
+        name: The part.
+        error: What is raised.
+        where: Beginning of the message.
+
+    Returns:
+        Its bytes.
 
     Raises:
         PlantarError: If there is no such part, or it is damaged or encrypted; of the class `error`.

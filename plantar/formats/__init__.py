@@ -65,7 +65,11 @@ def named_format(path: str | os.PathLike[str], name: str | None = None) -> Forma
     """The format of a name, or that of a file's content where the name is None.
 
     Args:
+        path: The file.
         name: Name of a format, or None.
+
+    Returns:
+        The format.
 
     Raises:
         FormatError: If there is no format of this name, or the file is of none.
@@ -124,6 +128,7 @@ def read_recording(
     """Read a recording of any known format.
 
     Args:
+        path: The file.
         format: Name of its format; recognised from the content where None.
         layout: Sole layout to use instead of the format's own geometry; its mirror image serves the other foot.
         options: All that the user knows about the file; `layout` is put into it.

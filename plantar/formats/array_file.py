@@ -88,6 +88,14 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions, name: Path) -> PressureRecording:
     """A recording from arrays in memory, with the names that an NPZ file has.
 
+    Args:
+        arrays: The arrays by name.
+        options: What is known of them.
+        name: What the recording is called.
+
+    Returns:
+        The recording.
+
     Raises:
         FormatError: If no array holds frames of cells.
     """
@@ -269,3 +277,4 @@ FORMAT = Format(
     read=_read,
     order=60,
 )
+"""The entry of the registry."""

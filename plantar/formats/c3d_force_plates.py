@@ -242,3 +242,4 @@ def _load(
 FORMAT = Format(
     name="c3d", title="force plates in a C3D file", suffixes=(".c3d",), recognises=_recognises, read=_read, order=17
 )
+"""The entry of the registry."""

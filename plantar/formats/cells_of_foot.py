@@ -27,7 +27,11 @@ def unit_of_values(stated: str | None, options: ReadOptions, warnings: list[str]
     Args:
         stated: Unit that the file states, None where it states none.
         options: The user's options.
+        warnings: Where an assumption is put.
         what: What states nothing, for the warning.
+
+    Returns:
+        The unit.
 
     Raises:
         FormatError: If the stated unit is not known.
@@ -54,9 +58,16 @@ def cells_of_foot(
     """One foot's forces from values in a unit.
 
     Args:
+        side: The foot.
         values: Values (n, k), NaN where not measured; they become the forces in place.
+        unit: What they are.
         options: With the layout that the user gave, which comes before the file's own.
+        warnings: Where an assumption is put.
         ids: Cell ids of the columns, where the file names them.
+        own: Layout that the file itself holds.
+
+    Returns:
+        The foot.
 
     Raises:
         FormatError: If the layout has another number of cells, or pressures have no cell areas to make forces of.
@@ -85,6 +96,7 @@ def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.fl
 
     Args:
         values: Readings (n, k).
+        unit: What they are.
         areas: Areas (k,) of the cells in m^2; None where they are not known, and the readings are no pressures.
     """
     if unit.kind == "pressure" and areas is not None:
@@ -101,6 +113,10 @@ def halves(
     Args:
         values: Values (n, k).
         options: The user's options.
+        warnings: Where an assumption is put.
+
+    Returns:
+        The feet and their columns.
     """
     k = values.shape[1]
     if options.layout is not None and k == 2 * len(options.layout):

@@ -144,3 +144,4 @@ FORMAT = Format(
     read=_read,
     order=99,
 )
+"""The entry of the registry."""

@@ -220,3 +220,4 @@ FORMAT = Format(
     read=_read,
     order=30,
 )
+"""The entry of the registry."""

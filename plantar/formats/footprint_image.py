@@ -72,7 +72,11 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
     """Find the footprints in an image.
 
     Args:
+        path: The image.
         mm_per_pixel: Size of a pixel in mm; where None, the resolution that the file states.
+
+    Returns:
+        The image and its footprints.
 
     Raises:
         FormatError: If the file is no image, or no footprint stands out from its background.
@@ -266,3 +270,4 @@ FORMAT = Format(
     read=None,
     order=19,
 )
+"""The entry of the registry."""

@@ -183,3 +183,4 @@ FORMAT = Format(
     read=_read,
     order=16,
 )
+"""The entry of the registry."""

@@ -88,7 +88,9 @@ def feet_of_plates(
 
     Args:
         plates: The plates as the file gives them.
+        rate: Frames a second.
         options: With the user's word about the plates' feet.
+        warnings: Where assumptions are put.
         markers: Where each foot's markers are (n, 2) in m, NaN where unseen.
         events: Heel strikes of each foot that the file states, in s from the first frame.
 

@@ -31,6 +31,9 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
         format: Name of a file's format; recognised from its content where None.
         options: What else is known: layout, unit, rate, side. Arrays are raw counts where no unit is given.
 
+    Returns:
+        The recording.
+
     Raises:
         InputError: If it is none of these.
         FormatError: If it holds no frames of cells or forces.

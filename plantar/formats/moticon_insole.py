@@ -50,6 +50,7 @@ def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | No
 
     Args:
         size: Size of the insole; 7 is assumed where None or unknown.
+        side: "left" or "right".
         areas: Area (16,) in m^2 that each cell represents, where the recording gives it.
 
     Returns:

@@ -108,6 +108,10 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
     proportional to the area of its cells, and a row is cut into cells as wide as their areas ask for.
     Its length follows from the whole area. The origin lies in the middle of the heel edge; x runs to the toe.
 
+    Args:
+        size: A key of `CELL_AREAS`.
+        side: "left" or "right".
+
     Returns:
         The layout; cell ids are 1 to 99 as the insoles are numbered.
 

@@ -337,3 +337,4 @@ FORMAT = Format(
     read=_read,
     order=11,
 )
+"""The entry of the registry."""

@@ -61,7 +61,9 @@ def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> li
     """The contacts on one plate.
 
     Args:
+        plate: Its number.
         vertical: Vertical force (n,) in N on the foot.
+        rate: Frames a second.
 
     Returns:
         The contacts in order; those that the recording cuts as well, but none that lasts throughout.
@@ -92,10 +94,16 @@ def sides_of_contacts(
 
     Args:
         plates: The plates, which may name their foot.
+        contacts: Their contacts.
         treadmill: Whether each plate is a belt that one foot walks on.
+        rate: Frames a second.
         given: The user's word on a file of one foot.
+        warnings: Where the reason is put.
         markers: Where each foot's markers are (n, 2).
         events: Heel strikes of each foot in s.
+
+    Returns:
+        A foot for each contact.
     """
     if treadmill:
         _report_crossings(plates, contacts, rate, warnings)

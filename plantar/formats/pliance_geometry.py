@@ -17,6 +17,8 @@ def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np
     """Corner points of the cells, from the rows "x[0]" .. "y[3]" (in cm) after the frames.
 
     Args:
+        tail: The lines after the frames.
+        cells: Number of cells.
         warnings: Where a table that is not whole is reported.
 
     Returns:
@@ -48,6 +50,11 @@ def layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side
 
     Args:
         corners: Corners (n, 4, 2) in m in the file's axes, in any order.
+        cells: Ids of the cells.
+        side: "left" or "right".
+
+    Returns:
+        The layout.
     """
     import shapely  # only where a file brings its own geometry
 

@@ -84,7 +84,11 @@ def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
     """The layout of some of its cells, in the order given; vertices and outline stay.
 
     Args:
+        layout: The layout.
         cells: Indices of the cells to keep, each once.
+
+    Returns:
+        The smaller layout.
 
     Example:
         >>> from plantar import hex_layout

@@ -47,6 +47,9 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
         path: Folder of a ROS 2 bag, or one of its files.
         options: Layout, unit and side, which a bag does not hold.
 
+    Returns:
+        The recording.
+
     Raises:
         FormatError: If the bag is damaged or holds no topic with an array of numbers.
         DependencyError: If rosbags is not installed.
@@ -199,3 +202,4 @@ FORMAT = Format(
     folders=_FOLDERS,
     order=18,
 )
+"""The entry of the registry."""

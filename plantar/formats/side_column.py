@@ -63,6 +63,7 @@ def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side
 
     Args:
         values: What the side column (n,) holds as numbers.
+        warnings: Where an assumption is put.
 
     Returns:
         Indices of the rows of each foot that has some.

@@ -50,7 +50,13 @@ def recording_of_columns(
     Args:
         table: Numbers (n, k), NaN where one is missing.
         names: Names (k) of the columns; empty where there are none.
+        options: What is known of the table.
+        path: What the recording is called.
         facts: What comments state: "unit", "rate", "side".
+        warnings: Where assumptions are put.
+
+    Returns:
+        The recording.
 
     Raises:
         FormatError: If no column is a load, rows are curves of trials, or a unit is not known.

@@ -62,6 +62,10 @@ def feet_of_forces(
     Args:
         table: Numbers (n, k).
         columns: What columns hold, by number; times are not in it.
+        rate: Frames a second.
+        options: What is known of the table.
+        stated: Unit that comments state.
+        warnings: Where assumptions are put.
 
     Returns:
         The feet; whether every step is seen; "plate" or "insole"; and whether forces are in percent of body weight.

@@ -35,8 +35,12 @@ def open_text(path: Path, encoding: str | None = None, longest: int = _LONGEST_L
     """A text file opened for reading line by line, its line ends made one.
 
     Args:
+        path: The file.
         encoding: Its encoding; found from its beginning where None.
         longest: Longest line in bytes that is read; a longer one is an error where it is met.
+
+    Returns:
+        The open stream.
 
     Raises:
         FormatError: If the file cannot be read, or is no regular one.

@@ -36,7 +36,11 @@ def names_of_row(line: str, delimiter: str | None) -> list[str]:
     """The cells of a row of names; what stands in quotes may hold the delimiter.
 
     Args:
+        line: The row.
         delimiter: What stands between its cells; None for blanks.
+
+    Returns:
+        The cells without their quotes.
     """
     if delimiter is None or '"' not in line:
         return [cell.strip() for cell in line.split(delimiter)]

@@ -388,3 +388,4 @@ def _check_load(
 FORMAT = Format(
     name="xsensor", title="XSENSOR export", suffixes=(".csv",), recognises=_recognises, read=_read, order=14
 )
+"""The entry of the registry."""

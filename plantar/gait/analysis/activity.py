@@ -74,6 +74,10 @@ class Activity:
 def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
     """Tell walking, running and standing apart.
 
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
     Returns:
         The activity. A foot that lands on its front and then lets the heel down walks down stairs (or on pointed toes);
         one whose heel never carries walks on its toes; one that lands in front of its heel, stands for long and
@@ -87,7 +91,15 @@ def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
 
 def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
-    """Warnings of feet that are rolled over from toes to heel, and of two feet that were not recorded at one time."""
+    """Warnings of feet that are rolled over from toes to heel, and of two feet that were not recorded at one time.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The warnings.
+    """
     out = []
     if _out_of_step(feet):
         out.append(

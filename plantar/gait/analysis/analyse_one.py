@@ -41,11 +41,15 @@ def analyse_one(
     """Measure one recording, whatever holds it.
 
     Args:
+        given: What `plantar.formats.given.recording_of` takes.
         format: Name of a file's format; recognised from its content where None.
         options: What else is known of the data.
         progress: Called with a fraction 0..1 and what is being done; it ends at 0.5.
         choices: Which steps are in the means, and which events are used.
         subject: The person, as far as known.
+
+    Returns:
+        The analysis.
 
     Raises:
         FormatError: If the data is no recording that can be read.
@@ -84,6 +88,7 @@ def analyse_recording(
     """Analyse a recording or a footprint image; write metrics.json, tables, figures (PNG and SVG) and report.html.
 
     Args:
+        path: The recording or image.
         out: Output folder, made if needed; nothing is left in it on an error.
         format: Name of the file's format; recognised from its content where None.
         layout: Layout file to use instead of the format's own geometry; mirrored for the other foot.
@@ -134,6 +139,9 @@ def with_layout(options: ReadOptions | None, layout: SoleLayout | str | os.PathL
     Args:
         options: What is known of a file, or None.
         layout: A layout, the path of its file, or None.
+
+    Returns:
+        The options.
 
     Raises:
         LayoutError: If the layout file is not valid.

@@ -59,8 +59,11 @@ def compare_recordings(
     """Analyse two recordings and write them side by side: comparison.json, figures, report.html, and a folder for each.
 
     Args:
+        a: The first recording.
+        b: The second one.
         out: Output folder; the whole analyses stand in its folders "a" and "b".
         format: Name of both files' format; recognised from their content where None.
+        layout: Layout file for both.
         progress: Called with a fraction 0..1 and what is being done.
         options: What else the user knows about both files.
         choices: Which steps are in the means, and whose events.
@@ -125,6 +128,11 @@ def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
 
 def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> dict[str, Any]:
     """Each measure that both recordings have of a foot: its spread in both, and how they differ.
+
+    Args:
+        analyses: "a" and "b".
+        one: The foot of A.
+        other: The foot of B.
 
     Returns:
         For each measure "a" and "b" (mean, sd, cv_percent, n), "difference", "percent" and "effect_size".

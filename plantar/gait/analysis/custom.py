@@ -46,6 +46,7 @@ def custom_measures(
     """Measure each complete step by functions of one's own.
 
     Args:
+        analysis: An analysis.
         measures: Functions by name; each gives a number, NaN for what is not known.
 
     Returns:
@@ -62,6 +63,7 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
     """The measures of regions, of masks of one's own.
 
     Args:
+        analysis: An analysis.
         masks: Corners (n, 2) of a polygon in foot coordinates, by name. Masks may overlap.
 
     Returns:
@@ -90,7 +92,12 @@ def mask_cells(analysis: Analysis, side: Side, corners: ArrayLike) -> NDArray[np
     """Cells whose centre lies in a mask.
 
     Args:
+        analysis: An analysis of insoles or soles.
+        side: The foot.
         corners: Corners (n, 2) of the mask in foot coordinates.
+
+    Returns:
+        Indices of the cells.
 
     Raises:
         InputError: If the foot has no geometry, or the mask is no polygon.

@@ -59,6 +59,10 @@ def ground_reactions(analysis: Analysis) -> dict[Side, GroundReaction]:
 def write_mot(analysis: Analysis, path: Path) -> None:
     """Write the ground's forces as a motion file (.mot) of OpenSim: force, point and torque of each foot.
 
+    Args:
+        analysis: The analysis.
+        path: The file.
+
     Raises:
         InputError: If the recording holds counts, which are no forces.
     """
@@ -87,6 +91,8 @@ def write_external_loads(analysis: Analysis, path: Path, motion: str) -> None:
     """Write OpenSim's description (.xml) of which columns of a motion file act on which body.
 
     Args:
+        analysis: The analysis.
+        path: The file.
         motion: Name of the motion file, next to it.
     """
     root = ElementTree.Element("OpenSimDocument", Version="40000")

@@ -26,6 +26,10 @@ def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, fl
     A mean over n steps errs by 1 / sqrt(n) of what noise and frames add, and by all of what cells and definitions do;
     gains, fit and calibration of the sensor are not in it.
 
+    Args:
+        recording: The recording.
+        gait: One foot of it, its steps measured.
+
     Returns:
         Errors by the measure's key, in its SI unit; none where nothing is known.
     """

@@ -27,6 +27,10 @@ _MIRRORED = -0.1
 def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
     """A warning of two insoles in which the load lies as in the other foot.
 
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
     Returns:
         One warning, or none; none where a foot has no complete step or no geometry, and of platforms and robots.
     """

@@ -52,6 +52,8 @@ def analyse_feet(
 
     Args:
         recording: The recording; that of a platform as `told_apart` gives it.
+        prints: The footprints of a platform.
+        options: Which steps are in the means.
 
     Returns:
         The gait of each foot, with the lengths that need both.
@@ -137,6 +139,9 @@ def analyse_foot(
     """Find the contacts of one foot and measure its complete steps.
 
     Args:
+        recording: The recording.
+        side: A foot that it has.
+        prints: The footprints of a platform.
         stated: Whether the events that the file states are taken.
         events: Levels and contacts of both feet, where they are known.
 

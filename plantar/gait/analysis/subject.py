@@ -56,6 +56,7 @@ def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
     """A warning where the forces of a recording are not those of a body of the stated mass.
 
     Args:
+        subject: Who walks.
         implied: Weight in N that the forces imply; None where they imply none.
 
     Returns:

@@ -25,8 +25,13 @@ def draw_figures(
     """Draw the figures of a recording as PNG and SVG.
 
     Args:
+        recording: The recording.
+        feet: The gait of its feet.
         folder: Folder to write to, which exists.
         progress: Called with a fraction 0..1 and what is being done.
+
+    Returns:
+        The PNG files with their captions.
     """
     figures = (
         (

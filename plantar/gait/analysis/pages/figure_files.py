@@ -20,6 +20,9 @@ def write_figures(
         figures: Name, figure (None for one that there is nothing to draw of) and caption of each.
         folder: Folder to write to, which exists.
         progress: Called with a fraction 0..1 and what is being done.
+
+    Returns:
+        The PNG files with their captions.
     """
     tell = progress or (lambda fraction, text: None)
     written: list[tuple[Path, str]] = []

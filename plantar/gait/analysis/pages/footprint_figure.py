@@ -30,7 +30,11 @@ def draw_footprints(image: FootprintImage, prints: Mapping[Side, Footprint]) -> 
     """Draw the footprints of an image on it.
 
     Args:
+        image: The image.
         prints: Its footprints, in the order of the image's.
+
+    Returns:
+        The figure.
     """
     scale = _Scale("pixels", 1.0, 1.0) if image.pixel is None else _Scale("mm", 1e3 * image.pixel, 1e3)
     height, width = image.picture.shape[:2]

@@ -29,6 +29,7 @@ def footprint_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str
     """The page of a footprint image as text.
 
     Args:
+        metrics: What `analyse_image` returns.
         figures: PNG files to embed, with their captions.
         title: Title of the page, for example the file's name.
 

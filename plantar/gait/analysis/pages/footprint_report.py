@@ -32,10 +32,14 @@ def analyse_image(
     """Measure the footprints in an image and write metrics.json, footprints.csv, a figure and report.html.
 
     Args:
+        path: The image.
         folder: Folder to write to, which exists.
         mm_per_pixel: Size of a pixel in mm; the image's own resolution where None.
         side: Which foot a single footprint is of; inferred from its shape where None.
         subject: Whose footprints they are, as far as it is known.
+
+    Returns:
+        What metrics.json holds.
 
     Raises:
         FormatError: If the file is no image, or shows no footprint.
@@ -76,7 +80,9 @@ def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
     The axis of most extent is the foot's, its narrower and rounder end the heel: the end whose third is narrower.
 
     Args:
+        part: The mask.
         pixel: Size of a pixel in m (or 1 for lengths in pixels).
+        side: The foot.
 
     Returns:
         The footprint, with its toe line.

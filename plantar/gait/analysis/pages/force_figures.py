@@ -52,7 +52,15 @@ _COMPARED = (
 
 
 def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any:
-    """Vertical force of each foot over time, with heel strikes and toe offs."""
+    """Vertical force of each foot over time, with heel strikes and toe offs.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The figure.
+    """
     figure, axes = new_figure(10.0, 2.6 * len(feet) + 0.6, rows=len(feet), sharex=True, sharey=True, squeeze=False)
     for panel, (side, gait) in zip(axes[:, 0], feet.items(), strict=True):
         force = gait.foot.vertical_force
@@ -96,6 +104,10 @@ def _shade_cut_contacts(panel: Any, recording: PressureRecording, gait: FootGait
 def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
     """Force curves of the steps in the means over the stance, with their mean and standard deviation.
 
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
     Returns:
         The figure, or None where no foot has a step in the means.
     """
@@ -121,6 +133,8 @@ def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
     """The band of one standard deviation around the mean of curves (steps, 101) over the stance; none of one curve.
 
     Args:
+        panel: Axes to draw on.
+        curves: What `stance_curves` gives.
         look: Colour, opacity and label of the band.
     """
     if len(curves) > 1:
@@ -130,6 +144,10 @@ def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
 
 def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
     """Vertical force of each step that is in the means over its stance.
+
+    Args:
+        recording: The recording.
+        gait: One foot of it.
 
     Returns:
         Forces (steps, 101) in N at each percent of the stance.
@@ -142,6 +160,10 @@ def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.fl
 
 def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
     """Wrench of each sole about its frame's origin over time.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
 
     Returns:
         The figure, or None for recordings that are not of a robot.

@@ -14,7 +14,15 @@ __all__ = ["facts_of", "facts_of_image"]
 
 
 def facts_of(metrics: Mapping[str, Any], file: str) -> str:
-    """The heading of a recording's report."""
+    """The heading of a recording's report.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+        file: Name of the file.
+
+    Returns:
+        HTML of a list of facts.
+    """
     robot = metrics["kind"] == "robot"
     length = metrics["subject"]["foot_length_m"]
     facts = [
@@ -32,7 +40,15 @@ def facts_of(metrics: Mapping[str, Any], file: str) -> str:
 
 
 def facts_of_image(metrics: Mapping[str, Any], file: str) -> str:
-    """The heading of the report of a footprint image."""
+    """The heading of the report of a footprint image.
+
+    Args:
+        metrics: What `analyse_image` returns.
+        file: Name of the file.
+
+    Returns:
+        HTML of a list of facts.
+    """
     width, height = metrics["size_px"]
     scale = "" if metrics["mm_per_pixel"] is None else f", {metrics['mm_per_pixel']:.4g} mm a pixel"
     facts = [

@@ -128,6 +128,10 @@ def _band(key: str, means: Mapping[str, float], factor: float) -> str:
 def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
     """Mean force over the stance, the butterfly of both feet's CoP, and the trend over the steps.
 
+    Args:
+        recording: The recording.
+        feet: The gait of each foot.
+
     Returns:
         The figure, or None where no foot has a step in the means.
     """

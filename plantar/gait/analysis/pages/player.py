@@ -36,6 +36,10 @@ MOST_BYTES = 900_000
 def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> dict[str, Any] | None:
     """What the player needs, as plain JSON values.
 
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
     Returns:
         "times" (s) of the frames; for each foot its side, cells (rings of corners in mm, to the right and forward),
         outline, pressure as bytes (0 for a cell that is not loaded, else 1 + 254 p / highest), deflated and in base64,

@@ -38,6 +38,7 @@ def report_page(
     """The page of one recording as text.
 
     Args:
+        metrics: What `analyse_recording` returns.
         figures: PNG files to embed, each with a caption that also serves as its alternative text.
         title: Title of the page, for example the file's name.
         player: What `player_data` gives; no player where None.
@@ -121,7 +122,9 @@ def comparison_page(
     """The page that puts two recordings side by side.
 
     Args:
+        comparison: What `compare_recordings` returns.
         figures: PNG files to embed, with their captions.
+        names: Names of the recordings.
         links: Files of their own reports, relative to this page.
 
     Returns:

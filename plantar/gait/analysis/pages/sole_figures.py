@@ -82,6 +82,10 @@ def _finish(figure: Any, axes: Any, drawn: Any, what: str, raw: bool) -> None:
 def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
     """Maximum pressure picture of each foot with the CoP paths of its complete steps.
 
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
     Returns:
         The figure, or None where no foot has geometry.
     """
@@ -189,6 +193,7 @@ def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
 
     Args:
         recording: The recording; of a platform the first footprint of each foot is shown.
+        feet: The gait of its feet.
 
     Returns:
         The figure, or None where no foot has regions.

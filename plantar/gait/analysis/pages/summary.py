@@ -70,6 +70,10 @@ def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
 def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:
     """Symmetry index of each measure in percent: 100 (L - R) / ((L + R) / 2) of the feet's means (Robinson 1987).
 
+    Args:
+        feet: The feet that were recorded.
+        names: The measures.
+
     Returns:
         0 for symmetry, above 0 where the left foot's value is larger; None where a foot has no value, the two have
         opposite signs or are below what is resolved, and of angles.

@@ -35,11 +35,7 @@ class _Shown(NamedTuple):
 
 
 def shown_as(key: str, measure: Measure, raw: bool) -> _Shown:
-    """How a measure is shown.
-
-    Args:
-        raw: Whether the recording is of counts.
-    """
+    """Gives how a measure of a key is shown, in a recording of counts if raw."""
     if raw and raw_name(key) != key:
         unit = next((u for end, u in _UNITS_OF_COUNTS.items() if key.endswith(end)), "counts")
         return _Shown(raw_name(key), titled(measure.title, unit), 1.0)

@@ -137,6 +137,7 @@ def footprint_of_cells(
         layout: The sensor, n cells.
         pressure: Largest pressure (n,) of each cell.
         loaded: Which cells (n,) are part of the print.
+        side: The foot.
         forward: Direction (2,) from heel to toes, from which the print's own axis is found; the sole's x axis, as it
             is, where None.
 
@@ -158,7 +159,11 @@ def footprint_of_pixels(
     Args:
         centres: Middles (n, 2) of the pixels in m, x and y as in the sole frame.
         pixel: Their size in m.
+        side: The foot.
         forward: Direction (2,) from heel to toes, about.
+
+    Returns:
+        The footprint.
     """
     box = 0.5 * pixel * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     rings = centres[:, None, :] + box

@@ -86,6 +86,7 @@ def cells_of_prints(load: PlatformLoad, threshold: float) -> list[PrintCells]:
     """The footprints on a platform, in the order in which they begin.
 
     Args:
+        load: What its cells carried.
         threshold: Force in N above which a cell counts as loaded.
 
     Returns:

@@ -71,6 +71,10 @@ def passes_over(load: PlatformLoad, prints: Sequence[PrintCells]) -> list[Platfo
 def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float64]:
     """Direction (2,) of walking: from the first footprints to the last ones, or along the platform.
 
+    Args:
+        walk: A pass.
+        notes: Takes what had to be assumed.
+
     Returns:
         A unit vector in the platform's frame.
     """
@@ -98,8 +102,10 @@ def sides_of_walk(
     """The foot of each footprint of a pass.
 
     Args:
+        walk: A pass.
         forward: Direction (2,) of walking.
         stated: The foot that the file names; it holds where the footprints lie in one line.
+        notes: Takes what had to be assumed.
 
     Returns:
         The sides, in the order of the footprints.

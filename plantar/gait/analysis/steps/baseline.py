@@ -85,6 +85,7 @@ def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | Non
 
     Args:
         force: Vertical force (n,), NaN where it was not measured.
+        rate: Frames a second.
 
     Returns:
         The level; None where the force returns to no flat level, as in standing. Where it changes, it is that of each

@@ -101,6 +101,7 @@ def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
     across the foot, positive to the lateral side, is given as a share of the footprint's width there.
 
     Args:
+        print_: The footprint.
         points: Positions (m, 2) in the frame that the print was made from, NaN where there is none.
 
     Returns:
@@ -123,6 +124,7 @@ def margin_to_outline(layout: SoleLayout, points: NDArray[np.float64]) -> float:
     """Smallest signed distance of points to the edges of a sole's convex outline.
 
     Args:
+        layout: The sole.
         points: Positions (m, 2) in the sole frame in m, 1 or more.
 
     Returns:

@@ -155,6 +155,7 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool 
 
     Args:
         force: Vertical force (n,) in N; NaN where it was not measured.
+        kind: What measured it.
         lifted: Whether the least that it carries is what it carries in swing; else it is never off the ground.
 
     Returns:
@@ -427,7 +428,9 @@ def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contac
 
     Args:
         force: Vertical force (n,) of the foot in N.
+        rate: Frames a second.
         levels: The foot's levels.
+        contact: One of its contacts.
 
     Returns:
         How often the foot lands in it; 0 where the contact is short.

@@ -19,11 +19,14 @@ _MOST_FRAMES = 200
 
 
 def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[str, float]]:
-    """Measures of the pressures of each contact.
+    """Measures of a contact's pressures.
 
     Args:
-        load: The contacts, with pressures.
+        load: The contact, with pressures.
         layout: Where the cells are; None where only the values are known.
+
+    Returns:
+        The measures by their key.
     """
     assert load.pressure is not None
     highest = load.pressure.max(axis=1)
@@ -102,6 +105,10 @@ def robot_measures(load: StepLoad, layout: SoleLayout) -> dict[str, float]:
     """Wrench of a sole of taxels, and margin of its centre of pressure to the support polygon.
 
     Both are of the loaded cells at one instant: forces that push keep their CoP inside the hull of their cells.
+
+    Args:
+        load: The contact.
+        layout: The sole.
 
     Returns:
         Largest magnitudes of the wrench's components about the sole frame's origin, and the smallest and mean margin.

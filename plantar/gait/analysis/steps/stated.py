@@ -22,6 +22,7 @@ def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Con
 
     Args:
         time: Times (n,) of the frames in s.
+        events: The events.
 
     Returns:
         The contacts in order, each from a heel strike to the toe off before the next one; a toe off before the first
@@ -52,6 +53,7 @@ def stated_beside_own(events: StatedEvents | None, gait: FootGait) -> dict[str, 
 
     Args:
         events: What the file states of the foot; None for nothing.
+        gait: The foot with its contacts.
 
     Returns:
         heel_strikes_s and toe_offs_s as stated; heel_strike_difference_s and toe_off_difference_s of those that were

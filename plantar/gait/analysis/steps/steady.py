@@ -43,7 +43,10 @@ def with_used_steps(
     the options name steps. An odd step between others stays in the means.
 
     Args:
+        gait: One foot with its measured steps.
+        options: Which steps the reader wants.
         kind: What measured; footprints on a platform are no walk of many steps, and none starts it.
+        raw: Whether forces are counts.
         activity: Activity whose steps are in the means; every one where empty.
 
     Returns:

@@ -23,6 +23,11 @@ __all__ = ["footprint_of_step", "print_of_contact", "with_picture"]
 def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> FootGait:
     """The gait with its maximum pressure picture, and in an insole or sole that picture's footprint and regions.
 
+    Args:
+        recording: The recording.
+        gait: One foot of it.
+        loads: What its cells carried.
+
     Returns:
         The same with `picture`, `footprint`, `sole` and `region`, as far as there is geometry.
     """
@@ -72,7 +77,11 @@ def footprint_of_step(
     """Footprint and regions of one step.
 
     Args:
+        recording: The recording.
         gait: One foot of it, with its picture.
+        loads: What its cells carried.
+        contact: The step.
+        prints: The footprints of a platform.
 
     Returns:
         The footprint and the region (k,) of each cell, -1 for none; None without geometry.
@@ -93,6 +102,8 @@ def print_of_contact(contact: Contact, side: Side, prints: Sequence[PlatformPrin
     """The footprint of a platform that shares most frames with a contact of its foot.
 
     Args:
+        contact: The contact.
+        side: Which foot made it.
         prints: Footprints that were found on the platform.
 
     Returns:

@@ -144,6 +144,7 @@ def cell_threshold(
     A cell that reads something in most frames of swing, such as one that a shoe presses on, counts above that reading.
 
     Args:
+        recording: The recording.
         foot: One foot of it, n frames of k cells.
         contacts: Its contacts; between them the noise is measured.
 

@@ -31,7 +31,10 @@ def step_measures(
     """Everything of one step that does not need other steps.
 
     Args:
+        recording: The recording.
+        gait: One foot of it.
         contact: The step, complete.
+        print_: The footprint that lengths and regions are of; None without geometry.
         pressures: Measures of its pressures; empty where none are known.
         load: What a robot's cells carried in the step.
 

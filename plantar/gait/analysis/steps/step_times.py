@@ -76,10 +76,14 @@ def time_measures(
     """Measures of time of one complete contact. What takes both feet is NaN where the other one was not measured.
 
     Args:
+        contact: The contact.
         previous: The contact of the same foot before it.
         stride: Its stride time in s; NaN where it is not known.
         longest: Time in s from the contact before it that holds a pause, see `longest_stride`.
         others: The contacts of the other foot, None where it was not recorded.
+
+    Returns:
+        The measures by their key.
     """
     strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
     duration = lift - strike

@@ -82,6 +82,7 @@ def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
 
     Args:
         force: Vertical force (n,), NaN where it was not measured.
+        rate: Frames a second.
 
     Returns:
         The levels; None where fewer than three swings between contacts are found.

@@ -134,6 +134,7 @@ def mean_of(recordings: Sequence[RecordingResult], key: str) -> float:
 
     Args:
         recordings: The participant's recordings in one condition.
+        key: The measure.
 
     Returns:
         The mean; NaN where none has it.

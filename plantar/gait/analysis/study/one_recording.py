@@ -115,6 +115,7 @@ def key_of(
         who: What the table states about the recording.
         digest: SHA-256 of its file.
         choices: Which steps are in the means, and whose events.
+        options: What is known of all files.
 
     Returns:
         A digest of all of them and of the version.
@@ -140,6 +141,9 @@ def measure_recording(
         choices: Which steps are in the means, and whose events.
         digest: SHA-256 of the file.
         options: What is known of all files; what the table states about one goes before it.
+
+    Returns:
+        The result.
 
     Raises:
         PlantarError: If the recording cannot be read.
@@ -264,6 +268,9 @@ def sampled(
         points: Centres (k, 2) of the cells, forward and to the medial side.
         values: Their values (k,).
         corners: Points (m, 2) whose extent is the sole's.
+
+    Returns:
+        The map.
     """
     low, extent = corners.min(axis=0), np.ptp(corners, axis=0)
     along = low[0] + (np.arange(GRID[0]) + 0.5) / GRID[0] * extent[0]
@@ -302,6 +309,7 @@ def read_result(path: Path, key: str) -> RecordingResult | None:
     """A result that was kept.
 
     Args:
+        path: Its file.
         key: What it has to be measured with.
 
     Returns:

@@ -128,9 +128,14 @@ def run_study(
         folder: The folder of recordings, looked through with its folders.
         out: Output folder, made if needed.
         participants: Table of who walked in which condition, see `read_participants`; without it each file is a
+        participant
+            and nothing is compared.
         progress: Called with a fraction 0..1 and what is being done.
         choices: Which steps are in the means, and whose events.
         options: What is known of all files; what the table states about one goes before it.
+
+    Returns:
+        The study.
 
     Raises:
         InputError: If the folder holds no recording, a value in the table is not possible, or the events are those of a

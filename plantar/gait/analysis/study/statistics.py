@@ -105,6 +105,9 @@ def student_quantile(probability: float, freedom: float) -> float:
         probability: 0.5 or more, below 1.
         freedom: Degrees of freedom, 1 or more.
 
+    Returns:
+        The quantile.
+
     Example:
         >>> round(student_quantile(0.975, 9.0), 4), round(student_quantile(0.975, 1e6), 3)
         (2.2622, 1.96)
@@ -142,7 +145,9 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
     Args:
         a: Values (n,) in A, two or more.
         b: Values (m,) in B; of pairs in the same order.
+        paired: Whether they are pairs.
         p: Its probability in a permutation test of it alone.
+        p_all: That among all measures.
 
     Returns:
         The effect; its size is NaN where the participants do not differ from each other, so that nothing measures it.
@@ -205,8 +210,12 @@ def permutation_test(
     Args:
         a: Samples (n, k) of A, two or more.
         b: Samples (m, k) of B; of pairs in the same order.
+        paired: Whether they are pairs.
         neighbours: Neighbours of each value, which clusters are made of; each value is one by itself where None.
         permutations: Permutations that are drawn where there are more; all of them where there are fewer.
+
+    Returns:
+        The test.
 
     Example:
         >>> random = np.random.default_rng(0)

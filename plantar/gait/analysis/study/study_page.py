@@ -31,7 +31,11 @@ def study_page(
     """The page as text.
 
     Args:
+        summary: What `Study.summary` gives.
+        results: The recordings.
+        comparisons: Every two conditions.
         figures: PNG files to embed, with captions.
+        name: Name of the study.
 
     Returns:
         HTML that refers to no other file and no network.
