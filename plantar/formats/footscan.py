@@ -20,7 +20,7 @@ from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
-from plantar.formats.text import head_text, number, open_text, row_of_numbers
+from plantar.formats.text import cells_of_row, head_text, number, open_text, row_of_numbers
 from plantar.formats.units import find_unit
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import (
@@ -116,7 +116,7 @@ def _take_frames(
     for time, body in _bodies(path, lines):
         delimiter = next((d for d in "\t;," if d in body[0]), None) if body else None
         if table is None:
-            shape = len(body), len(_cells(body[0], delimiter)) if body else 0
+            shape = len(body), len(cells_of_row(body[0], delimiter)) if body else 0
             if not 0 < shape[0] * shape[1] <= _LARGEST:
                 raise FormatError(f"{path}: a plate of {shape[0]} x {shape[1]} cells cannot be read")
             usual = sum(len(line) + 1 for line in body)
@@ -125,7 +125,7 @@ def _take_frames(
         values = np.full(shape, np.nan)
         last_is_odd = len(body) != shape[0]
         for r, line in enumerate(() if last_is_odd else body):
-            row, wrong = row_of_numbers(_cells(line, delimiter)[: shape[1]])
+            row, wrong = row_of_numbers(cells_of_row(line, delimiter)[: shape[1]])
             last_is_odd |= wrong > 0 or len(row) != shape[1]
             values[r, : len(row)] = row
         table.add(values[::-1].reshape(1, -1))
@@ -165,14 +165,6 @@ def _bodies(path: Path, lines: Iterator[str]) -> Iterator[tuple[float, list[str]
                 if len(body) > _MOST_ROWS:
                     raise FormatError(f"{path}: a frame has more than {_MOST_ROWS} rows")
         yield stated, body
-
-
-def _cells(line: str, delimiter: str | None) -> list[str]:
-    """The cells of a row, without the empty ones after its last delimiter."""
-    cells = line.split(delimiter)
-    while cells and not cells[-1].strip():
-        cells.pop()
-    return cells
 
 
 FORMAT = Format(

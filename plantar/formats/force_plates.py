@@ -179,21 +179,13 @@ def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
 def _zero(values: NDArray[np.float64], empty: NDArray[np.bool_]) -> NDArray[np.float64]:
     """What columns (n, k) read when empty: straight lines between the means of runs of empty frames where these differ
     by more than their scatter, else one mean; 0 for a column that holds no number."""
-    n, runs = len(values), _runs(empty)
     known = np.where(np.isfinite(values), values, 0.0)
-    whole = known[empty].mean(axis=0)
-    means = np.array([known[a:b].mean(axis=0) for a, b in runs])
-    lengths = np.array([b - a for a, b in runs], dtype=float)
-    scatter = np.std([np.std(known[a:b], axis=0) for a, b in runs], axis=0) + np.mean(
-        [np.std(known[a:b], axis=0) for a, b in runs], axis=0
-    )
-    out = np.tile(whole, (n, 1))
-    ends = [(a, b) for a, b in runs for a, b in ((a, (a + b) // 2), ((a + b) // 2, b)) if b > a]
-    places = np.array([0.5 * (a + b) for a, b in ends])
-    for k in range(values.shape[1]):
-        halves = np.array([known[a:b, k].mean() for a, b in ends])
-        if np.ptp(halves) > 1.5 * scatter[k] and len(means) and lengths.min() > 2:
-            out[:, k] = np.interp(np.arange(n), places, halves)
+    out = np.tile(known[empty].mean(axis=0), (len(values), 1))
+    halves = [(a, b) for c, d in _runs(empty) for a, b in ((c, (c + d) // 2), ((c + d) // 2, d)) if b - a > 1]
+    means = np.array([known[a:b].mean(axis=0) for a, b in halves])
+    scatter = np.mean([known[a:b].std(axis=0) for a, b in halves], axis=0) if halves else 0.0
+    for k in np.flatnonzero(np.ptp(means, axis=0) > 1.5 * scatter) if halves else ():
+        out[:, k] = np.interp(np.arange(len(values)), [0.5 * (a + b) for a, b in halves], means[:, k])
     return out
 
 

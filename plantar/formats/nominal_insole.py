@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.geometry.polygon import area, centroid
 from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout, mirrored
 
 __all__ = ["CELL_AREAS", "DEFAULT_SIZE", "ROWS", "WIDE_ROWS", "insole_outline", "nominal_insole"]
@@ -152,10 +153,10 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
             corners.append((vertex(row, b), vertex(row + 1, b), vertex(row + 1, a), vertex(row, a)))
             spans.append((row, a, b))
     unit = np.array(points)
-    scale = float(np.sqrt(areas.sum() / sum(_area(unit[list(c)]) for c in corners)))
+    scale = float(np.sqrt(areas.sum() / sum(area(unit[list(c)]) for c in corners)))
     vertices = np.column_stack([unit * scale, np.zeros(len(unit))])
     edge = np.concatenate([np.column_stack([stations, lateral]), np.column_stack([stations, medial])[::-1]])
-    positions = np.array([_centroid(vertices[list(c), :2]) for c in corners])
+    positions = np.array([centroid(vertices[list(c), :2]) for c in corners])
     n = len(corners)
     right = SoleLayout(  # y to the left is the medial side of a right foot
         name=f"nominal 99-cell insole, size {size.upper()}",
@@ -175,17 +176,6 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
         thresholds={"force": 10e3 * float(areas.mean())},  # 10 kPa: below what such insoles resolve
     )
     return right if side == "right" else mirrored(right)
-
-
-def _area(ring: NDArray[np.float64]) -> float:
-    x, y = ring.T
-    return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
-
-
-def _centroid(ring: NDArray[np.float64]) -> NDArray[np.float64]:
-    x, y = ring.T
-    cross = x * np.roll(y, -1) - np.roll(x, -1) * y
-    return np.asarray(((ring + np.roll(ring, -1, axis=0)) * cross[:, None]).sum(axis=0) / (3.0 * cross.sum()))
 
 
 def _neighbours(spans: list[tuple[int, float, float]]) -> tuple[tuple[int, ...], ...]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError, LayoutError
 from plantar.geometry.polygon import area, centroid, convex_hull
+from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
 from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout
 
 __all__ = ["polygon_layout", "subset"]
@@ -38,25 +39,7 @@ def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], 
     if not len(sizes) or not (sizes > 0.0).all():
         raise FormatError("a cell of the recording's geometry has no area")
     grain = 1e-3 * float(np.sqrt(np.median(sizes)))
-    index: dict[tuple[int, int], int] = {}
-    points: list[NDArray[np.float64]] = []
-    corners: list[tuple[int, ...]] = []
-    for ring in rings:
-        keys = [(round(float(x) / grain), round(float(y) / grain)) for x, y in ring]
-        for key, point in zip(keys, ring, strict=True):
-            if key not in index:
-                index[key] = len(points)
-                points.append(point)
-        corners.append(tuple(index[key] for key in keys))
-    owners: dict[frozenset[int], list[int]] = {}
-    for i, cell in enumerate(corners):
-        for a, b in zip(cell, [*cell[1:], cell[0]], strict=True):
-            owners.setdefault(frozenset((a, b)), []).append(i)
-    near: list[set[int]] = [set() for _ in corners]
-    for cells in owners.values():
-        for a in cells:
-            near[a].update(b for b in cells if b != a)
-    vertices = np.array(points)
+    vertices, corners = shared_vertices(rings, grain)
     cell_area = float(np.median(sizes))
     try:
         return SoleLayout(
@@ -66,7 +49,7 @@ def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], 
             rotations=np.broadcast_to(np.eye(3), (len(rings), 3, 3)),
             vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
             corners=tuple(corners),
-            neighbours=tuple(tuple(sorted(s)) for s in near),
+            neighbours=edge_neighbours(corners),
             areas=sizes,
             outline=convex_hull(vertices),
             ids=np.array(ids),

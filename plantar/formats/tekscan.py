@@ -20,7 +20,7 @@ from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
 from plantar.formats.number_rows import number_rows
 from plantar.formats.side import side_of
-from plantar.formats.text import head_text, number, number_in, open_text, row_of_numbers
+from plantar.formats.text import cells_of_row, head_text, number, number_in, open_text, row_of_numbers
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.let_go import blocks_of_frames
@@ -208,7 +208,7 @@ def _shape(
     first = bodies[0]
     rows = rows or int(np.median([len(b) for b in bodies]))
     delimiter = next((d for d in ";\t," if first and d in first[0]), None)
-    widths = [len([c for c in _cells(line, delimiter) if c.strip()]) for line in first] or [0]
+    widths = [len([c for c in cells_of_row(line, delimiter) if c.strip()]) for line in first] or [0]
     columns = _stated(header, "COLS") or int(np.median(widths))
     if rows < 1 or columns < 1 or rows * columns > _LARGEST:
         raise FormatError(f"{path}: a matrix of {rows} x {columns} cells cannot be read; allowed: up to {_LARGEST}")
@@ -225,18 +225,11 @@ def _matrix(body: list[str], delimiter: str | None, rows: int, columns: int) -> 
     bad = 0
     values = np.full((rows, columns), np.nan)
     for r, line in enumerate(body):
-        cells = _cells(line, delimiter)[:columns]
+        cells = cells_of_row(line, delimiter)[:columns]
         row, wrong = row_of_numbers(["" if c.strip().upper() == "B" else c for c in cells])
         bad += wrong + (len(cells) != columns)
         values[r, : len(row)] = row
     return values, bad
-
-
-def _cells(line: str, delimiter: str | None) -> list[str]:
-    cells = line.split(delimiter)
-    while cells and not cells[-1].strip():
-        cells.pop()
-    return cells
 
 
 def _fast(body: list[str], delimiter: str | None, rows: int, columns: int) -> NDArray[np.float64] | None:

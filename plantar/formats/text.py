@@ -17,6 +17,7 @@ from plantar.files.text_table import encoding_of
 
 __all__ = [
     "blocks_of_lines",
+    "cells_of_row",
     "head_text",
     "number",
     "number_in",
@@ -109,6 +110,14 @@ def head_text(head: bytes) -> str | None:
     if text.count("\0") > _ZEROS * len(text):
         return None
     return text.replace("\0", "").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def cells_of_row(line: str, delimiter: str | None) -> list[str]:
+    """Gives the cells of a line between its delimiter (None: blanks), without the empty ones at its end."""
+    cells = line.split(delimiter)
+    while cells and not cells[-1].strip():
+        cells.pop()
+    return cells
 
 
 def number(text: str) -> float | None:

@@ -17,7 +17,7 @@ from plantar.gait.analysis.measures import raw_name
 from plantar.gait.analysis.mirrored_feet import mirrored_doubts
 from plantar.gait.analysis.pages.summary import gait_of_feet, regions_of_foot, summary_of_foot, symmetry
 from plantar.gait.analysis.pages.tables import EACH_STEP
-from plantar.gait.analysis.spread import Spread, spread
+from plantar.gait.analysis.spread import spread
 from plantar.gait.analysis.steps.events import MINIMUM_STANCE, find_contacts
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
 from plantar.gait.analysis.steps.force_curve import landing_impact
@@ -195,7 +195,10 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
             named(key): {**dataclasses.asdict(value), "error": errors.get(key)}
             for key, value in summary_of_foot(gait).items()
         },
-        "regions": {region: _spreads(values, named) for region, values in regions_of_foot(gait).items()},
+        "regions": {
+            region: {named(key): dataclasses.asdict(value) for key, value in values.items()}
+            for region, values in regions_of_foot(gait).items()
+        },
     }
 
 
@@ -225,10 +228,6 @@ def _levels(gait: FootGait) -> dict[str, float | None]:
         "contact_level_N": None if levels is None else levels.contact,
         "toe_off_level_N": None if levels is None else min(levels.lift, levels.contact),
     }
-
-
-def _spreads(values: Mapping[str, Spread], named: Callable[[str], str]) -> dict[str, Any]:
-    return {named(key): dataclasses.asdict(value) for key, value in values.items()}
 
 
 def _plain(value: float) -> float | None:

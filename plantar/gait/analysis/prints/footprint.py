@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.geometry.polygon import convex_hull
+from plantar.geometry.polygon import area, convex_hull
 from plantar.layouts.layout import Side, SoleLayout
 
 __all__ = ["Footprint", "footprint_of_cells", "footprint_of_pixels"]
@@ -94,8 +94,8 @@ class Footprint:
             areas[~((first >= low) & (last <= high)) & (last > low) & (first < high)],
             strict=True,
         ):
-            whole = _area(ring)
-            total += float(cell) * (_area(_cut(_cut(ring, low, 1.0), high, -1.0)) / whole if whole > 0.0 else 0.0)
+            whole = abs(area(ring))
+            total += float(cell) * (abs(area(_cut(_cut(ring, low, 1.0), high, -1.0))) / whole if whole > 0.0 else 0.0)
         return total
 
     def arch_index(self) -> float:
@@ -219,13 +219,6 @@ def _middle_of_band(
         return None
     middle = 0.5 * float(across[inside].min() + across[inside].max())
     return np.asarray(0.5 * (low + high) * axis + middle * np.array([-axis[1], axis[0]]))
-
-
-def _area(ring: NDArray[np.float64]) -> float:
-    if len(ring) < 3:
-        return 0.0
-    x, y = (ring - ring[0]).T
-    return 0.5 * abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
 
 
 def _cut(ring: NDArray[np.float64], at: float, sign: float) -> NDArray[np.float64]:

@@ -123,17 +123,11 @@ def in_one_window(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
             replace(s, used=False, unused="outside the other foot's steps") if s.number in late else s
             for s in gait.steps
         )
-        notes = (
-            [f"{_numbers(late)} of the {side} foot lie outside the other foot's steps in the means: left out"]
-            if late
-            else []
-        )
+        names = ", ".join(map(str, late))
+        text = f"steps {names} of the {side} foot lie outside the other foot's steps in the means: left out"
+        notes = [text] if late else []
         out[side] = replace(gait, steps=steps, warnings=(*gait.warnings, *notes))
     return out
-
-
-def _numbers(numbers: Sequence[int]) -> str:
-    return f"steps {', '.join(map(str, numbers))}"
 
 
 def _unused(chosen: bool, within: bool, reason: str) -> str:
