@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from plantar.errors import FootError, InputError
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout import Side, SoleLayout
-from plantar.shoes.cad_kernel import load_cadquery
+from plantar.shoes.cad_kernel import load_kernel
 from plantar.shoes.cells.cell import Cell
 from plantar.shoes.fit.cell_fit import fit_cells
 from plantar.shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim
@@ -27,8 +27,9 @@ from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
 from plantar.shoes.plan.strength import load_case, strengthened
 from plantar.shoes.plan.touching import Touching, check_touching, softened
 from plantar.shoes.solid.body import bare_floor, mark_outline, mirrored_steps, shoe_steps
+from plantar.shoes.solid.kernel import build_solid
+from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import Retention, choose_retention
-from plantar.shoes.solid.tray import build_solid, surface_of
 from plantar.sides import SIDES
 
 __all__ = [
@@ -66,12 +67,12 @@ class Shoe:
 
     Attributes:
         plan: Outlines seen from above in mm, and the layout.
-        solid: The cadquery solid in mm in the sole frame; None where only the layout was asked for.
+        solid: The solid in mm in the sole frame; None where only the layout was asked for.
         surface: Its triangles (n, 3, 3) in mm; None where only the layout was asked for.
     """
 
     plan: ShoePlan
-    solid: Any | None = None
+    solid: Polyhedron | None = None
     surface: NDArray[np.float64] | None = None
 
     @property
@@ -151,7 +152,7 @@ def build_shoe(
             rim, and `cell_area` is not read.
         parameters: Dimensions of the shoe; None takes the defaults.
         name: Name of the layout; None takes the foot's.
-        layout_only: Leave the solid out, and with it cadquery.
+        layout_only: Leave the solid out, and with it OpenCascade.
         progress: Receives fraction and text.
 
     Returns:
@@ -320,7 +321,7 @@ def built_sides(
     """
     p = parameters
     tell(0.1, "loading the CAD kernel")
-    load_cadquery()
+    load_kernel()
     shoes = []
     for i, shoe in enumerate(planned_sides(left, sides)):
         plan, which = shoe.plan, shoe.side
@@ -329,6 +330,6 @@ def built_sides(
         letters = mark_outline(plan, p, which, bare_floor(own)).geoms
         mark = tuple(Block(g, p.thickness - p.mark_depth, p.thickness + 0.5) for g in letters)
         solid = build_solid((*own, Step("cut", "mark", mark)))
-        shoes.append(Shoe(plan, solid, surface_of(solid)))
+        shoes.append(Shoe(plan, solid, solid.surface))
     tell(1.0, "all sides built")
     return tuple(shoes)

@@ -19,8 +19,8 @@ from plantar.shoes.papers.stl import write_stl
 from plantar.shoes.plan.block import Block, Step
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.solid.body import insole_steps, shoe_steps
+from plantar.shoes.solid.kernel import build_solid
 from plantar.shoes.solid.retention import Retention, choose_retention
-from plantar.shoes.solid.tray import build_solid, surface_of
 
 __all__ = ["Coupon", "build_coupons", "write_coupons"]
 
@@ -78,7 +78,7 @@ def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tupl
     out = []
     for i, (name, text, window) in enumerate(windows):
         tell(i / len(windows), f"building the coupon of a {name}")
-        out.append(Coupon(name, text, window, surface_of(build_solid(_limited(steps, window)))))
+        out.append(Coupon(name, text, window, build_solid(_limited(steps, window)).surface))
     return tuple(out)
 
 

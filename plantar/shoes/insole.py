@@ -42,7 +42,7 @@ def build_insole(
         cell: Other cells than hexagons of skin, as in `build_shoe`; then `rim` and `cell_area` are not read.
         parameters: Dimensions; None takes the defaults.
         name: Name of the layout; None takes the foot's.
-        layout_only: Leave the solid out, and with it cadquery.
+        layout_only: Leave the solid out, and with it OpenCascade.
         progress: Receives fraction and text.
 
     Returns:

@@ -18,7 +18,7 @@ from plantar.shoes import Foot, ShoeBuild, ShoeParameters, build_shoe, export_sh
 from plantar.shoes.checks.check import ShoeCheck, check_shoe
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.papers.stl import read_stl, write_stl
-from plantar.shoes.solid.tray import read_step, write_step
+from plantar.shoes.solid.step_model import StepPart, read_step, write_step
 
 NAMES = (
     "flat_box",
@@ -40,8 +40,9 @@ def checked(build: ShoeBuild, folder: Path) -> ShoeCheck:
     shoe = build.shoes[0]
     assert shoe.surface is not None
     write_stl(shoe.surface, folder / "shoe.stl")
-    write_step(shoe.solid, str(folder / "shoe.step"))
-    return check_shoe(shoe, build, surface=read_stl(folder / "shoe.stl"), step=read_step(str(folder / "shoe.step")))
+    assert shoe.solid is not None
+    write_step([StepPart("a", shoe.solid, {}, (1.0, 1.0, 1.0))], folder / "shoe.step", "a")
+    return check_shoe(shoe, build, surface=read_stl(folder / "shoe.stl"), step=read_step(folder / "shoe.step"))
 
 
 def test_sides_are_what_was_asked_and_mirror_each_other(small_foot: Foot) -> None:

@@ -197,9 +197,11 @@ def test_a_robots_model_and_a_drawing_give_layouts(run: Run, stl: Writer, box: S
 
 def test_a_step_file_is_a_foot(run: Run, tmp_path: Path) -> None:
     from plantar.shoes.plan.block import Step, box_block
-    from plantar.shoes.solid.tray import build_solid, write_step
+    from plantar.shoes.solid.kernel import build_solid
+    from plantar.shoes.solid.step_model import StepPart, write_step
 
-    write_step(build_solid([Step("add", "a", (box_block((-60, -45, 0), (140, 45, 50)),))]), str(tmp_path / "foot.step"))
+    solid = build_solid([Step("add", "a", (box_block((-60, -45, 0), (140, 45, 50)),))])
+    write_step([StepPart("a", solid, {}, (1.0, 1.0, 1.0))], tmp_path / "foot.step", "a")
     code, out, err = run(tmp_path / "foot.step", "--layout-only", "-o", tmp_path / "out", "--json")
     assert (code, err) == (0, "")
     assert json.loads(out)["taxels"] == 20

@@ -28,9 +28,10 @@ from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan
 from plantar.shoes.plan.strength import LoadCase, Member, check_strength
 from plantar.shoes.plan.touching import ACTIVE_LEAST, AREA_OFF, COP_OFF
 from plantar.shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
+from plantar.shoes.solid.step_model import StepSolid
 from plantar.shoes.units import to_mm
 
-__all__ = ["Check", "ShoeCheck", "check_shoe", "corner_errors"]
+__all__ = ["Check", "ShoeCheck", "check_plan", "check_shoe", "corner_errors"]
 
 _OVERHANG_SHARE = 0.02  # of the contact face: what may hang over without support on a printer that lays lines
 _FLAT_SHARE, _HALF_SHARE = 0.95, 0.80  # of the load: what goes past the taxels is an error of every force read
@@ -76,6 +77,8 @@ class ShoeCheck:
         weights: Masses in g.
         pull_off: How firmly it is held; None where nothing holds it, as asked for.
         checks: The single checks.
+        shortest_edge_mm: Of the STEP.
+        arc_share: Share of its bent walls that cylinders and cones are, 0..1; 1 where none is bent.
     """
 
     watertight: bool
@@ -94,6 +97,8 @@ class ShoeCheck:
     weights: Weights
     pull_off: PullOff | None
     checks: tuple[Check, ...]
+    shortest_edge_mm: float
+    arc_share: float
 
     @property
     def holds(self) -> bool:
@@ -101,14 +106,14 @@ class ShoeCheck:
         return all(c.holds for c in self.checks)
 
 
-def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> ShoeCheck:
+def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid) -> ShoeCheck:
     """Measure one exported shoe.
 
     Args:
         shoe: The shoe as built.
         build: What it belongs to.
         surface: Triangles (n, 3, 3) in mm, as read back from the STL.
-        step: The cadquery shape as read back from the STEP.
+        step: The solid as read back from the STEP.
 
     Returns:
         The measures and checks; nothing is raised for a check that does not hold.
@@ -119,7 +124,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
     p = build.parameters
     mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(surface))
     watertight = bool(mesh.is_watertight and mesh.is_winding_consistent and mesh.volume > 0.0)
-    volume = float(step.Volume())
+    volume = step.volume
     difference = 100.0 * abs(float(mesh.volume) / volume - 1.0) if volume > 0.0 else math.inf
     shoe_kind, plan = build.kind == "shoe", _left(shoe, build)
     engraved = ((p.bottom - 0.01, p.bottom + p.scribe + 0.01), (p.thickness - p.mark_depth - 0.01, p.thickness + 0.01))
@@ -138,11 +143,9 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
         *_solid_checks(step, watertight, int(mesh.body_count), difference),
         Check("thinnest wall, mm", wall >= p.wall_min - 1e-2, round(wall, 3), f"{p.wall_min:g} or more"),
         *_layout_checks(shoe, p, step),
-        *_rim_checks(shoe.plan, build),
+        *check_plan(shoe.plan, build),
         *_feature_checks(features),
-        *_contact_checks(shoe.plan, build),
         *(_insole_checks(shoe, surface, p) if mounting is None else _mounting_checks(mounting, reach, shoe, build)),
-        *_share_checks(share),
         *(() if held is None else _holding_checks(held)),
         *_lead_checks(shoe.plan, p),
         *_strength_checks(load, members, build, len(shoe.layout)),
@@ -166,7 +169,14 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
         weights=weights,
         pull_off=held,
         checks=checks,
+        shortest_edge_mm=round(step.shortest, 3),
+        arc_share=round(step.round / (step.round + step.flat), 3) if step.round + step.flat > 0.0 else 1.0,
     )
+
+
+def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
+    """What the layout alone decides: blind rim, center of pressure, taxels that touch, and their share of the load."""
+    return (*_rim_checks(plan, build), *_contact_checks(plan, build), *_share_checks(build.load_share))
 
 
 def _left(shoe: Shoe, build: ShoeBuild) -> ShoePlan:
@@ -178,16 +188,15 @@ def _left(shoe: Shoe, build: ShoeBuild) -> ShoePlan:
     )
 
 
-def _solid_checks(step: Any, watertight: bool, bodies: int, difference: float) -> Iterator[Check]:
-    valid, solids = bool(step.isValid()), len(step.Solids())
-    yield Check("solid valid", valid, valid, "true")
-    yield Check("solids", solids == 1, float(solids), "1")
+def _solid_checks(step: StepSolid, watertight: bool, bodies: int, difference: float) -> Iterator[Check]:
+    yield Check("solid valid", step.valid, step.valid, "true")
+    yield Check("solids", step.solids == 1, float(step.solids), "1")
     yield Check("watertight", watertight, watertight, "true")
     yield Check("separate surfaces in the STL", bodies == 1, float(bodies), "1")
     yield Check("STL against STEP volume, %", difference <= 0.5, round(difference, 6), "0.5 or less")
 
 
-def _layout_checks(shoe: Shoe, p: ShoeParameters, step: Any) -> Iterator[Check]:
+def _layout_checks(shoe: Shoe, p: ShoeParameters, step: StepSolid) -> Iterator[Check]:
     cells, pockets = corner_errors(shoe, p, step)
     if p.scribe > 0.0:
         yield Check("cell corners against the solid, mm", cells <= 0.05, round(cells, 6), "0.05 or less")
@@ -344,13 +353,13 @@ def _reach(plan: ShoePlan, surface: Array) -> float:
     return float(max(plan.foot.distance(shapely.points(ring(hull)))))
 
 
-def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: Any) -> tuple[float, float]:
+def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tuple[float, float]:
     """How far corners in the solid are from where the layout states.
 
     Args:
         shoe: The shoe.
         parameters: Its dimensions.
-        step: The cadquery shape as read back from the STEP.
+        step: The solid as read back from the STEP.
 
     Returns:
         Largest distance in mm of a cell's corner in the layout from a corner of the groove that marks the cells in the
@@ -360,7 +369,6 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: Any) -> tuple[fl
     import shapely
 
     p = parameters
-    found = np.array([v.toTuple() for v in step.Vertices()])
     cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(0.05)
     cable = cable.union(
         shapely.union_all(pocket_outlines(shoe.plan, p)).buffer(-1e-3)
@@ -369,16 +377,18 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: Any) -> tuple[fl
     corners = np.concatenate([to_mm(shoe.layout.cell_polygon(i)) for i in range(len(shoe.layout))])
     pockets = np.concatenate([ring(q) for q in shoe.plan.pockets])
     kept, pockets = (c[~shapely.contains_xy(cable, c[:, 0], c[:, 1])] for c in (corners, pockets))
-    return _farthest(kept, found, p.bottom + p.scribe), _farthest(pockets, found, p.ceiling)
+    return _farthest(kept, step, p.bottom + p.scribe), _farthest(pockets, step, p.ceiling)
 
 
-def _farthest(wanted: Array, found: Array, height: float) -> float:
-    """Largest distance from a wanted point (n, 2) to the nearest of the corners found at a height."""
-    level = found[np.abs(found[:, 2] - height) < 1e-3, :2]
+def _farthest(wanted: Array, step: StepSolid, height: float) -> float:
+    """Largest distance from a wanted point (n, 2) to the nearest of the corners and circles found at a height."""
+    level = step.corners[np.abs(step.corners[:, 2] - height) < 1e-3, :2]
+    round_ = step.circles[np.abs(step.circles[:, 2] - height) < 1e-3]
     if not len(level) or not len(wanted):
         return 0.0 if not len(wanted) else math.inf
-    gaps = np.hypot(wanted[:, None, 0] - level[None, :, 0], wanted[:, None, 1] - level[None, :, 1])
-    return float(gaps.min(axis=1).max())
+    gaps = np.hypot(*(wanted[:, None] - level[None]).transpose(2, 0, 1))
+    off = np.abs(np.hypot(*(wanted[:, None] - round_[None, :, :2]).transpose(2, 0, 1)) - round_[:, 3])
+    return float(np.minimum(gaps.min(axis=1), off.min(axis=1, initial=math.inf)).max())
 
 
 def _taxels_outside(shoe: Shoe) -> int:

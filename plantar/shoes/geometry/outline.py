@@ -38,7 +38,8 @@ _SIMPLIFY = 0.04  # mm of detail that is dropped; less than what the gap between
 _GROOVE = 10.0  # mm: half the width of a groove that is bridged
 _NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline
 _HAIR = 0.05  # mm: half the width of what lies between two outlines and is left out
-_LEAST = 0.02  # mm between two corners
+_LEAST = 0.25  # mm between two corners
+_BULGE = 0.1  # mm between a facet of a quarter circle and its arc
 _EXACT = 1e-9  # mm: what lies nearer to a line lies on it
 
 
@@ -71,7 +72,28 @@ def grown(shape: Any, distance: float) -> Any:
     Returns:
         The grown shape.
     """
-    return shape.buffer(distance, join_style="mitre", mitre_limit=CORNER - 0.05) if distance > 0.0 else shape
+    if distance <= 0.0:
+        return shape
+    out = shape.buffer(distance, join_style="mitre", mitre_limit=CORNER - 0.05)
+    return _pointed(out) if out.geom_type == "Polygon" else out
+
+
+def _pointed(polygon: Any) -> Any:
+    """A polygon whose corners with a short bevel have a point instead, where that lies near."""
+    import shapely
+
+    points = ring(polygon)
+    for i in range(len(points) - 1, -1, -1):
+        a, b, c, d = (points[(i + k) % len(points)] for k in (-1, 0, 1, 2))
+        u, v = b - a, d - c
+        across = u[0] * v[1] - u[1] * v[0]
+        if len(points) < 5 or np.hypot(*(c - b)) >= _LEAST or abs(across) < 1e-9:
+            continue
+        point = a + ((c - a)[0] * v[1] - (c - a)[1] * v[0]) / across * u
+        if np.hypot(*(point - 0.5 * (b + c))) < _LEAST:
+            points[i] = point
+            points = np.delete(points, (i + 1) % len(points), axis=0)
+    return shapely.Polygon(points, polygon.interiors)
 
 
 def ring(polygon: Any) -> NDArray[np.float64]:
@@ -153,7 +175,8 @@ def rounded_rectangle(length: float, width: float, centre: tuple[float, float], 
     x, y = centre
     a, b = 0.5 * length - radius, 0.5 * width - radius
     core = shapely.LineString([(x - a, y), (x + a, y)]) if b <= 0.0 < a else shapely.box(x - a, y - b, x + a, y + b)
-    return tidy(core.buffer(radius, quad_segs=8) if radius > 0.0 else core)
+    facets = max(8, math.ceil(math.pi / 4.0 / math.acos(max(0.0, 1.0 - _BULGE / radius)))) if radius > 0.0 else 0
+    return tidy(core.buffer(radius, quad_segs=facets) if radius > 0.0 else core)
 
 
 def outline_below(triangles: NDArray[np.float64], height: float) -> Any:

@@ -16,7 +16,7 @@ from plantar.atomic import write_text
 from plantar.errors import InputError
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.shoes.build import Progress, Shoe, ShoeBuild
-from plantar.shoes.checks.check import ShoeCheck, check_shoe
+from plantar.shoes.checks.check import Check, ShoeCheck, check_plan, check_shoe
 from plantar.shoes.checks.weights import Weights
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.papers.assembly import assembly_page
@@ -24,10 +24,11 @@ from plantar.shoes.papers.bill import Part, bill_of_parts, bill_text
 from plantar.shoes.papers.drawing import draw_shoe
 from plantar.shoes.papers.package_3mf import NamedBody, write_3mf, write_assembly
 from plantar.shoes.papers.picture import draw_picture
+from plantar.shoes.papers.step_assembly import assembly_parts
 from plantar.shoes.papers.stl import read_stl, write_stl
 from plantar.shoes.papers.wiring_list import cells_dxf, wiring_text
 from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
-from plantar.shoes.solid.tray import read_step, write_step
+from plantar.shoes.solid.step_model import StepSolid, read_step, write_step
 from plantar.shoes.units import to_m
 
 __all__ = ["ShoeReport", "export_shoe"]
@@ -43,6 +44,7 @@ class ShoeReport:
         files: Names of the files written, in the folder given.
         weights: Masses of each shoe by side.
         bills: Bill of parts of each shoe by side.
+        plan_checks: Checks of each layout by side, where only layouts were asked for.
     """
 
     build: ShoeBuild
@@ -50,11 +52,13 @@ class ShoeReport:
     files: tuple[str, ...]
     weights: dict[str, Weights] = field(default_factory=dict)
     bills: dict[str, list[Part]] = field(default_factory=dict)
+    plan_checks: dict[str, tuple[Check, ...]] = field(default_factory=dict)
 
     @property
     def holds(self) -> bool:
         """Whether every check of every shoe holds."""
-        return all(c.holds for c in self.checks.values())
+        plans = (c for checks in self.plan_checks.values() for c in checks)
+        return all(c.holds for c in (*self.checks.values(), *plans))
 
     def as_dict(self) -> dict[str, Any]:
         """Plain JSON values; of a pair the top level holds the worse figure, `sides` each shoe's own."""
@@ -95,6 +99,11 @@ class ShoeReport:
                 "holds": self.holds,
                 "sides": {side: _plain(c) | {"weights_g": c.weights.as_dict()} for side, c in self.checks.items()},
                 "parts": {side: [asdict(part) for part in bill] for side, bill in self.bills.items()},
+            }
+        if self.plan_checks:
+            out |= {
+                "holds": self.holds,
+                "sides": {s: {"checks": _plain([asdict(c) for c in checks])} for s, checks in self.plan_checks.items()},
             }
         return out | {"parameters": build.parameters.as_dict(), "files": list(self.files)}
 
@@ -187,29 +196,34 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
         write_text(target / "wiring.csv", wiring_text(build.shoes, build.parameters))
         write_text(target / "assembly.html", assembly_page(build, checks, bills))
         files += ["parts.csv", "wiring.csv", "assembly.html", "check.json"]
-    report = ShoeReport(build, checks, tuple(files), weights, bills)
+    plans = {} if checks else {shoe.side: check_plan(shoe.plan, build) for shoe in build.shoes}
+    report = ShoeReport(build, checks, tuple(files), weights, bills, plans)
     if checks:
         write_text(target / "check.json", json.dumps(report.as_dict(), indent=1) + "\n")
     tell(1.0, "shoes written")
     return report
 
 
-def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[np.float64], Any, list[str]]:
+def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[np.float64], StepSolid, list[str]]:
     """Write a shoe's STL, STEP and 3MF and its pad; gives the triangles and the shape as read back, and the names."""
     assert shoe.surface is not None
     side, p = shoe.side, build.parameters
     names = [f"{build.kind}_{side}.stl", f"{build.kind}_{side}.step", f"{build.kind}_{side}.3mf"]
+    names.append(f"assembly_{side}.step")
+    title = f"{shoe.layout.name} {build.kind} {side}"
     try:
         write_stl(shoe.surface, target / names[0])
-        write_step(shoe.solid, str(target / names[1]), f"{shoe.layout.name} {build.kind} {side}")
+        parts = assembly_parts(shoe, build)
+        write_step(parts[:1], target / names[1], title)
         write_3mf(shoe.surface, f"{shoe.layout.name} {side}", target / names[2])
+        write_step(parts, target / names[3], f"{title} assembly")
         if p.pad_thickness > 0.0:
             names += [f"pad_{side}.stl", f"mould_{side}.stl"]
-            write_stl(pad_surface(shoe.plan, p), target / names[3])
-            write_stl(mould_surface(shoe.plan, p), target / names[4])
+            write_stl(pad_surface(shoe.plan, p), target / names[4])
+            write_stl(mould_surface(shoe.plan, p), target / names[5])
     except OSError as error:
         raise InputError(f"cannot write the {side} shoe to {target}: {error.strerror}") from None
-    return read_stl(target / names[0]), read_step(str(target / names[1])), names
+    return read_stl(target / names[0]), read_step(target / names[1]), names
 
 
 def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:

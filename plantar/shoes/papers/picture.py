@@ -59,54 +59,68 @@ def render(
     front = (normal[:, 2] > 1e-9 * length) & (length > 1e-9)
     pixel, normal, colours = pixel[front], normal[front] / length[front, None], colours[front]
     depth, which = _nearest(pixel, height, width)
-    hit = which >= 0
-    face = np.where(hit, which, 0)
     light = np.array([-0.35, 0.5, 0.79])
     shade = 0.42 + 0.58 * np.clip(normal @ light, 0.0, 1.0)
-    picture = np.where(hit[..., None], (shade[:, None] * colours)[face], 1.0)
-    edges = _edges(depth, normal[face], hit, 1.2 / scale + 0.15)
-    return np.asarray(np.where(edges[..., None], picture * _EDGE, picture))
+    picture = np.vstack([shade[:, None] * colours, np.ones(3)])[which]
+    picture[_edges(depth, which, normal, 1.2 / scale + 0.15)] *= _EDGE
+    return picture
 
 
 def _nearest(pixel: Array, height: int, width: int) -> tuple[Array, NDArray[np.int64]]:
-    """Depth of the nearest triangle at each pixel, and which it is; -1 for none."""
-    depth = np.full((height, width), -np.inf)
-    which = np.full((height, width), -1, dtype=np.int64)
-    low = np.maximum(np.ceil(pixel[..., :2].min(axis=1) - 0.5), 0).astype(int)
-    high = np.floor(pixel[..., :2].max(axis=1) - 0.5).astype(int)
-    high = np.minimum(high, [width - 1, height - 1])
-    for i in np.flatnonzero((high >= low).all(axis=1)).tolist():
-        (x0, y0), (x1, y1) = low[i], high[i]
-        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = pixel[i]
-        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        if abs(area) < 1e-12:
-            continue
-        x = np.arange(x0, x1 + 1) + 0.5
-        y = np.arange(y0, y1 + 1)[:, None] + 0.5
-        second = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area
-        third = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area
-        z = az + second * (bz - az) + third * (cz - az)
-        window = (slice(y0, y1 + 1), slice(x0, x1 + 1))
-        nearer = (second >= -1e-9) & (third >= -1e-9) & (second + third <= 1.0 + 1e-9) & (z > depth[window])
-        depth[window][nearer] = z[nearer]
-        which[window][nearer] = i
-    return depth, which
+    """Depth of the nearest triangle at each pixel, and which it is; -1 for none.
+
+    Each triangle is cut into the rows of pixels whose middles it covers; all rows are filled at once.
+    """
+    depth = np.full(height * width, -np.inf)
+    which = np.full(height * width, -1, dtype=np.int64)
+    y = pixel[..., 1]
+    first = np.clip(np.ceil(y.min(axis=1) - 0.5), 0, height).astype(np.int64)
+    last = np.clip(np.floor(y.max(axis=1) - 0.5), -1, height - 1).astype(np.int64)
+    triangle, row = _spread(first, np.maximum(last - first + 1, 0))
+    corners, middle = pixel[triangle], row + 0.5
+    ends = []
+    for i in range(3):
+        (ax, ay), (bx, by) = corners[:, i - 1, :2].T, corners[:, i, :2].T
+        with np.errstate(all="ignore"):
+            share = (middle - ay) / (by - ay)
+            ends.append(np.where((share >= 0.0) & (share <= 1.0), ax + share * (bx - ax), np.nan))
+    left, right = np.fmin.reduce(ends), np.fmax.reduce(ends)
+    known = np.isfinite(left)
+    triangle, row, left, right = triangle[known], row[known], left[known], right[known]
+    start = np.clip(np.ceil(left - 0.5), 0, width).astype(np.int64)
+    end = np.clip(np.floor(right - 0.5), -1, width - 1).astype(np.int64)
+    span, column = _spread(start, np.maximum(end - start + 1, 0))
+    a, u, v = pixel[:, 0], pixel[:, 1] - pixel[:, 0], pixel[:, 2] - pixel[:, 0]
+    up = np.cross(u, v)
+    slope_x, slope_y = -up[:, 0] / up[:, 2], -up[:, 1] / up[:, 2]
+    level = a[:, 2] - slope_x * a[:, 0] - slope_y * a[:, 1]
+    begin = level[triangle] + slope_y[triangle] * (row + 0.5) + 0.5 * slope_x[triangle]
+    z, place = begin[span] + slope_x[triangle][span] * column, row[span] * width + column
+    np.maximum.at(depth, place, z)
+    seen = z >= depth[place]
+    which[place[seen]] = triangle[span[seen]]
+    return depth.reshape(height, width), which.reshape(height, width)
 
 
-def _edges(depth: Array, normal: Array, hit: NDArray[np.bool_], jump: float) -> NDArray[np.bool_]:
+def _spread(first: NDArray[np.int64], count: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """For each of so many numbers from a first on: of which it is, and the number."""
+    which = np.repeat(np.arange(len(count)), count)
+    return which, np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count) + first[which]
+
+
+def _edges(depth: Array, which: NDArray[np.int64], normal: Array, jump: float) -> NDArray[np.bool_]:
     """Pixels where the surface bends or ends against the pixel to the right or below."""
-    out = np.zeros(depth.shape, dtype=bool)
-    bounded = np.where(hit, depth, -1e6)
-    for axis in (0, 1):
-        here = [slice(None), slice(None)]
-        there = [slice(None), slice(None)]
-        here[axis], there[axis] = slice(None, -1), slice(1, None)
-        a, b = tuple(here), tuple(there)
-        bend = (normal[a] * normal[b]).sum(axis=-1) < 0.9
-        facing = np.minimum(normal[a][..., 2], normal[b][..., 2])
-        step = np.abs(bounded[a] - bounded[b]) > jump / np.maximum(facing, 0.2) * 3.0
-        out[a] |= (bend & hit[a] & hit[b]) | step
-    return out & hit
+    out = np.zeros(depth.size, dtype=bool)
+    number = np.arange(depth.size).reshape(depth.shape)
+    flat, face = np.where(which < 0, -1e6, depth).ravel(), which.ravel()
+    for here, there in ((number[:-1], number[1:]), (number[:, :-1], number[:, 1:])):
+        apart = face[here] != face[there]  # within a triangle nothing bends
+        a, b = here[apart], there[apart]
+        one, two = normal[face[a]], normal[face[b]]
+        bend = (np.einsum("ij,ij->i", one, two) < 0.9) & (face[b] >= 0)
+        facing = np.minimum(one[:, 2], two[:, 2])
+        out[a[bend | (np.abs(flat[a] - flat[b]) > jump / np.maximum(facing, 0.2) * 3.0)]] = True
+    return out.reshape(depth.shape) & (which >= 0)
 
 
 def _halved(view: Array) -> Array:

@@ -26,7 +26,7 @@ def shoe_text(summary: Mapping[str, Any]) -> str:
         f"overhang {summary['overhang_mm']:g} mm"
         + ("" if bound is None else f"; at most {bound} whole ones fit there (proven)")
     )
-    if "sides" in summary:
+    if "mass_g" in summary:
         size = " x ".join(f"{v:.1f}" for v in summary["size_mm"])
         lines.append(
             f"{size} mm, {summary['volume_cm3']:.1f} cm^3, {summary['mass_g']:.0f} g printed, "
@@ -38,7 +38,7 @@ def shoe_text(summary: Mapping[str, Any]) -> str:
 
 
 def failed_checks(summary: Mapping[str, Any]) -> list[str]:
-    """The checks that do not hold, in words; empty where all do, or nothing was built.
+    """The checks that do not hold, in words; empty where all do.
 
     Args:
         summary: `ShoeReport.as_dict`.

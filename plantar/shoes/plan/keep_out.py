@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.surface import convex_outline, surface_points
 
-__all__ = ["KeepOut", "keep_out"]
+__all__ = ["KeepOut", "keep_out", "strap_path"]
 
 _SPACING = 2.0  # mm between points on the foot
 _ROOM = 2.0  # mm between a link and what is printed or strapped
@@ -82,10 +82,16 @@ class KeepOut:
         near = self.links[inside]
         if self.surface is None or not len(near):
             return len(near)
-        below = self.surface[np.abs(self.surface[:, 0] - x) < half]
-        ends = np.array([[lugs[0], slot], [lugs[1], slot]])
-        path = _upper_hull(np.concatenate([below[:, 1:], ends]))
+        path = strap_path(self.surface, x, width, lugs, slot)
         return int((near[:, 2] < np.interp(near[:, 1], *path.T) + thickness + _ROOM).sum())
+
+
+def strap_path(surface: Array | None, x: float, width: float, lugs: tuple[float, float], slot: float) -> Array:
+    """The way (k, 2) in y, z of a taut strap over a foot, from slot to slot; see `KeepOut.strap_meets`."""
+    ends = np.array([[lugs[0], slot], [lugs[1], slot]])
+    below = np.empty((0, 2)) if surface is None else surface[np.abs(surface[:, 0] - x) < 0.5 * width, 1:]
+    inside = (below[:, 0] > lugs[0]) & (below[:, 0] < lugs[1])
+    return _upper_hull(np.concatenate([below[inside], ends]))
 
 
 def _upper_hull(points: Array) -> Array:

@@ -26,9 +26,11 @@ __all__ = [
 
 _SLIVER = 0.02  # mm^2
 _BARB, _BARB_AREA = 0.1, 1e-3  # mm, mm^2
+_SHORT = 0.25  # mm
 _STEP = 0.01  # mm between two corners that are one
 _WIDER = 0.3  # mm
 _WITHIN = 1.0  # mm
+_SQUARE_ENDS = 1.45  # ends of ribs at a right angle stay, sharper ones are cut off
 
 
 def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
@@ -53,13 +55,23 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
             openings = shapely.remove_repeated_points(shapely.union_all([openings, *slivers]), _STEP)
             corners = shapely.multipoints(shapely.get_coordinates(list(plan.pockets)))
             openings = shapely.snap(openings, corners, _STEP)  # and the pockets' corners stay where they are
-    joined = shapely.set_precision(openings, 1e-4)
+    joined = shapely.transform(openings, lambda points: _gathered(points, shapely.get_coordinates(list(plan.pockets))))
+    joined = shapely.set_precision(joined.buffer(0.0), 1e-4)
     return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
+
+
+def _gathered(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points (n, 2), those next to one of the corners (k, 2) moved there: no edge is too short to be made."""
+    from scipy.spatial import cKDTree
+
+    gaps, nearest = cKDTree(corners).query(points)
+    return np.where((gaps < _SHORT)[:, None], corners[nearest], points)
 
 
 def _slivers(openings: Any, near: Any, thin: float, least: float) -> list[Any]:
     """What would be left of ribs near the cable thinner than `thin` in mm, where it is larger than `least` in mm^2."""
-    closed = openings.buffer(0.5 * thin, join_style="mitre").buffer(-0.5 * thin, quad_segs=1)
+    closed = openings.buffer(0.5 * thin, join_style="mitre")
+    closed = closed.buffer(-0.5 * thin, join_style="mitre", mitre_limit=_SQUARE_ENDS)
     left = closed.difference(openings.buffer(1e-4)).intersection(near)
     return [g.buffer(2e-3, join_style="mitre") for g in getattr(left, "geoms", [left]) if g.area > least]
 

@@ -51,6 +51,7 @@ _STROKES = {
 }
 _ADVANCE = 6.0
 _WIDTH = 0.9  # of a stroke, on the grid
+_DETAIL = 0.08  # mm that are dropped
 _LAND = 1.3  # mm: what is narrower between two strokes is filled
 
 
@@ -83,4 +84,4 @@ def lettering(text: str, height: float) -> Any:
     shape = shapely.affinity.scale(shape, scale, scale, origin=(0, 0))
     shape = shape.buffer(0.5 * _LAND, join_style="mitre").buffer(-0.5 * _LAND, quad_segs=2)
     parts = [p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon"]
-    return shapely.set_precision(shapely.MultiPolygon(parts), 1e-3)
+    return shapely.set_precision(shapely.MultiPolygon([p.simplify(_DETAIL) for p in parts]), 1e-3)

@@ -19,7 +19,7 @@ from plantar.shoes.plan.pull_off import SNAP_MOST, PullOff, pull_off
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.strength import load_case
 
-__all__ = ["Retention", "choose_retention", "retention_steps", "strap_meets"]
+__all__ = ["Retention", "choose_retention", "retention_steps", "slot_lines", "strap_meets"]
 
 _LUG_END = 5.0  # mm of lug before and behind a slot
 _BAR = 4.0  # mm of lug above a slot
@@ -180,13 +180,19 @@ def strap_meets(others: KeepOut, outline: Any, x: float, width: float, parameter
     """
     p, y = parameters, outline.centroid.y
     half, top = 0.5 * (width + _SLOT_PLAY) + _LUG_END, p.rim_height + p.strap_thickness + _SLOT_PLAY + _BAR + 1.0
-    count, ends = 0, []
-    for side in (-1, 1):
+    count, ends = 0, slot_lines(outline, x, width, p)
+    for side, out in zip((-1, 1), ends, strict=True):
         edge = _wall_line(outline, x, side, half, y)[0]
-        out = edge + side * (p.clearance + p.strap_thickness + p.rim_thickness)
         count += others.meets((x - half, min(edge, out), 0.0), (x + half, max(edge, out), top))
-        ends.append(out)
-    return count + others.strap_meets(x, width, (ends[0], ends[1]), p.rim_height + 1.0, p.strap_thickness)
+    return count + others.strap_meets(x, width, ends, p.rim_height + 1.0, p.strap_thickness)
+
+
+def slot_lines(outline: Any, x: float, width: float, parameters: ShoeParameters) -> tuple[float, float]:
+    """The outer y of the right and the left lug of a strap, see `strap_meets`."""
+    p, half = parameters, 0.5 * (width + _SLOT_PLAY) + _LUG_END
+    out = p.clearance + p.strap_thickness + p.rim_thickness
+    right, left = (_wall_line(outline, x, side, half, outline.centroid.y)[0] for side in (-1, 1))
+    return right - out, left + out
 
 
 def _straightest(plan: ShoePlan, middle: float, length: float, share: float, side: int, p: ShoeParameters) -> _Place:
@@ -372,14 +378,14 @@ def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
         low = p.thickness + place.edge + _PLAY - p.clearance
         bite = 0.5 * p.clip_thickness * side
         tip = inner - side * reach
-        arms.append(Block(plate(inner - side * 0.02, inner + bite), low, low + reach, plate(tip, inner + bite)))
+        arms.append(Block(plate(inner, inner + bite), low, low + reach, plate(tip, inner + bite)))
         arms.append(Block(plate(tip, inner + bite), low + reach, low + reach + 1.0))
         arms.append(
             Block(
                 plate(tip, inner + bite),
                 low + reach + 1.0,
-                low + 2.0 * reach + 0.98,
-                plate(inner - side * 0.02, inner + bite),
+                low + 2.0 * reach + 1.0,
+                plate(inner, inner + bite),
             )
         )
     return [Step("cut", "windows of the clips", tuple(gaps)), Step("add", "clips", tuple(arms))]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from plantar.shoes import ShoeReport
 from plantar.shoes.checks.check import check_shoe, corner_errors
-from plantar.shoes.solid.tray import read_step
+from plantar.shoes.solid.step_model import read_step
 
 Shape = Callable[..., NDArray[np.float64]]
 
@@ -23,7 +23,7 @@ Shape = Callable[..., NDArray[np.float64]]
 def failed(exported: tuple[ShoeReport, Path]) -> Callable[..., set[str]]:
     """Gives the names of the checks that do not hold when one input of the check is replaced."""
     report, folder = exported
-    step = read_step(str(folder / "shoe_left.step"))
+    step = read_step(folder / "shoe_left.step")
 
     def call(**change: Any) -> set[str]:
         shoe = report.build.shoes[0]
@@ -97,11 +97,11 @@ def test_a_layout_that_is_not_the_solid_fails(
 def test_the_layouts_corners_are_corners_of_the_solid(exported: tuple[ShoeReport, Path]) -> None:
     report, folder = exported
     for shoe in report.build.shoes:
-        step = read_step(str(folder / f"shoe_{shoe.side}.step"))
+        step = read_step(folder / f"shoe_{shoe.side}.step")
         cells, pockets = corner_errors(shoe, report.build.parameters, step)
         assert max(cells, pockets) < 1e-3
         # Told without the plan: a corner of the solid lies over every corner of the layout, but for the cable's way.
-        corners = np.array([v.toTuple() for v in step.Vertices()])[:, :2]
+        corners = step.corners[:, :2]
         gaps = [np.hypot(*(corners - v[:2] * 1000).T).min() for v in shoe.layout.vertices]
         assert np.mean(np.array(gaps) < 0.05) > 0.9
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 import shapely
 
@@ -13,18 +12,20 @@ from plantar.shoes.checks.features import printed_features
 from plantar.shoes.foot.foot import foot_from_outline
 from plantar.shoes.plan.block import Block, Step
 from plantar.shoes.plan.wiring import wiring_steps
-from plantar.shoes.solid.tray import build_solid, surface_of
+from plantar.shoes.solid.body import shoe_steps
+from plantar.shoes.solid.kernel import _assembled, _polyhedron
 
 
 def missing(report: ShoeReport, cut: Block | None = None, add: Block | None = None) -> set[str]:
     """Features that the left shoe lacks once a block was cut from it, or added."""
-    shoe = report.build.shoes[0]
-    solid = shoe.solid
-    for kind, block in (("cut", cut), ("add", add)):
-        if block is not None:
-            other = build_solid((Step("add", "block", (block,)),))
-            solid = solid.cut(other) if kind == "cut" else solid.fuse(other)
-    surface = np.concatenate([surface_of(s) for s in solid.Solids()])
+    shoe, build = report.build.shoes[0], report.build
+    surface = shoe.surface
+    if cut is not None or add is not None:
+        assert build.retention is not None
+        more = Step("add", "block", (add,)) if add is not None else Step("cut", "block", (cut,))  # type: ignore[arg-type]
+        steps = (*shoe_steps(build.foot, shoe.plan, build.retention, build.parameters), more)
+        surface = _polyhedron(_assembled(steps)).surface  # of several bodies, too
+    assert surface is not None
     return {f.name for f in printed_features(shoe, report.build, surface) if not f.holds}
 
 

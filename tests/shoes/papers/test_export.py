@@ -18,13 +18,13 @@ from plantar.shoes import Foot, ShoeReport, build_shoe, export_shoe
 from plantar.shoes.checks import check
 from plantar.shoes.foot.mesh_file import read_mesh
 from plantar.shoes.parameters import ShoeParameters, read_parameters
-from plantar.shoes.solid.tray import read_step
+from plantar.shoes.solid.step_model import read_step
 
 
 def test_every_file_is_there_and_says_the_same(exported: tuple[ShoeReport, Path]) -> None:
     report, folder = exported
     assert sorted(report.files) == sorted(f.name for f in folder.iterdir())
-    assert len(report.files) == 2 * 11 + 4
+    assert len(report.files) == 2 * 12 + 4
     figures = json.loads((folder / "check.json").read_text())
     assert figures == json.loads(json.dumps(report.as_dict()))
     assert figures["holds"] is True
@@ -35,9 +35,9 @@ def test_every_file_is_there_and_says_the_same(exported: tuple[ShoeReport, Path]
         assert mesh.volume / 1000 == pytest.approx(figures["sides"][side]["volume_cm3"], rel=5e-3)
         np.testing.assert_allclose(mesh.extents, figures["sides"][side]["size_mm"], atol=2e-3)
         assert mesh.bounds[0, 2] == pytest.approx(p.bottom)
-        solid = read_step(str(folder / f"shoe_{side}.step"))
-        assert solid.isValid()
-        assert solid.Volume() == pytest.approx(mesh.volume, rel=5e-3)
+        solid = read_step(folder / f"shoe_{side}.step")
+        assert solid.valid
+        assert solid.volume == pytest.approx(mesh.volume, rel=5e-3)
         triangles, unit = read_mesh(folder / f"shoe_{side}.3mf")
         assert unit == "mm"
         same = trimesh.Trimesh(**trimesh.triangles.to_kwargs(triangles))

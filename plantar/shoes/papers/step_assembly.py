@@ -1,0 +1,124 @@
+"""The parts of a shoe in their places, as named bodies of a STEP assembly. Lengths in mm."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.shoes.build import Shoe, ShoeBuild
+from plantar.shoes.checks.weights import BOARD_UP
+from plantar.shoes.geometry.outline import ring
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.block import Block, Step
+from plantar.shoes.plan.keep_out import keep_out, strap_path
+from plantar.shoes.plan.pad_outline import pad_rim
+from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.solid.kernel import build_solid
+from plantar.shoes.solid.pad import land_top
+from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
+from plantar.shoes.solid.retention import slot_lines
+from plantar.shoes.solid.step_model import StepPart
+
+__all__ = ["assembly_parts"]
+
+_PRINT = (0.30, 0.45, 0.69)
+_SKIN, _RUBBER, _GREEN, _WEBBING = (0.33, 0.66, 0.41), (0.2, 0.2, 0.2), (0.16, 0.42, 0.3), (0.55, 0.5, 0.42)
+_SAME = 1e-3  # mm: bodies whose corners lie nearer are one product
+_DETAIL = 0.1  # mm of the pad's rim that is dropped
+_HERE = (0.0, 0.0, 0.0)
+
+
+def assembly_parts(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
+    """The printed part first, its taxels, pad, connection board and straps, in the sole frame."""
+    assert shoe.solid is not None
+    plan, p, name = shoe.plan, build.parameters, f"{build.kind} {shoe.side}"
+    parts = [StepPart(f"{shoe.layout.name} {name}", shoe.solid, {name: _HERE}, _PRINT), *_taxels(plan, p)]
+    if p.pad_thickness > 0.0:
+        parts.append(StepPart("pad", _pad(plan, p), {"pad": _HERE}, _RUBBER))
+    if plan.heel.board:
+        gap, half = p.board_gap + p.made_by.slide, 0.5 * p.board_length
+        face = plan.heel.placed(_rectangle(-gap - p.board_thickness, -half, -gap, half))
+        board = _solid(Block(face, p.thickness, p.thickness + BOARD_UP))
+        parts.append(StepPart("connection board", board, {"connection board": _HERE}, _GREEN))
+    return parts + _straps(shoe, build)
+
+
+def _rectangle(*bounds: float) -> Any:
+    import shapely
+
+    return shapely.box(*bounds)
+
+
+def _solid(*blocks: Block) -> Polyhedron:
+    return build_solid([Step("add", "body", blocks)])
+
+
+def _taxels(plan: ShoePlan, p: ShoeParameters) -> list[StepPart]:
+    """Taxels as they are in the layout; those of one shape are one product in several places."""
+    if plan.lands:
+        low, what = land_top(plan, p), "sheet" if plan.lines is not None else "cell"
+        bodies = [[Block(q, low, p.ceiling)] for q in plan.pockets]
+    else:
+        what, bodies = "taxel", [[Block(q, p.bottom, p.ceiling)] for q in plan.pockets]
+        if p.taxel_protrusion > 0.0:
+            bodies = [[Block(c, p.pad_thickness, p.bottom), *b] for c, b in zip(plan.cells, bodies, strict=True)]
+    shapes: dict[bytes, tuple[list[Block], dict[str, tuple[float, float, float]]]] = {}
+    for number, blocks in zip(plan.layout.ids.tolist(), bodies, strict=False):  # or one sheet
+        x, y = np.array(blocks[-1].low.centroid.coords[0]).round(4).tolist()
+        own = [Block(_moved(b.low, -x, -y), b.z_low, b.z_high) for b in blocks]
+        key = b"".join(_from_lowest(ring(b.low), _SAME).tobytes() for b in own)
+        called = what if len(plan.pockets) == 1 else f"{what} {number}"
+        shapes.setdefault(key, (own, {}))[1][called] = (x, y, 0.0)
+    return [
+        StepPart(what if len(shapes) == 1 else f"{what} shape {n}", _solid(*blocks), places, _SKIN)
+        for n, (blocks, places) in enumerate(shapes.values(), start=1)
+    ]
+
+
+def _from_lowest(points: NDArray[np.float64], grid: float) -> NDArray[np.int64]:
+    """Corners on a grid, in a turn that starts at the first of the lowest."""
+    places = np.rint(points / grid).astype(np.int64)
+    return np.roll(places, -int(np.lexsort(places.T)[0]), axis=0)
+
+
+def _moved(polygon: Any, x: float, y: float) -> Any:
+    import shapely
+
+    return shapely.affinity.translate(polygon, x, y)
+
+
+def _pad(plan: ShoePlan, p: ShoeParameters) -> Polyhedron:
+    import shapely
+
+    low, high = 0.5 * p.pad_thickness, p.pad_thickness + p.pad_rim_height
+    within = pad_rim(plan, p).buffer(-2.0 * _DETAIL, join_style="mitre").buffer(_DETAIL, join_style="mitre")
+    rims = shapely.get_parts(within.simplify(_DETAIL))
+    rim = [Block(q, low, high) for q in rims if not q.is_empty]
+    lands = [Block(q, low, land_top(plan, p)) for q in plan.lands]
+    return _solid(Block(plan.contact, 0.0, p.pad_thickness), *rim, *lands)
+
+
+def _straps(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
+    """Straps from slot to slot over the foot, as a taut band lies."""
+    import shapely
+
+    retention, p = build.retention, build.parameters
+    if retention is None or retention.kind != "straps":
+        return []
+    out, foot = [], keep_out(build.foot)
+    flip = 1.0 if shoe.side == "left" else -1.0
+    for n, x in enumerate(dict.fromkeys(q.x for q in retention.places), start=1):
+        ends = slot_lines(build.foot.passing(p.rim_height), x, retention.width, p)
+        path = strap_path(foot.surface, x, retention.width, ends, p.rim_height + 1.0)
+        path = [*path, 0.0, p.thickness + 0.5 * p.strap_thickness]
+        band = (
+            shapely.LineString(path).simplify(0.5).buffer(0.5 * p.strap_thickness, cap_style="flat", join_style="mitre")
+        )
+        flat = without_short_edges(_solid(Block(band, 0.0, retention.width)), 0.2)
+        y, z, along = flat.corners.T
+        turned = np.column_stack([x - 0.5 * retention.width + along, y * flip, z])
+        faces = flat.faces if flip > 0.0 else tuple(tuple(loop[::-1] for loop in f) for f in flat.faces)
+        out.append(StepPart(f"strap {n}", Polyhedron(turned, faces), {f"strap {n}": _HERE}, _WEBBING))
+    return out

@@ -1,0 +1,191 @@
+"""Blocks added and cut by OpenCascade: the only file that runs its booleans. Lengths in mm."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from plantar.shoes.cad_kernel import load_kernel
+from plantar.shoes.geometry.outline import ring
+from plantar.shoes.plan.block import Block, Groove, Step
+from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
+
+__all__ = ["SHORTEST", "build_solid"]
+
+SHORTEST = 0.2
+"""Shortest edge of a solid in mm."""
+
+_BELOW = 0.5  # mm that a groove's solid reaches below the print
+
+Points = Sequence[Any] | NDArray[np.float64]
+
+
+def build_solid(steps: Sequence[Step]) -> Polyhedron:
+    """The solid of one shoe in the sole frame: blocks added and cut in order; the first step adds.
+
+    Raises:
+        FootError: If the blocks do not give one solid.
+    """
+    load_kernel()
+    try:
+        shape = _assembled(steps)
+        solids = _count(shape)
+        if solids == 1:
+            return without_short_edges(_polyhedron(shape), SHORTEST)
+    except Exception as error:  # the kernel raises of every kind
+        reason = " ".join(str(error).split())[:80] or type(error).__name__
+        raise FootError(f"the CAD kernel cannot build this shoe ({reason}); change a dimension a little") from None
+    raise FootError(f"the shoe falls into {solids} solids; use a thicker border, rim or floor")
+
+
+def _assembled(steps: Sequence[Step]) -> Any:
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Common, BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
+    from OCP.ShapeUpgrade import ShapeUpgrade_UnifySameDomain
+
+    shape: Any = None
+    for step in steps:
+        bodies = [_body(block) for block in step.blocks]
+        if not bodies:
+            continue
+        if step.within is not None:
+            low, high = min(b.z_low for b in step.blocks), max(b.z_high for b in step.blocks)
+            limit = _prism(Block(step.within, low - 1.0, high + 1.0))
+            together = _combined(BRepAlgoAPI_Fuse, bodies[:1], bodies[1:])
+            bodies = [_combined(BRepAlgoAPI_Common, [together], [limit])]
+        first = [] if shape is None else [shape]
+        every = [*first, *bodies]
+        shape = _combined(BRepAlgoAPI_Fuse if step.kind == "add" else BRepAlgoAPI_Cut, every[:1], every[1:])
+    unified = ShapeUpgrade_UnifySameDomain(shape, True, True, True)
+    unified.Build()
+    return unified.Shape()
+
+
+def _combined(operation: Any, arguments: Iterable[Any], tools: Sequence[Any]) -> Any:
+    """The result of a boolean of the kernel; without its history and copies, which take a fifth of the time."""
+    from OCP.TopTools import TopTools_ListOfShape
+
+    if not tools:
+        return next(iter(arguments))
+    lists = TopTools_ListOfShape(), TopTools_ListOfShape()
+    for shapes, held in zip((arguments, tools), lists, strict=True):
+        for shape in shapes:
+            held.Append(shape)
+    made = operation()
+    made.SetArguments(lists[0])
+    made.SetTools(lists[1])
+    made.SetToFillHistory(False)
+    made.SetNonDestructive(False)
+    made.SetCheckInverted(False)
+    made.Build()
+    if not made.IsDone():
+        raise ValueError("a boolean operation fails")
+    return made.Shape()
+
+
+def _body(block: Block | Groove) -> Any:
+    """The kernel's solid of a block."""
+    if isinstance(block, Groove):
+        line, edge, low = ring(block.line), ring(block.edge), block.z_low - _BELOW
+        levels = [_at(line, low), _at(line, block.z_high), _at(edge, block.z_low), _at(edge, low)]
+        bottom = _face(levels[0][::-1], levels[-1])
+        return _solid([bottom, *(q for pair in pairwise(levels) for q in _sides(*pair))])
+    if block.high is None:
+        return _prism(block)
+    levels = [_at(ring(block.low), block.z_low), _at(ring(block.high), block.z_high)]
+    return _solid([_face(levels[0][::-1]), _face(levels[1]), *_sides(*levels)])
+
+
+def _at(points: Points, z: float) -> list[tuple[float, float, float]]:
+    return [(float(x), float(y), z) for x, y in points]
+
+
+def _sides(low: Points, high: Points) -> list[Any]:
+    """A face between each pair of edges of two rings with as many corners."""
+    return [_face([low[i - 1], low[i], high[i], high[i - 1]]) for i in range(len(low))]
+
+
+def _wire(points: Points) -> Any:
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakePolygon
+    from OCP.gp import gp_Pnt
+
+    made = BRepBuilderAPI_MakePolygon()
+    for point in points:
+        made.Add(gp_Pnt(*point))
+    made.Close()
+    return made.Wire()
+
+
+def _face(outer: Points, *holes: Points) -> Any:
+    """A flat face; holes turn the other way."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+
+    made = BRepBuilderAPI_MakeFace(_wire(outer), True)
+    for hole in holes:
+        made.Add(_wire(hole))
+    return made.Face()
+
+
+def _prism(block: Block) -> Any:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
+    from OCP.gp import gp_Vec
+
+    holes = [np.asarray(h.coords)[:-1] if not h.is_ccw else np.asarray(h.coords)[:0:-1] for h in block.low.interiors]
+    face = _face(_at(ring(block.low), block.z_low), *(_at(h, block.z_low) for h in holes))
+    return BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, block.z_high - block.z_low)).Shape()
+
+
+def _solid(faces: list[Any]) -> Any:
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid, BRepBuilderAPI_Sewing
+    from OCP.TopoDS import TopoDS
+
+    sewn = BRepBuilderAPI_Sewing(1e-6)
+    for face in faces:
+        sewn.Add(face)
+    sewn.Perform()
+    return BRepBuilderAPI_MakeSolid(TopoDS.Shell_s(sewn.SewedShape())).Solid()
+
+
+def _count(shape: Any) -> int:
+    from OCP.TopAbs import TopAbs_SOLID
+    from OCP.TopExp import TopExp
+    from OCP.TopTools import TopTools_IndexedMapOfShape
+
+    found = TopTools_IndexedMapOfShape()
+    TopExp.MapShapes_s(shape, TopAbs_SOLID, found)
+    return int(found.Size())
+
+
+def _polyhedron(shape: Any) -> Polyhedron:
+    """Corners and loops of the kernel's solid, all of whose faces are flat."""
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepTools import BRepTools, BRepTools_WireExplorer
+    from OCP.TopAbs import TopAbs_FACE, TopAbs_VERTEX, TopAbs_WIRE
+    from OCP.TopExp import TopExp, TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+    from OCP.TopTools import TopTools_IndexedMapOfShape
+
+    found = TopTools_IndexedMapOfShape()
+    TopExp.MapShapes_s(shape, TopAbs_VERTEX, found)
+    points = (BRep_Tool.Pnt_s(TopoDS.Vertex_s(found.FindKey(i + 1))) for i in range(found.Size()))
+    corners = np.array([(p.X(), p.Y(), p.Z()) for p in points])
+    faces = []
+    each = TopExp_Explorer(shape, TopAbs_FACE)
+    while each.More():
+        face, loops = TopoDS.Face_s(each.Current()), list[tuple[int, ...]]()
+        each.Next()
+        outer, wires = BRepTools.OuterWire_s(face), TopExp_Explorer(face, TopAbs_WIRE)
+        while wires.More():
+            wire, loop = TopoDS.Wire_s(wires.Current()), list[int]()
+            wires.Next()
+            edges = BRepTools_WireExplorer(wire, face)
+            while edges.More():
+                loop.append(found.FindIndex(edges.CurrentVertex()) - 1)
+                edges.Next()
+            loops.insert(0 if wire.IsSame(outer) else len(loops), tuple(loop))
+        faces.append(tuple(loops))
+    return Polyhedron(corners, tuple(faces))

@@ -1,0 +1,211 @@
+"""A solid of flat faces: corners, and the loops of each face; its triangles. Lengths in mm."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Loops", "Polyhedron", "without_short_edges"]
+
+_FLAT = 1e-6  # mm
+_SLIVER = 1e-3  # mm^2
+
+Array = NDArray[np.float64]
+Loops = tuple[tuple[int, ...], ...]
+"""Corner numbers around a face, counter-clockwise from outside; the outer loop first, holes clockwise."""
+
+
+@dataclass(frozen=True)
+class Polyhedron:
+    """A closed solid of flat faces that share their edges.
+
+    Attributes:
+        corners: Points (n, 3) in mm.
+        faces: Loops of each face.
+    """
+
+    corners: Array
+    faces: tuple[Loops, ...]
+
+    @cached_property
+    def surface(self) -> Array:
+        """Triangles (k, 3, 3) in mm, outward counter-clockwise, with the solid's corners alone."""
+        quads = [f[0] for f in self.faces if len(f) == 1 and len(f[0]) == 4]
+        others = [f for f in self.faces if len(f) > 1 or len(f[0]) != 4]
+        numbers = [np.array(_of_quads(self.corners, np.array(quads, dtype=np.int64).reshape(-1, 4)))]
+        numbers += [_triangles(self.corners, f) for f in others]
+        return np.asarray(self.corners[np.concatenate(numbers)])
+
+    @cached_property
+    def volume(self) -> float:
+        """Enclosed volume in mm^3."""
+        a, b, c = np.moveaxis(self.surface, 1, 0)
+        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+
+    @cached_property
+    def neighbours(self) -> dict[tuple[int, int], int]:
+        """Face to the left of each directed edge."""
+        return {
+            (a, b): i
+            for i, face in enumerate(self.faces)
+            for loop in face
+            for a, b in zip(loop, (*loop[1:], loop[0]), strict=True)
+        }
+
+    @cached_property
+    def normals(self) -> Array:
+        """Unit normals (faces, 3), outwards, by Newell's method."""
+        outer = [f[0] for f in self.faces]
+        first = np.cumsum([0, *map(len, outer[:-1])])
+        at = self.corners[np.concatenate([np.array(loop) for loop in outer])]
+        after = self.corners[np.concatenate([np.array((*loop[1:], loop[0])) for loop in outer])]
+        start = np.repeat(at[first], [len(loop) for loop in outer], axis=0)
+        out = np.add.reduceat(np.cross(at - start, after - start), first)
+        return np.asarray(out / np.maximum(np.linalg.norm(out, axis=1), 1e-300)[:, None])
+
+
+def _of_quads(corners: Array, quads: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Two triangles of each quadrangle, cut at the diagonal on whose both sides it turns left."""
+    at = corners[quads]
+    whole = np.cross(at[:, 2] - at[:, 0], at[:, 3] - at[:, 1])
+    first = np.einsum("ij,ij->i", np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]), whole)
+    second = np.einsum("ij,ij->i", np.cross(at[:, 2] - at[:, 0], at[:, 3] - at[:, 0]), whole)
+    good = (first > 0.0) & (second > 0.0)
+    ways = np.where(good[:, None, None], [[0, 1, 2], [0, 2, 3]], [[1, 2, 3], [1, 3, 0]])
+    return np.take_along_axis(quads[:, None, :], ways, axis=2).reshape(-1, 3)
+
+
+def _triangles(corners: Array, face: Loops) -> NDArray[np.int64]:
+    """Corner numbers (k, 3) of a face's triangles."""
+    import shapely
+
+    if len(face) == 1 and len(face[0]) == 3:
+        return np.array([face[0]])
+    flat, up = _flattened(corners, face)
+    number = {
+        tuple(q): n for loop, ring in zip(face, flat, strict=True) for n, q in zip(loop, ring.tolist(), strict=True)
+    }
+    parts = shapely.constrained_delaunay_triangles(shapely.Polygon(flat[0], flat[1:]))
+    points = shapely.get_coordinates(parts).reshape(-1, 4, 2)[:, :3]
+    u, v = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
+    turned = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0.0) != up
+    points[turned] = points[turned, ::-1]
+    return np.array([[number[q] for q in map(tuple, t)] for t in points.tolist()])
+
+
+def _flattened(corners: Array, face: Sequence[Sequence[int]]) -> tuple[list[Array], bool]:
+    """A face's loops in the two axes in which it is largest, and whether it turns left there."""
+    at = corners[list(face[0])]
+    normal = np.cross(at - at[0], np.roll(at, -1, axis=0) - at[0]).sum(axis=0)
+    axis = int(np.abs(normal).argmax())
+    plane = [(axis + 1) % 3, (axis + 2) % 3]
+    return [corners[list(loop)][:, plane] for loop in face], bool(normal[axis] > 0.0)
+
+
+def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
+    """A solid whose edges shorter than a length are contracted; faces that bend by it are cut into triangles.
+
+    Args:
+        body: The solid.
+        least: Shortest edge in mm that stays; no corner moves farther.
+
+    Returns:
+        The solid; an edge stays where the solid would touch itself without it.
+    """
+    faces = [[list(loop) for loop in face] for face in body.faces]
+    normals = body.normals
+    at: dict[int, set[int]] = {}
+    for i, face in enumerate(faces):
+        for n in (n for loop in face for n in loop):
+            at.setdefault(n, set()).add(i)
+    corners = body.corners
+    ends = np.array([e for e in body.neighbours if e[0] < e[1]])
+    length = np.linalg.norm(corners[ends[:, 0]] - corners[ends[:, 1]], axis=1)
+    bent: set[int] = set()
+    stands: dict[int, int] = {}
+    for k in np.argsort(length, kind="stable")[: int((length < least).sum())].tolist():
+        a, b = (_stand_in(stands, int(n)) for n in ends[k])
+        if a == b or np.linalg.norm(corners[a] - corners[b]) >= least:
+            continue
+        moves = sorted(
+            (_bend(corners, normals, at[lost] - at[kept], lost, kept), kept, lost) for kept, lost in ((a, b), (b, a))
+        )
+        for off, kept, lost in moves:
+            changed = {i: _contracted(faces[i], lost, kept) for i in at[lost]}
+            good = all(_sound(corners, face) for face in changed.values() if face)
+            if good and _closed(faces, changed, at[kept] | at[lost]):
+                bent.update(i for i in changed if off > _FLAT and i not in at[kept])
+                for i, face in changed.items():
+                    faces[i] = face
+                at[kept] |= at.pop(lost)
+                stands[lost] = kept
+                break
+    kept_faces: list[Loops] = []
+    for i, face in enumerate(faces):
+        loops = tuple(tuple(loop) for loop in face)
+        if loops and i in bent:
+            kept_faces += [(tuple(t),) for t in _triangles(corners, loops).tolist()]
+        elif loops:
+            kept_faces.append(loops)
+    used = np.unique([n for face in kept_faces for loop in face for n in loop])
+    number = np.zeros(len(corners), dtype=np.int64)
+    number[used] = np.arange(len(used))
+    return Polyhedron(corners[used], tuple(tuple(tuple(number[list(q)].tolist()) for q in f) for f in kept_faces))
+
+
+def _stand_in(stands: dict[int, int], corner: int) -> int:
+    while corner in stands:
+        corner = stands[corner]
+    return corner
+
+
+def _bend(corners: Array, normals: Array, faces: set[int], lost: int, kept: int) -> float:
+    """How far off their planes a corner's faces are bent when it moves to another."""
+    way = corners[kept] - corners[lost]
+    return max((abs(float(normals[i] @ way)) for i in faces), default=0.0)
+
+
+def _sound(corners: Array, face: list[list[int]]) -> bool:
+    """Whether a face has an area and its border does not cross itself."""
+    import shapely
+
+    flat, _ = _flattened(corners, face)
+    polygon = shapely.Polygon(flat[0], flat[1:])
+    return bool(polygon.is_valid and polygon.area > _SLIVER)
+
+
+def _contracted(face: list[list[int]], lost: int, kept: int) -> list[list[int]]:
+    """Loops with one corner in place of another, without edges that this leaves without a length."""
+    out = []
+    for loop in face:
+        found: list[int] = []
+        for n in (kept if n == lost else n for n in loop):
+            if found and found[-1] == n:
+                continue
+            if len(found) > 1 and found[-2] == n:
+                found.pop()
+                continue
+            found.append(n)
+        while len(found) > 1 and found[0] == found[-1]:
+            found.pop()
+        if len(found) > 2:
+            out.append(found)
+    return out
+
+
+def _closed(faces: list[list[list[int]]], changed: dict[int, list[list[int]]], near: set[int]) -> bool:
+    """Whether no edge of faces is there twice, and none of their loops meets itself."""
+    edges = set()
+    for i in near:
+        for loop in changed.get(i, faces[i]):
+            if len(set(loop)) < len(loop):
+                return False
+            for edge in zip(loop, (*loop[1:], loop[0]), strict=True):
+                if edge in edges:
+                    return False
+                edges.add(edge)
+    return True

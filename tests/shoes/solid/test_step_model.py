@@ -1,0 +1,110 @@
+"""Tests of STEP files: arcs, short edges, names, the date, and assemblies, measured on what is read back."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+from plantar.shoes import ShoeReport
+from plantar.shoes.plan.block import Block, Step, box_block, tapered
+from plantar.shoes.solid.arcs import with_arcs
+from plantar.shoes.solid.kernel import build_solid
+from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
+from plantar.shoes.solid.step_model import StepPart, read_step, write_step
+
+
+def of_blocks(*blocks: Block) -> Polyhedron:
+    return build_solid([Step("add", "a", blocks)])
+
+
+def edge_lengths(body: Polyhedron) -> np.ndarray:
+    ends = np.array([e for e in body.neighbours if e[0] < e[1]])
+    return np.linalg.norm(body.corners[ends[:, 0]] - body.corners[ends[:, 1]], axis=1)
+
+
+def test_step_reads_back_with_a_name_and_a_date_that_does_not_change(
+    exported: tuple[ShoeReport, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solid = exported[0].build.shoes[0].solid
+    assert solid is not None
+    part = StepPart("my foot's shoe", solid, {}, (0.3, 0.4, 0.5))
+    for name in ("a", "b"):
+        write_step([part], tmp_path / f"{name}.step", "my foot's shoe")
+    text = (tmp_path / "a.step").read_text()
+    assert "FILE_NAME('my foot s shoe','2026-01-01T00:00:00'" in text
+    assert len(re.findall(r"PRODUCT\('my foot s shoe',\s*'my foot s shoe'", text)) == 1
+    assert text == (tmp_path / "b.step").read_text()
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1767225661")
+    write_step([part], tmp_path / "a.step", "b")
+    assert "'2026-01-01T00:01:01'" in (tmp_path / "a.step").read_text()[:1000]
+
+
+def test_the_shoes_step_is_valid_small_and_round(exported: tuple[ShoeReport, Path]) -> None:
+    report, folder = exported
+    for shoe in report.build.shoes:
+        assert shoe.solid is not None
+        path = folder / f"shoe_{shoe.side}.step"
+        step = read_step(path)
+        assert (step.solids, step.valid) == (1, True)
+        assert step.volume == pytest.approx(shoe.solid.volume, rel=2e-3)  # arcs bulge beyond facets
+        assert step.shortest >= 0.2 - 1e-6
+        assert step.round >= 0.8 * (step.round + step.flat)
+        assert path.stat().st_size < 1.5e6
+
+
+def test_the_assembly_names_its_parts_in_their_places(exported: tuple[ShoeReport, Path]) -> None:
+    report, folder = exported
+    shoe = report.build.shoes[0]
+    text = (folder / "assembly_left.step").read_text()
+    assert (folder / "assembly_left.step").stat().st_size < 1.5e6
+    named = set(re.findall(r"NEXT_ASSEMBLY_USAGE_OCCURRENCE\('\d+','([^']*)'", text))
+    wanted = {f"taxel {k}" for k in shoe.layout.ids.tolist()} | {"pad", "shoe left"}
+    assert wanted <= named
+    step = read_step(folder / "assembly_left.step")
+    assert step.valid
+    assert step.solids == len(named)
+
+
+def test_a_round_wall_becomes_cylinders_and_its_bevel_cones() -> None:
+    disc = shapely.Point(0.0, 0.0).buffer(30.0, quad_segs=16)
+    bevel = tapered(disc, 0.0, -1.0, 8.0, 9.0)
+    assert bevel is not None
+    body = of_blocks(Block(disc, 0.0, 8.0), bevel)
+    round_ = with_arcs(body)
+    assert len(round_.body.faces) - 2 == len(round_.curved) <= 8
+    radii = {round(a.radius, 3) for a in round_.arcs.values()}
+    assert len(radii) == 2
+    assert max(radii) == pytest.approx(30.0, abs=1e-3)
+    assert all(math.hypot(*a.centre) < 1e-3 for a in round_.arcs.values())
+
+
+def test_a_concave_wall_and_a_round_hole_are_valid(tmp_path: Path) -> None:
+    plate = shapely.box(-40, -40, 40, 40).difference(shapely.Point(45, 0).buffer(25, quad_segs=24))
+    plate = plate.difference(shapely.Point(-15, 0).buffer(10, quad_segs=24))
+    write_step([StepPart("a", of_blocks(Block(plate, 0.0, 10.0)), {}, (1.0, 1.0, 1.0))], tmp_path / "a.step", "a")
+    step = read_step(tmp_path / "a.step")
+    assert (step.solids, step.valid) == (1, True)
+    assert step.flat == 0.0
+    assert step.round == pytest.approx(10.0 * (2 * math.pi * 10 + 50 * math.acos(5 / 25)), rel=2e-2)
+    assert step.volume == pytest.approx(plate.area * 10.0, rel=5e-3)
+
+
+def test_polygons_of_few_corners_stay_polygons() -> None:
+    angle = np.radians(np.arange(0, 360, 45))
+    octagon = shapely.Polygon(30.0 * np.column_stack([np.cos(angle), np.sin(angle)]))
+    assert not with_arcs(of_blocks(Block(octagon, 0.0, 5.0))).curved
+
+
+@pytest.mark.parametrize("step", [0.004, 0.05, 0.15])
+def test_short_edges_vanish_and_the_solid_stays_closed(step: float) -> None:
+    body = of_blocks(box_block((0, 0, 0), (20, 20, 5)), box_block((0, 20 - 4, 0), (20 + step, 20 + step, 9)))
+    assert edge_lengths(body).min() >= 0.2
+    outline = shapely.Polygon([(0, 0), (20, 0), (20, 10), (20 + step, 10 + step), (20, 20), (0, 20)])
+    solid = without_short_edges(of_blocks(Block(outline, 0.0, 5.0)), 0.2)
+    assert all((b, a) in solid.neighbours for a, b in solid.neighbours)
+    assert solid.volume == pytest.approx(outline.area * 5.0, abs=60.0 * step)
