@@ -17,7 +17,7 @@ from plantar.shoes.plan.pad_outline import pad_rim
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.solid.kernel import build_solid
 from plantar.shoes.solid.pad import land_top
-from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
+from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import slot_lines
 from plantar.shoes.solid.step_model import StepPart
 
@@ -112,11 +112,9 @@ def _straps(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
     for n, x in enumerate(dict.fromkeys(q.x for q in retention.places), start=1):
         ends = slot_lines(build.foot.passing(p.rim_height), x, retention.width, p)
         path = strap_path(foot.surface, x, retention.width, ends, p.rim_height + 1.0)
-        path = [*path, 0.0, p.thickness + 0.5 * p.strap_thickness]
-        band = (
-            shapely.LineString(path).simplify(0.5).buffer(0.5 * p.strap_thickness, cap_style="flat", join_style="mitre")
-        )
-        flat = without_short_edges(_solid(Block(band, 0.0, retention.width)), 0.2)
+        line = shapely.LineString(path + np.array([0.0, p.thickness + 0.5 * p.strap_thickness])).simplify(0.5)
+        band = line.buffer(0.5 * p.strap_thickness, cap_style="flat", join_style="mitre")
+        flat = _solid(Block(band, 0.0, retention.width))
         y, z, along = flat.corners.T
         turned = np.column_stack([x - 0.5 * retention.width + along, y * flip, z])
         faces = flat.faces if flip > 0.0 else tuple(tuple(loop[::-1] for loop in f) for f in flat.faces)
