@@ -1,4 +1,9 @@
-"""The dimensioned drawing of a shoe: seen from above, and two sections of the exported surface."""
+"""The drawing of a shoe for a workshop: views, sections, details, datums, and every feature located and toleranced.
+
+A sheet of A3 to ISO 128 (lines, sections), ISO 129 (dimensions), ISO 5459 (datums), ISO 1101 (tolerances of place and
+form) and ISO 7200 (title block). Datum A is the printed lower face, B the plane y = 0 and C the plane x = 0 below the
+ankle. Lengths in mm.
+"""
 
 from __future__ import annotations
 
@@ -10,242 +15,336 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.shoes.build import Shoe, ShoeBuild
-from plantar.shoes.geometry.outline import ring
-from plantar.shoes.geometry.section import section_along
+from plantar.shoes.geometry.section import section, section_along
+from plantar.shoes.papers.sheet import Sheet, View
 from plantar.shoes.plan.pad_outline import pad_rim
 from plantar.shoes.solid.pad import land_top
+from plantar.shoes.solid.step_model import release_date
 from plantar.shoes.units import to_mm
 
-__all__ = ["draw_shoe"]
+__all__ = ["draw_shoe", "sheet_of"]
 
-_THIN = 0.6
-_MOST_IDS = 120
+_SCALES = ((2.0, "2:1"), (1.0, "1:1"), (0.5, "1:2"), (0.4, "1:2.5"), (0.2, "1:5"))
+_PLAN = (165.0, 105.0)  # mm of paper for the view from above
+_DETAIL = 17.0  # mm of paper: radius of a detail
+_ROWS = 46  # of a column of the table of features
+_OFF = 1.3e-3  # mm next to a place where corners lie
+
+Array = NDArray[np.float64]
 
 
-def draw_shoe(
-    shoe: Shoe, build: ShoeBuild, triangles: NDArray[np.float64], paths: Sequence[str | os.PathLike[str]]
-) -> list[Path]:
-    """Draw one shoe with its dimensions in mm.
+def draw_shoe(shoe: Shoe, build: ShoeBuild, triangles: Array, paths: Sequence[str | os.PathLike[str]]) -> list[Path]:
+    """Draw one shoe; the endings of the paths give the formats.
 
     Args:
         shoe: The shoe.
         build: What it belongs to.
         triangles: Its surface (n, 3, 3) in mm, as exported.
-        paths: Where to write; the endings give the formats.
+        paths: Where to write: .pdf, .svg, .png, .dxf.
 
     Returns:
         The paths.
     """
-    p = build.parameters
-    body = triangles.reshape(-1, 3)
+    sheet = sheet_of(shoe, build, triangles)
+    return [sheet.write(path) for path in paths]
+
+
+def sheet_of(shoe: Shoe, build: ShoeBuild, triangles: Array) -> Sheet:
+    """The sheet of one shoe, see `draw_shoe`."""
+    sheet, body = Sheet(), triangles.reshape(-1, 3)
     low, high = body.min(axis=0), body.max(axis=0)
-    length, width = high[0] - low[0] + 56.0, high[1] - low[1] + 40.0
-    tall = high[2] + 10.0  # of a section, in mm
-    heights = [width, tall, tall * length / width]
-    scale = 9.3 / length
-    figure, (top, along, across) = new_figure(10.5, scale * sum(heights) + 4.0, rows=3, height_ratios=heights)
-    _plan(top, shoe, build, low, high)
+    size = high - low
+    scale, name = next(((s, n) for s, n in _SCALES if size[0] * s <= _PLAN[0] and size[1] * s <= _PLAN[1]), _SCALES[-1])
+    sheet.box((20.0, 10.0), (410.0, 287.0), "OUTLINE")
     cut_y, cut_x = _cuts(shoe, build)
-    _section(along, shoe, build, triangles, 1, cut_y, "A-A")
-    _section(across, shoe, build, triangles, 0, cut_x, "B-B")
-    for x, text in ((cut_x, "B"),):
-        top.plot([x, x], [low[1] - 4.0, high[1] + 4.0], color=COLOURS["reference"], lw=0.8, ls="-.")
-        top.text(x, high[1] + 5.0, text, ha="center", fontsize=8)
-    top.plot([low[0] - 4.0, high[0] + 4.0], [cut_y, cut_y], color=COLOURS["reference"], lw=0.8, ls="-.")
-    top.text(high[0] + 6.0, cut_y, "A", va="center", fontsize=8)
-    figure.suptitle(
-        f"{shoe.layout.name}, {shoe.side} {build.kind}   |   {p.material}, {len(shoe.layout)} taxels of "
-        f"{build.fit.cell_area:g} mm², "
-        f"{100 * build.fit.covered_area_ratio:.0f} % of the sole covered   |   mm",
-        fontsize=10,
-    )
-    style: dict[str, Any] = {"x": 0.01, "ha": "left", "fontsize": 6.5, "family": "monospace"}
-    figure.supxlabel("\n".join(_notes(shoe, build, 1.0)), **style)
-    figure.draw_without_rendering()  # lays the axes out, which gives the scale
-    ends = top.transData.transform([(0.0, 0.0), (1.0, 0.0)])
-    figure.supxlabel("\n".join(_notes(shoe, build, 25.4 * (ends[1, 0] - ends[0, 0]) / figure.dpi)), **style)
-    return [save_figure(figure, path) for path in paths]
-
-
-def _notes(shoe: Shoe, build: ShoeBuild, scale: float) -> list[str]:
-    """The title block: scale, datums, tolerances, and what is measured on the first print."""
-    p, made = build.parameters, build.parameters.made_by
-    flat = 2.0 * made.scatter
-    title = f"Plantar   {shoe.layout.name} {build.kind} {shoe.side}   {p.material}, {made.name}"
-    lines = [
-        f"{title}   view from above 1:{1.0 / scale:.2f}   third angle   not built: no one has printed it yet",
-        f"Datums: D the printed lower face, z = {p.bottom:g}; E, F the planes y = 0 and x = 0 through the origin",
-        "General tolerances ISO 2768-m. To D E F: position of pockets, ports, lugs 0.3, profile of the inner wall 0.3. "
-        f"Flatness of D {flat:g}",
-        "Inspect | nominal | tolerance",
-        f"pocket depth from D | {p.pocket_depth:g} | +{flat:g} 0",
-        f"floor over the pockets | {p.floor:g} | +-{flat:g}",
-        f"ribs | {p.rib:g} | +-{made.press:g}",
-    ]
-    if build.kind == "shoe":
-        lines.append(f"wall thickness and height | {p.rim_thickness:g}, {p.rim_height:g} | +-0.3")
-        lines.append(f"gap between foot and wall | {p.clearance:g} | +-0.3")
-    if shoe.plan.heel.board:
-        wide, thick = p.board_length + 2.0 * made.slide, p.board_thickness + 2.0 * made.slide
-        lines.append(f"slot of the board, length x width | {wide:g} x {thick:g} | +{made.slide:g} 0")
-    if build.retention is not None and build.retention.kind == "straps":
-        slot = f"{build.retention.width + 2:g} x {p.strap_thickness + 2:g}"
-        lines.append(f"slots of the lugs, length x height | {slot} | +-0.5")
-    return lines
+    middle = 0.5 * (low + high)
+    top = View(sheet, scale, (122.0, 222.0), (float(middle[0]), float(middle[1])))
+    _plan(top, shoe, build, low, high, (cut_x, cut_y))
+    below = 222.0 - 0.5 * size[1] * scale - 22.0 - size[2] * scale - 14.0
+    along = View(sheet, scale, (122.0, below), (float(middle[0]), 0.0))
+    cut = _section(along, shoe, build, triangles, 1, cut_y, "A-A")
+    _heights(along, build, cut)
+    beside = 122.0 + 0.5 * size[0] * scale + 32.0 + 0.5 * size[1] * scale
+    across = View(sheet, scale, (beside, 222.0 - 0.5 * size[2] * scale), (float(middle[1]), 0.0))
+    cut = _section(across, shoe, build, triangles, 0, cut_x, "B-B")
+    _details(top, along, across, shoe, build, triangles, cut)
+    _features(sheet, shoe, build)
+    _inspection(sheet, shoe, build)
+    _title(sheet, shoe, build, name)
+    return sheet
 
 
 def _cuts(shoe: Shoe, build: ShoeBuild) -> tuple[float, float]:
     """Where to cut: y through a row of taxels near the middle, x through what holds the shoe."""
     positions = to_mm(shoe.layout.positions)
     middle = 0.5 * (shoe.plan.contact.bounds[1] + shoe.plan.contact.bounds[3])
-    cut_y = float(positions[np.argmin(np.abs(positions[:, 1] - middle)), 1]) + 1.3e-3
+    cut_y = float(positions[np.argmin(np.abs(positions[:, 1] - middle)), 1])
     places = build.retention.places if build.retention is not None else ()
     cut_x = places[-1].x if places else float(positions[:, 0].mean())
-    return cut_y, cut_x + 1.3e-3
+    return cut_y + _OFF, cut_x + _OFF
 
 
-def _plan(axes: Any, shoe: Shoe, build: ShoeBuild, low: Any, high: Any) -> None:
-    """The sole from above: outlines, cells with their ids, cable route, size."""
-    plan, colour = shoe.plan, COLOURS[shoe.side]
-    for pocket in plan.pockets:
-        axes.plot(*_closed(ring(pocket)).T, color=COLOURS["edge"], lw=0.3)
-    for i, cell in enumerate(plan.cells):
-        axes.fill(*ring(cell).T, facecolor=COLOURS["cell"], edgecolor=COLOURS["edge"], lw=_THIN)
-        if len(plan.cells) > _MOST_IDS:
-            continue
-        x, y = to_mm(shoe.layout.positions[i, :2])
-        axes.text(x, y - 4.0, str(int(shoe.layout.ids[i])), ha="center", va="center", fontsize=6)
-    centres = to_mm(shoe.layout.positions[:, :2])
-    for i, j in plan.route:
-        axes.plot(*centres[[i, j]].T, color=COLOURS["active"], lw=0.8)
-    if plan.connectors:
-        starts = centres[list(plan.connectors)]
-        axes.plot(*starts.T, "s", color=COLOURS["cop"], ms=4, label="connector and cable")
-        axes.plot([starts[0, 0], plan.heel.x], [starts[0, 1], plan.heel.y], color=COLOURS["cop"], lw=1.2)
-    flip = np.array([1.0, 1.0 if shoe.side == "left" else -1.0])
-    axes.plot(*_closed(ring(plan.contact)).T, color=colour, lw=2.0, label="contact face (pad)")
-    if build.kind == "shoe":
-        inside = {"color": COLOURS["reference"], "lw": 0.8, "ls": "--", "label": "inside of the wall"}
-        axes.plot(*_closed(ring(plan.rim)).T, color=colour, lw=0.8, label="wall")
-        axes.plot(*_closed(ring(plan.cavity)).T, **inside)
-    axes.plot(
-        *_closed(ring(build.foot.sole) * flip).T, color=COLOURS["truth"], lw=0.9, ls=":", label="sole of the foot"
-    )
-    axes.plot(0.0, 0.0, "+", color=COLOURS["truth"], ms=11, label="origin, below the ankle")
-    face = plan.contact.bounds
-    _dimension(axes, (face[0], low[1] - 8.0), (face[2], low[1] - 8.0), f"{face[2] - face[0]:.1f}")
-    _dimension(axes, (low[0], low[1] - 16.0), (high[0], low[1] - 16.0), f"{high[0] - low[0]:.1f} over all")
-    _dimension(axes, (low[0] - 8.0, face[1]), (low[0] - 8.0, face[3]), f"{face[3] - face[1]:.1f}")
-    _directions(axes, shoe, low, high)
-    axes.set_title(f"From above; overhang of the contact face {plan.overhang:.1f} mm", fontsize=9, loc="left")
-    axes.set(xlim=(low[0] - 28.0, high[0] + 28.0), ylim=(low[1] - 24.0, high[1] + 14.0), ylabel="y, left")
-    axes.set_aspect("equal")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.05), ncols=6, fontsize=7, frameon=False)
-
-
-def _directions(axes: Any, shoe: Shoe, low: Any, high: Any) -> None:
-    """Where toes, heel and the body's middle are."""
-    middle = 0.5 * (low[1] + high[1])
-    sides = ("outer", "inner") if shoe.side == "left" else ("inner", "outer")
-    axes.text(high[0] + 18.0, middle, "toes", rotation=-90.0, ha="center", va="center", fontsize=8)
-    axes.text(low[0] - 22.0, middle, "heel", rotation=90.0, ha="center", va="center", fontsize=8)
-    axes.text(low[0] - 24.0, high[1] + 7.0, f"left, {sides[0]} side", fontsize=8)
-    axes.text(low[0] - 24.0, low[1] - 20.0, f"right, {sides[1]} side", fontsize=8)
-
-
-def _section(
-    axes: Any, shoe: Shoe, build: ShoeBuild, triangles: NDArray[np.float64], axis: int, at: float, name: str
-) -> None:
-    """A section with the foot's place, the taxels and the pad, and its heights."""
+def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cuts: tuple[float, float]) -> None:
+    """The shoe from above: outlines, hidden pockets with the ids of their taxels, cable, datums, cuts, sizes."""
     import shapely
 
-    p, colour = build.parameters, COLOURS[shoe.side]
-    cut = section_along(triangles, axis, at)
+    plan, sheet, p = shoe.plan, view.sheet, build.parameters
+    flip = 1.0 if shoe.side == "left" else -1.0
+    for pocket in plan.pockets:
+        view.draw(pocket, "HIDDEN")
+    centres = to_mm(shoe.layout.positions[:, :2])
+    for (x, y), number in zip(centres.tolist(), shoe.layout.ids.tolist(), strict=True):
+        sheet.text(view.place(x, y - 1.0), str(number), 2.0, align="center")
+    for i, j in plan.route:
+        sheet.line(view.at(centres[[i, j]]), "CABLE")
+    for c in plan.connectors[:1]:
+        sheet.line(view.at([centres[c], (plan.heel.x, plan.heel.y)]), "CABLE")
+    view.draw(plan.contact, "OUTLINE")
+    if build.kind == "shoe":
+        view.draw(plan.rim)
+        view.draw(plan.cavity)
+    view.draw(shapely.affinity.scale(build.foot.sole, 1.0, flip, origin=(0.0, 0.0)), "FOOT")
+    if plan.heel.board:
+        slot = shapely.box(-p.board_gap - p.board_thickness, -0.5 * p.board_length, -p.board_gap, 0.5 * p.board_length)
+        view.draw(plan.heel.placed(slot))
+    (left, bottom), (right, upper) = view.place(low[0], low[1]), view.place(high[0], high[1])
+    zero = view.place(0.0, 0.0)
+    sheet.line([(left - 8.0, zero[1]), (right + 8.0, zero[1])], "CENTRE")
+    sheet.line([(zero[0], bottom - 5.0), (zero[0], upper + 5.0)], "CENTRE")
+    sheet.datum((right + 8.0, zero[1]), "B", (1.0, 0.0))
+    sheet.datum((zero[0], upper + 5.0), "C", (0.0, 1.0))
+    for letter, a, b, way in (
+        ("A", (left - 14.0, view.place(0.0, cuts[1])[1]), (right + 4.0, view.place(0.0, cuts[1])[1]), (0.0, 1.0)),
+        ("B", (view.place(cuts[0], 0.0)[0], bottom - 4.0), (view.place(cuts[0], 0.0)[0], upper + 4.0), (-1.0, 0.0)),
+    ):
+        sheet.line([a, b], "CENTRE")
+        for end in (a, b):
+            sheet.arrow((end[0] + 4.0 * way[0], end[1] + 4.0 * way[1]), way)
+            sheet.line([end, (end[0] + 2.0 * way[0], end[1] + 2.0 * way[1])], "OUTLINE")
+            sheet.text((end[0] - 2.0 + 5.0 * way[0], end[1] + 4.5 * way[1]), letter, 3.5)
+    face = plan.contact.bounds
+    a, b = view.place(face[0], low[1]), view.place(face[2], low[1])
+    sheet.dimension(a, b, f"{face[2] - face[0]:.1f} ±0.3", -6.0)
+    sheet.dimension((left, bottom), (right, bottom), f"({high[0] - low[0]:.1f})", -13.0)
+    a, b = view.place(low[0], face[1]), view.place(low[0], face[3])
+    sheet.dimension((left, a[1]), (left, b[1]), f"{face[3] - face[1]:.1f} ±0.3", -8.0)
+    sides = ("outer", "inner") if shoe.side == "left" else ("inner", "outer")
+    sheet.text((left, upper + 2.0), f"left, {sides[0]} side", 2.0)
+    sheet.text((left, bottom - 3.5), f"right, {sides[1]} side", 2.0)
+    sheet.text((right - 8.0, upper + 2.0), "toes", 2.5)
+    sheet.text((left + 30.0, upper + 2.0), "heel", 2.5)
+    sheet.text((24.0, 281.0), f"From above; the contact face reaches {plan.overhang:.1f} beyond the foot", 3.5)
+
+
+def _section(view: View, shoe: Shoe, build: ShoeBuild, triangles: Array, axis: int, at: float, name: str) -> Any:
+    """A section with the foot as it is cut, taxels and pad; gives the print's area."""
+    import shapely
+
+    p, plan, sheet = build.parameters, shoe.plan, view.sheet
+    cut, across = section_along(triangles, axis, at), 1 - axis
     line = shapely.LineString([(at, -1e4), (at, 1e4)] if axis == 0 else [(-1e4, at), (1e4, at)])
-    across = 1 - axis
-    lands = shoe.plan.lands
-    top = land_top(shoe.plan, p) if lands else p.bottom
-    heads = [(q, p.pad_thickness, top) for q in lands or shoe.plan.cells]
-    for shape, low, high in heads + [(q, top, p.ceiling) for q in shoe.plan.pockets]:
-        for part in shapely.get_parts(shape.intersection(line)):
-            if part.length > 0.0:
-                ends = (part.bounds[across], part.bounds[across + 2])
-                axes.fill_between(ends, low, high, facecolor=COLOURS["active"], alpha=0.55, lw=0)
-    face = shoe.plan.contact.intersection(line).bounds
-    start, end = face[across], face[across + 2]
+
+    def filled(shapes: Any, low: float, high: float, colour: str) -> None:
+        for part in (q for s in shapes for q in shapely.get_parts(s.intersection(line)) if q.length > 0.0):
+            a, b = part.bounds[across], part.bounds[across + 2]
+            sheet.areas.append((colour, view.at([(a, low), (b, low), (b, high), (a, high)])))
+
+    top = land_top(plan, p) if plan.lands else p.bottom
+    filled(plan.lands or plan.cells, p.pad_thickness, top, "#b7e4c7")
+    filled(plan.pockets, top, p.ceiling, "#b7e4c7")
     if p.pad_thickness > 0.0:
-        axes.fill_between((start, end), 0.0, p.pad_thickness, facecolor=COLOURS["reference"], alpha=0.6, lw=0)
-        rim = pad_rim(shoe.plan, p).intersection(line)
-        for part in () if rim.is_empty else getattr(rim, "geoms", [rim]):
-            ends = (part.bounds[across], part.bounds[across + 2])
-            heights = (p.pad_thickness, p.pad_thickness + p.pad_rim_height)
-            axes.fill_between(ends, *heights, facecolor=COLOURS["reference"], alpha=0.6, lw=0)
-    top = min(p.rim_top + 14.0 if build.kind == "shoe" else 2.0 * p.thickness, p.thickness + build.foot.height)
-    for part in shapely.get_parts(_foot_section(shoe, build, axis, at, top)):
-        if part.geom_type == "Polygon":
-            axes.fill(*ring(part).T, facecolor=COLOURS["truth"], alpha=0.08, lw=0)
-    for part in getattr(cut, "geoms", [cut]):
-        shape = shapely.geometry.polygon.orient(part)
-        rings = [np.array(shape.exterior.coords), *(np.array(h.coords) for h in shape.interiors)]
-        axes.fill(*rings[0].T, facecolor=colour, alpha=0.75, edgecolor=COLOURS["truth"], lw=_THIN)
-        for hole in rings[1:]:
-            axes.fill(*hole.T, facecolor="white", edgecolor=COLOURS["truth"], lw=_THIN)
-    low, high = cut.bounds[0], cut.bounds[2]
-    flat = build.kind == "insole"
-    for place, upper in enumerate((p.thickness,) if flat else (p.thickness, p.rim_top)):
-        x = high + 8.0 + 9.0 * place
-        _dimension(axes, (x, 0.0), (x, upper), f"{upper:g}")
-    _dimension(axes, (low - 8.0, p.bottom), (low - 8.0, p.ceiling), f"{p.ceiling - p.bottom:g}")
-    _dimension(axes, (low - 16.0, 0.0), (low - 16.0, p.bottom), f"{p.bottom:g}")
+        filled([plan.contact], 0.0, p.pad_thickness, "#adb5bd")
+        filled([pad_rim(plan, p)], p.pad_thickness, p.pad_thickness + p.pad_rim_height, "#adb5bd")
+    view.hatch(cut)
+    high = min(p.rim_top + 14.0 if build.kind == "shoe" else 2.0 * p.thickness, p.thickness + build.foot.height)
+    view.draw(_foot_section(shoe, build, axis, at, high), "FOOT")
     letter, seen = ("y", "the right") if axis == 1 else ("x", "the toes")
-    axes.set_title(
-        f"{name}, {letter} = {at:.1f}, seen from {seen}: pad {p.pad_thickness:g}, "
-        f"taxels {p.taxel_protrusion:g} + {p.pocket_depth:g}, "
-        f"floor {p.floor:g}" + ("" if flat else f", wall {p.rim_thickness:g}, clearance {p.clearance:g}"),
-        fontsize=9,
-        loc="left",
-    )
-    axes.set(
-        xlim=(low - 28.0, high + 28.0),
-        ylim=(-4.0, cut.bounds[3] + 6.0),
-        xlabel="x, forward" if axis == 1 else "y, left",
-        ylabel="z",
-    )
-    axes.set_aspect("equal")
+    left, upper = view.place(cut.bounds[0], max(cut.bounds[3], high))
+    sheet.text((left, upper + 2.0), f"{name}   {letter} = {at:.1f}, seen from {seen}", 3.0)
+    return cut
 
 
 def _foot_section(shoe: Shoe, build: ShoeBuild, axis: int, at: float, top: float) -> Any:
-    """The foot in the shoe, cut where the shoe is; upright sides where only its outline is known."""
+    """The foot in the shoe, cut where the shoe is; of an open surface, or of dimensions, its outlines by height."""
     import shapely
 
     floor, triangles = build.parameters.thickness, build.foot.triangles
-    low, high = shoe.plan.foot.bounds[1 - axis], shoe.plan.foot.bounds[3 - axis]
-    room = shapely.box(low - 50.0, floor, high + 50.0, top)
+    room = shapely.box(-1e4, floor, 1e4, top)
     if triangles is not None:
         turned = triangles if shoe.side == "left" else (triangles * np.array([1.0, -1.0, 1.0]))[:, ::-1]
         cut = section_along(turned + np.array([0.0, 0.0, floor]), axis, at)
-        if not cut.is_empty:  # of an open surface there is no section
+        if not cut.is_empty:
             return cut.intersection(room)
-    line = shapely.LineString([(at, -1e4), (at, 1e4)] if axis == 0 else [(-1e4, at), (1e4, at)])
-    ends = shoe.plan.foot.intersection(line).bounds
-    return shapely.box(ends[1 - axis], floor, ends[3 - axis], top) if len(ends) == 4 else shapely.Polygon()
+    place = at if shoe.side == "left" or axis == 0 else -at
+    line = shapely.LineString([(place, -1e4), (place, 1e4)] if axis == 0 else [(-1e4, place), (1e4, place)])
+    bands, heights = [], np.linspace(0.0, top - floor, 8)
+    for low, high in zip(heights[:-1].tolist(), heights[1:].tolist(), strict=True):
+        ends = build.foot.passing(high).intersection(line).bounds
+        if len(ends) == 4:
+            a, b = sorted(v * (-1.0 if axis == 0 and shoe.side == "right" else 1.0) for v in ends[1 - axis :: 2])
+            bands.append(shapely.box(a, floor + low, b, floor + high))
+    return shapely.union_all(bands)
 
 
-def _closed(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.concatenate([points, points[:1]])
+def _heights(view: View, build: ShoeBuild, cut: Any) -> None:
+    """Heights of a section, and datum A."""
+    p, sheet = build.parameters, view.sheet
+    low, high, made = cut.bounds[0], cut.bounds[2], build.parameters.made_by
+    levels = [(p.thickness, f"{p.thickness:g} ±{2 * made.scatter:g}")]
+    levels += [(p.rim_top, f"{p.rim_top:g} ±0.3")] if build.kind == "shoe" else []
+    for n, (level, text) in enumerate(levels):
+        sheet.dimension(view.place(high, 0.0), view.place(high, level), text, 9.0 + 9.0 * n)
+    sheet.dimension(view.place(low, 0.0), view.place(low, p.bottom), f"{p.bottom:g}", -8.0)
+    sheet.datum(view.place(0.3 * low + 0.7 * high, p.bottom), "A", (0.0, -1.0))
 
 
-def _dimension(axes: Any, start: tuple[float, float], end: tuple[float, float], text: str) -> None:
-    """A dimension line with arrows at both ends and its figure in the middle."""
-    axes.annotate("", xy=start, xytext=end, arrowprops={"arrowstyle": "<->", "lw": 0.7, "shrinkA": 0, "shrinkB": 0})
-    upright = abs(start[0] - end[0]) < 1e-9
-    axes.text(
-        0.5 * (start[0] + end[0]) + (1.5 if upright else 0.0),
-        0.5 * (start[1] + end[1]) - (0.0 if upright else 1.5),
-        text,
-        ha="left" if upright else "center",
-        va="center" if upright else "top",
-        fontsize=8,
-    )
+def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild, triangles: Array, cut: Any) -> None:
+    """Pocket and rib, port, what holds the shoe, and the slot of the board: larger, and marked in their views."""
+    plan, p, made = shoe.plan, build.parameters, build.parameters.made_by
+    flat, half = 2.0 * made.scatter, p.bottom + 0.5 * p.pocket_depth
+    cut_y, _ = _cuts(shoe, build)
+    beside = section_along(triangles, 1, cut_y + 0.5 * p.port_width + 2.0)  # next to the ports
+    details = [
+        ("pocket and rib", along, beside, (_rib(beside, half), half), 3.4, (
+            f"pocket {p.pocket_depth:g} +{flat:g} 0 deep", f"floor {p.floor:g} ±{flat:g}",
+            f"rib {p.rib:g} ±{made.press:g}", f"groove {p.scribe:g} x 45°"))
+    ]  # fmt: skip
+    if plan.route:
+        ends, _, most = plan.port(*plan.route[0])
+        level = section(triangles, p.bottom + max(p.scribe, 0.5 * p.pocket_depth) + 0.05 + _OFF)
+        texts: tuple[str, ...] = (f"port {min(p.port_width, most):.1f} ±{made.slide:g} wide", "cut at half the depth")
+        details.append(("port", top, level, (*ends.mean(axis=0).tolist(),), 8.5, texts))
+    if build.retention is not None and build.retention.places:
+        width, kind = build.retention.width, build.retention.kind
+        flip = build.retention.places[-1].side * (1.0 if shoe.side == "left" else -1.0)
+        edge, high = cut.bounds[2 if flip > 0.0 else 0], p.thickness + build.retention.top(p)
+        name, texts = {
+            "straps": (
+                "lug",
+                (f"slot {width + 2:g} x {p.strap_thickness + 2:g} ±0.5", f"lug {p.rim_thickness:g} ±0.3"),
+            ),
+            "clips": ("clip", (f"hook {p.clip_hook:g} ±0.2, 45°", f"arm {p.clip_thickness:g} ±0.2 x {p.clip_width:g}")),
+        }.get(kind, ("boss", (f"hole ⌀{width + 0.3:g} ±0.2", f"slot of the nut {0.8 * width + 0.4:g} ±0.2")))
+        details.append((name, across, cut, (edge - 2.0 * flip, high - 6.0), 8.5, texts))
+    if plan.heel.board:
+        level = section(triangles, p.thickness + 0.5 * p.rim_height + _OFF)
+        wide, thick = p.board_length + 2.0 * made.slide, p.board_thickness + 2.0 * made.slide
+        texts = (f"slot {wide:g} x {thick:g} +{made.slide:g} 0", f"gap to the wall {p.board_gap:g} ±0.3")
+        end = plan.heel.point(-p.board_gap, 0.5 * p.board_length)
+        details.append(("slot of the board", top, level, (*end.tolist(),), 8.5, texts))
+    for n, detail in enumerate(details):
+        _detail("DEFG"[n], (45.0 + 47.0 * n, 54.0), *detail)
+
+
+def _rib(cut: Any, height: float) -> float:
+    """Middle of the rib in a section that is nearest to the section's own."""
+    import shapely
+
+    low, _, high, _ = cut.bounds
+    parts = shapely.get_parts(cut.intersection(shapely.LineString([(low, height), (high, height)])))
+    middles = [0.5 * (q.bounds[0] + q.bounds[2]) for q in parts if q.length < 6.0] or [0.5 * (low + high)]
+    return float(min(middles, key=lambda x: abs(x - 0.5 * (low + high))))
+
+
+def _detail(
+    letter: str, at: tuple[float, float], name: str, source: View, shape: Any, centre: tuple[float, float],
+    radius: float, texts: Sequence[str],
+) -> None:  # fmt: skip
+    """What lies within a circle of a view, larger, with what is toleranced there."""
+    import shapely
+
+    sheet, scale = source.sheet, _DETAIL / radius
+    circle = shapely.Point(centre).buffer(radius, quad_segs=24)
+    view = View(sheet, scale, at, centre)
+    view.hatch(shape.intersection(circle))
+    view.draw(circle)
+    source.draw(circle)
+    x, y = source.place(centre[0] + 0.8 * radius, centre[1] + 0.8 * radius)
+    sheet.text((x, y), letter, 3.0)
+    sheet.text((at[0], at[1] + _DETAIL + 2.0), f"{letter}   {name}   {scale:g}:1", 2.5, align="center")
+    for n, text in enumerate(texts):
+        sheet.text((at[0], at[1] - _DETAIL - 3.6 - 3.0 * n), text, 2.0, align="center")
+
+
+def _features(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
+    """A table of every feature: its place from the datums, and the tolerance of that place."""
+    plan = shoe.plan
+    flip = 1.0 if shoe.side == "left" else -1.0
+    rows = [
+        (f"pocket {k}", f"{x:.2f}", f"{y:.2f}", "⌀0.3 A B C")
+        for k, (x, y) in zip(shoe.layout.ids.tolist(), to_mm(shoe.layout.positions[:, :2]).tolist(), strict=True)
+    ]
+    ids = shoe.layout.ids.tolist()
+    for i, j in plan.route:
+        x, y = plan.port(i, j)[0].mean(axis=0).tolist()
+        rows.append((f"port {ids[i]}-{ids[j]}", f"{x:.2f}", f"{y:.2f}", "⌀0.3 A B C"))
+    if build.retention is not None:
+        name = {"straps": "lug", "clips": "clip", "screws": "screw"}.get(build.retention.kind, "")
+        for place in build.retention.places:
+            side = "left" if place.side * flip > 0 else "right"
+            rows.append((f"{name}, {side}", f"{place.x:.2f}", "wall", "0.3 C"))
+    if plan.heel.board:
+        rows.append(
+            (f"board slot, {np.degrees(plan.heel.turn):.0f}°", f"{plan.heel.x:.2f}", f"{plan.heel.y:.2f}", "0.3 B C")
+        )
+    for name in ("contact face", "inner wall") if build.kind == "shoe" else ("contact face",):
+        rows.append((name, "STEP", "STEP", "profile 0.3 A B C"))
+    columns = -(-len(rows) // _ROWS)
+    step = 3.4 if columns <= 2 else 3.4 * 2 / columns
+    per = -(-len(rows) // columns)
+    wide = 144.0 / max(2, columns)
+    for n in range(columns):
+        part = rows[n * per : (n + 1) * per]
+        widths = [0.34 * wide, 0.18 * wide, 0.18 * wide, 0.3 * wide]
+        at = (410.0 - wide * (columns - n), 284.0)
+        sheet.table(at, widths, [("Feature", "x to C", "y to B", "position"), *part], step)
+
+
+def _inspection(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
+    """What is measured on the first print, with a place for what was found."""
+    p, made, plan = build.parameters, build.parameters.made_by, shoe.plan
+    flat = 2.0 * made.scatter
+    rows = [
+        ("flatness of A", "0", f"{flat:g}", "surface plate"),
+        ("pocket depth from A", f"{p.pocket_depth:g}", f"+{flat:g} 0", "depth gauge"),
+        ("ceilings, scatter of 5", "0", f"{made.scatter:g} (1 s)", "depth gauge"),
+        ("floor over the pockets", f"{p.floor:g}", f"±{flat:g}", "caliper"),
+        ("rib", f"{p.rib:g}", f"±{made.press:g}", "caliper"),
+    ]
+    if build.kind == "shoe":
+        rows.append(("wall, thickness x height", f"{p.rim_thickness:g} x {p.rim_height:g}", "±0.3", "caliper"))
+        rows.append(("gap of foot and wall", f"{p.clearance:g}", "±0.3", "feeler gauge"))
+    if plan.heel.board:
+        rows.append(("slot of the board", f"{p.board_length + 2 * made.slide:g}", f"+{made.slide:g} 0", "the board"))
+    if build.retention is not None and build.retention.kind == "straps":
+        rows.append(("slot of each lug", f"{build.retention.width + 2:g} x {p.strap_thickness + 2:g}", "±0.5", "strap"))
+    head = ("Inspect", "nominal", "tolerance", "with", "measured")
+    sheet.table((230.0, 112.0), [36.0, 26.0, 22.0, 22.0, 20.0], [head, *((*row, "") for row in rows)], 4.0)
+
+
+def _title(sheet: Sheet, shoe: Shoe, build: ShoeBuild, scale: str) -> None:
+    """The title block (ISO 7200), with general tolerances and the symbol of projection."""
+    p = build.parameters
+    low = (230.0, 10.0)
+    sheet.box(low, (410.0, 62.0), "OUTLINE")
+    name = shoe.layout.name
+    rows = [
+        (("Title", f"{name}, {shoe.side} {build.kind}"), ("Part", f"{build.kind}_{shoe.side}.step")),
+        (("Material", f"{p.material}, {p.made_by.name}"), ("Scale", scale)),
+        (("Tolerances", "ISO 2768-m, ISO 8015"), ("Sheet", "1 of 1, A3")),
+        (("Surface", p.made_by.finish[:46]), ("Taxels", f"{len(shoe.layout)} of {build.fit.cell_area:g} mm²")),
+        (("Drawn by", "Plantar"), ("Date", release_date()[:10])),
+        (("State", "not built: no print of it is known"), ("Revision", "A")),
+    ]
+    for i, row in enumerate(rows):
+        y = 62.0 - 8.6 * (i + 1)
+        sheet.line([(low[0], y), (410.0, y)])
+        for x, (label, text) in zip((low[0] + 1.5, 342.0), row, strict=True):
+            sheet.text((x, y + 5.4), label, 1.6)
+            sheet.text((x, y + 1.3), text, 2.6)
+    sheet.line([(340.5, 62.0), (340.5, 10.0)])
+    for radius in (1.6, 3.2):  # third angle
+        sheet.line([(401.0 + radius * np.cos(a), 48.8 + radius * np.sin(a)) for a in np.linspace(0, 2 * np.pi, 25)])
+    sheet.line([(390.0, 47.2), (396.0, 45.6), (396.0, 52.0), (390.0, 50.4), (390.0, 47.2)])
+    sheet.text((24.0, 12.0), "Lengths in mm. Datums: A printed lower face, B plane y = 0, C plane x = 0.", 2.0)

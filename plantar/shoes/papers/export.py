@@ -248,7 +248,8 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
 def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Path) -> list[str]:
     """Draw a shoe; gives the files' names."""
     side, p = shoe.side, build.parameters
-    drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.png", target / f"drawing_{side}.svg"])
+    formats = ("png", "svg", "pdf", "dxf")
+    drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.{ending}" for ending in formats])
     pad = pad_surface(shoe.plan, p) if p.pad_thickness > 0.0 else None
     title = f"{shoe.layout.name}, {side} {build.kind}"
     drawn.append(draw_picture(surface, pad, title, target / f"picture_{side}.png"))

@@ -20,7 +20,7 @@ from plantar.shoes.solid.arcs import BULGE, Arc, CurvedSolid, with_arcs
 from plantar.shoes.solid.polyhedron import Loops, Polyhedron
 from plantar.shoes.solid.step_text import with_shared_entities
 
-__all__ = ["StepPart", "StepSolid", "read_step", "write_step"]
+__all__ = ["StepPart", "StepSolid", "read_step", "release_date", "write_step"]
 
 _TOLERANCE = 1e-5  # mm
 _SAME = 1e-6  # mm between the centres of a cone's two arcs
@@ -122,7 +122,7 @@ def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: st
     writer.Transfer(document, STEPControl_AsIs)
     writer.Write(str(path))
     text = Path(path).read_text(encoding="utf-8")
-    text = re.sub(r"FILE_NAME\('[^']*','[^']*'", f"FILE_NAME('{plain}','{_date()}'", text, count=1)
+    text = re.sub(r"FILE_NAME\('[^']*','[^']*'", f"FILE_NAME('{plain}','{release_date()}'", text, count=1)
     text = re.sub(r"(STEP translator \d+\.\d+) \d+", r"\1", text)  # counts the exports of the process
     Path(path).write_text(with_shared_entities(text), encoding="utf-8")
 
@@ -131,7 +131,8 @@ def _plain(name: str) -> str:
     return "".join(c if c.isascii() and (c.isalnum() or c in " -_.") else " " for c in name)
 
 
-def _date() -> str:
+def release_date() -> str:
+    """Date and time of what is written, the same for the same release."""
     seconds = os.environ.get("SOURCE_DATE_EPOCH", "")
     when = datetime.fromtimestamp(int(seconds), UTC) if seconds.isdigit() else datetime(2026, 1, 1, tzinfo=UTC)
     return when.strftime("%Y-%m-%dT%H:%M:%S")

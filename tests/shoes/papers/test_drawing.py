@@ -1,83 +1,106 @@
-"""Tests of the drawing: what stands in it, read from its SVG."""
+"""Tests of the drawing: a reviewer's list, and its sections against rays in the print."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
+import ezdxf
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgba
-from matplotlib.path import Path as Line
+import shapely
 
-from plantar.plotting import COLOURS
 from plantar.shoes import ShoeReport
-from plantar.shoes.papers import drawing
-from plantar.shoes.papers.drawing import draw_shoe
+from plantar.shoes.papers.drawing import draw_shoe, sheet_of
+from plantar.shoes.papers.sheet import Sheet, View
+from plantar.shoes.units import to_mm
 
 from ..shoe_witness import hits
 
 
+def sheet(exported: tuple[ShoeReport, Path], index: int) -> Sheet:
+    build = exported[0].build
+    surface = build.shoes[index].surface
+    assert surface is not None
+    return sheet_of(build.shoes[index], build, surface)
+
+
 @pytest.mark.parametrize("index", [0, 1])
-def test_the_drawing_states_its_dimensions(exported: tuple[ShoeReport, Path], tmp_path: Path, index: int) -> None:
-    report, _ = exported
-    shoe, p = report.build.shoes[index], report.build.parameters
-    assert shoe.surface is not None
-    (path,) = draw_shoe(shoe, report.build, shoe.surface, [tmp_path / "drawing.svg"])
-    text = path.read_text()
-    low_x, low_y, high_x, high_y = shoe.plan.contact.bounds
-    for comment in (
-        f"{high_x - low_x:.1f}",
-        f"{high_y - low_y:.1f}",
-        f"{p.thickness:g}",
-        f"{p.rim_top:g}",
-        f"small, {shoe.side} shoe",
-        "From above; overhang of the contact face",
-        "A-A, y =",
-        "B-B, x =",
-    ):
-        assert f"<!-- {comment}" in text
-    for taxel in shoe.layout.ids:
-        assert f"<!-- {taxel} -->" in text
-
-
-@pytest.mark.parametrize("side", ["left", "right"])
-def test_the_sections_are_what_rays_meet_in_the_print_and_its_sides_are_named(
-    exported: tuple[ShoeReport, Path], side: str, monkeypatch: pytest.MonkeyPatch
+def test_a_reviewer_finds_datums_every_feature_tolerances_and_the_title(
+    exported: tuple[ShoeReport, Path], index: int
 ) -> None:
-    """Points all over both sections lie in the print where a ray from below has met it an odd number of times."""
-    report, _ = exported
-    (shoe,) = (s for s in report.build.shoes if s.side == side)
-    assert shoe.surface is not None
-    figures: list[Any] = []
-    monkeypatch.setattr(drawing, "save_figure", lambda figure, path: figures.append(figure) or Path(path))
-    draw_shoe(shoe, report.build, shoe.surface, ["drawing.png"])
-    top, *sections = figures[0].axes
+    report, shoe = exported[0], exported[0].build.shoes[index]
+    p, plan = report.build.parameters, shoe.plan
+    drawn = sheet(exported, index)
+    texts = [t[1] for t in drawn.texts]
+    assert {"A", "B", "C"} <= set(texts)
+    for title in ("Title", "Part", "Material", "Scale", "Tolerances", "Date", "Drawn by", "State", "Revision"):
+        assert title in texts
+    assert f"small, {shoe.side} shoe" in texts
+    assert any(t.startswith("not built") for t in texts)
+    assert any("ISO 2768" in t for t in texts)
+    assert any(re.fullmatch(r"\d(\.\d)?:\d(\.\d)?", t) for t in texts)
+    rows = {t: texts[i + 1 : i + 4] for i, t in enumerate(texts)}
+    for number, (x, y, _) in zip(shoe.layout.ids, to_mm(shoe.layout.positions).tolist(), strict=True):
+        assert rows[f"pocket {number}"] == [f"{x:.2f}", f"{y:.2f}", "⌀0.3 A B C"]
+    ports = [t for t in texts if t.startswith("port ") and "-" in t]
+    assert len(ports) == len(plan.route)
+    assert report.build.retention is not None
+    assert len([t for t in texts if t.startswith("lug, ")]) == len(report.build.retention.places)
+    assert any(t.startswith("board slot") for t in texts)
+    for detail in ("pocket and rib", "port", "lug", "slot of the board"):
+        assert any(re.match(rf"[D-G]   {detail}   \d", t) for t in texts), detail
+    low_x, low_y, high_x, high_y = plan.contact.bounds
+    for size in (high_x - low_x, high_y - low_y):
+        assert f"{size:.1f} ±0.3" in texts
+    for level in (p.thickness, p.rim_top):
+        assert any(t.startswith(f"{level:g} ±") for t in texts)
+    for inspected in ("flatness of A", "pocket depth from A", "rib", "gap of foot and wall", "slot of each lug"):
+        tolerance = rows[inspected][1]
+        assert re.search(r"[±+]?\d", tolerance), inspected
+    for _, points in drawn.lines:  # all of it on the sheet, within its frame
+        assert ((points >= [19.9, 9.9]) & (points <= [410.1, 287.1])).all()
+
+
+def test_every_format_holds_the_drawing(exported: tuple[ShoeReport, Path], tmp_path: Path) -> None:
+    build = exported[0].build
+    surface = build.shoes[0].surface
+    assert surface is not None
+    paths = draw_shoe(build.shoes[0], build, surface, [tmp_path / f"a.{e}" for e in ("pdf", "svg", "dxf")])
+    assert paths[0].read_bytes().startswith(b"%PDF")
+    assert "<!-- pocket 3 -->" in paths[1].read_text()
+    found = ezdxf.readfile(paths[2]).modelspace()  # type: ignore[attr-defined]
+    assert {"OUTLINE", "HATCH", "HIDDEN", "CENTRE", "FOOT", "TEXT"} <= {e.dxf.layer for e in found}
+    assert "pocket 3" in {t.dxf.text for t in found.query("TEXT")}
+
+
+@pytest.mark.parametrize("index", [0, 1])
+def test_the_sections_are_what_rays_meet_in_the_print(
+    exported: tuple[ShoeReport, Path], index: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    surface = exported[0].build.shoes[index].surface
+    assert surface is not None
+    shapes: list[Any] = []
+    monkeypatch.setattr(View, "hatch", lambda view, shape: shapes.append(shape))
+    texts = [t[1] for t in sheet(exported, index).texts]
     chance, up = np.random.default_rng(4), np.array([0.0, 0.0, 1.0])
-    for axes, across in zip(sections, (0, 1), strict=True):
-        name, at = axes.get_title(loc="left").split(", seen")[0].split(" = ")
-        assert name[-1] == "yx"[across]
-        print_, white = [], []
-        for patch in axes.patches:
-            colour = patch.get_facecolor()
-            line = Line(patch.get_xy())
-            print_ += [line] if colour[:3] == to_rgba(COLOURS[side])[:3] else []
-            white += [line] if colour[:3] == (1.0, 1.0, 1.0) else []
-        assert print_
-        box = np.concatenate([line.vertices for line in print_])
-        for u in chance.uniform(box[:, 0].min() - 3.0, box[:, 0].max() + 3.0, 40):
-            place = np.array([u, float(at), -1.0] if across == 0 else [float(at), u, -1.0])
-            met = hits(shoe.surface, place, up) - 1.0
-            for z in chance.uniform(0.0, box[:, 1].max() + 2.0, 12):
-                if len(met) and np.abs(met - z).min() < 0.25:  # the title rounds the place
+    for shape, name, across in zip(shapes, ("A-A", "B-B"), (0, 1), strict=False):
+        at = float(next(t for t in texts if t.startswith(name)).split(" = ")[1].split(",")[0])
+        low, _, high, top = shape.bounds
+        for u in chance.uniform(low - 3.0, high + 3.0, 30):
+            met = hits(surface, np.array([u, at, -1.0] if across == 0 else [at, u, -1.0]), up) - 1.0
+            for z in chance.uniform(0.0, top + 2.0, 8):
+                if len(met) and np.abs(met - z).min() < 0.25:  # the text rounds the place
                     continue
-                drawn = any(p.contains_point((u, z)) for p in print_) and not any(
-                    w.contains_point((u, z)) for w in white
-                )
-                assert drawn == ((met < z).sum() % 2 == 1), (name, u, z)
-    words = {t.get_text(): t.get_position() for t in top.texts}
-    inner = words["right, inner side" if side == "left" else "left, inner side"]
-    outer = words["left, outer side" if side == "left" else "right, outer side"]
+                assert shape.contains(shapely.Point(u, z)) == ((met < z).sum() % 2 == 1), (name, u, z)
+
+
+@pytest.mark.parametrize("index", [0, 1])
+def test_sides_toes_and_heel_are_named_where_they_are(exported: tuple[ShoeReport, Path], index: int) -> None:
+    places = {t[1]: t[0] for t in sheet(exported, index).texts}
+    side = exported[0].build.shoes[index].side
+    inner = places["right, inner side" if side == "left" else "left, inner side"]
+    outer = places["left, outer side" if side == "left" else "right, outer side"]
     assert (outer[1] - inner[1]) * (1 if side == "left" else -1) > 0.0  # y is to the left on both feet
-    assert words["toes"][0] > shoe.plan.contact.bounds[2]
-    assert words["heel"][0] < shoe.plan.contact.bounds[0]
+    assert places["toes"][0] > places["heel"][0]

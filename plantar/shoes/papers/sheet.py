@@ -1,0 +1,240 @@
+"""A drawing sheet: lines, areas and texts in mm on paper, written as PDF, SVG, PNG and DXF.
+
+Line widths and kinds are those of ISO 128 (0.5 and 0.25 mm), arrows and figures of dimensions those of ISO 129.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.atomic import write_text
+from plantar.plotting import new_figure, save_figure
+
+__all__ = ["Sheet", "View"]
+
+_SIZE = (420.0, 297.0)  # A3
+_INCH = 25.4
+_KINDS: dict[str, tuple[float, str, str]] = {
+    "OUTLINE": (0.5, "solid", "#111111"),
+    "THIN": (0.25, "solid", "#111111"),
+    "HATCH": (0.13, "solid", "#6c757d"),
+    "HIDDEN": (0.25, "dashed", "#111111"),
+    "CENTRE": (0.18, "dashdot", "#111111"),
+    "FOOT": (0.35, "dotted", "#111111"),
+    "CABLE": (0.35, "solid", "#e4572e"),
+}
+"""Width in mm, dashes and colour of each kind of line; their names are the layers of the DXF."""
+_ARROW = 2.2  # mm
+_HATCH = 2.5  # mm between lines
+
+Array = NDArray[np.float64]
+Point = tuple[float, float]
+
+
+@dataclass
+class Sheet:
+    """A sheet that is being drawn, A3, its origin at the lower left.
+
+    Attributes:
+        lines: Kind and points (k, 2) of each line.
+        areas: Colour and corners of each area.
+        texts: Place, text, height in mm, angle in degrees, alignment.
+    """
+
+    lines: list[tuple[str, Array]] = field(default_factory=list)
+    areas: list[tuple[str, Array]] = field(default_factory=list)
+    texts: list[tuple[Point, str, float, float, str]] = field(default_factory=list)
+
+    def line(self, points: Any, kind: str = "THIN") -> None:
+        """A line through points (k, 2)."""
+        self.lines.append((kind, np.asarray(points, dtype=float)))
+
+    def box(self, low: Point, high: Point, kind: str = "THIN") -> None:
+        """A rectangle."""
+        self.line([low, (high[0], low[1]), high, (low[0], high[1]), low], kind)
+
+    def text(self, at: Point, text: str, height: float = 2.5, *, turn: float = 0.0, align: str = "left") -> None:
+        """A line of text; it begins, or ends, or has its middle, at a place."""
+        self.texts.append((at, text, height, turn, align))
+
+    def arrow(self, tip: Point, way: Point) -> None:
+        """A filled arrow head that points along a direction."""
+        x, y = np.array(way) / math.hypot(*way)
+        back = np.array(tip) - _ARROW * np.array([x, y])
+        side = _ARROW / 6.0 * np.array([-y, x])
+        self.areas.append(("#111111", np.array([tip, back + side, back - side])))
+
+    def dimension(self, start: Point, end: Point, text: str, off: float) -> None:
+        """A level or upright dimension between two points, its line so far from the first, upwards or to the right."""
+        level = abs(end[0] - start[0]) >= abs(end[1] - start[1])
+        a, b = (
+            ((start[0], start[1] + off), (end[0], start[1] + off))
+            if level
+            else ((start[0] + off, start[1]), (start[0] + off, end[1]))
+        )
+        for point, foot in ((start, a), (end, b)):
+            if math.dist(point, foot) > 0.5:
+                over = 1.5 * np.sign(off) * (np.array([0.0, 1.0]) if level else np.array([1.0, 0.0]))
+                self.line([point, np.array(foot) + over])
+        way = (b[0] - a[0], b[1] - a[1])
+        inside = math.hypot(*way) > 3.0 * _ARROW
+        self.line(
+            [a, b] if inside else [np.array(a) - 2.0 * np.sign(way) * _ARROW, np.array(b) + 2.0 * np.sign(way) * _ARROW]
+        )
+        sign = 1.0 if inside else -1.0
+        self.arrow(a, (-sign * way[0], -sign * way[1]))
+        self.arrow(b, (sign * way[0], sign * way[1]))
+        middle = (0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]))
+        if level:
+            self.text((middle[0], middle[1] + 0.8), text, align="center")
+        else:
+            self.text((middle[0] - 2.2, middle[1]), text, turn=90.0, align="center")
+
+    def datum(self, tip: Point, letter: str, way: Point) -> None:
+        """A datum's triangle on a line, and its letter in a box (ISO 5459), away from the line along a direction."""
+        x, y = np.array(way) / math.hypot(*way)
+        across = 1.3 * np.array([-y, x])
+        at = np.array(tip)
+        self.areas.append(("#111111", np.array([at + across, at - across, at + 2.2 * np.array([x, y])])))
+        end = at + 6.0 * np.array([x, y])
+        self.line([at + 2.2 * np.array([x, y]), end])
+        middle = end + 2.2 * np.array([x, y])
+        self.box((middle[0] - 2.2, middle[1] - 2.2), (middle[0] + 2.2, middle[1] + 2.2))
+        self.text((float(middle[0]), float(middle[1]) - 1.2), letter, align="center")
+
+    def table(self, at: Point, widths: Iterable[float], rows: Iterable[Iterable[str]], step: float = 4.0) -> None:
+        """A table from its upper left corner down, its first row a head."""
+        columns, lines = list(widths), [list(row) for row in rows]
+        edges, text = np.cumsum([at[0], *columns]), 0.55 * step
+        for i, row in enumerate(lines):
+            low = at[1] - step * (i + 1)
+            for x, cell in zip(edges.tolist(), row, strict=False):
+                self.text((x + 0.7, low + 0.1 * step), cell, text)
+            self.line([(at[0], low), (float(edges[-1]), low)], "OUTLINE" if i == 0 else "HATCH")
+        bottom = at[1] - step * len(lines)
+        for x in edges.tolist():
+            self.line([(x, at[1]), (x, bottom)], "HATCH")
+        self.box((at[0], bottom), (float(edges[-1]), at[1]))
+
+    def write(self, path: str | os.PathLike[str]) -> Path:
+        """Write the sheet in the format of the path's ending: .pdf, .svg, .png or .dxf."""
+        if Path(path).suffix == ".dxf":
+            return write_text(Path(path), self._dxf())
+        from matplotlib.collections import LineCollection, PolyCollection
+
+        figure, axes = new_figure(_SIZE[0] / _INCH, _SIZE[1] / _INCH)
+        figure.set_layout_engine("none")
+        axes.set_position([0.0, 0.0, 1.0, 1.0])
+        axes.set(xlim=(0.0, _SIZE[0]), ylim=(0.0, _SIZE[1]))
+        axes.set_axis_off()
+        points = 72.0 / _INCH
+        axes.add_collection(PolyCollection([a for _, a in self.areas], facecolors=[c for c, _ in self.areas], lw=0))
+        for kind, (width, dashes, colour) in _KINDS.items():
+            own = [line for k, line in self.lines if k == kind]
+            axes.add_collection(LineCollection(own, colors=colour, linewidths=width * points, linestyles=dashes))
+        for at, text, height, turn, align in self.texts:
+            style: dict[str, Any] = {"rotation": turn, "ha": align, "va": "bottom" if turn == 0.0 else "center"}
+            axes.text(*at, text, fontsize=1.25 * height * points, **style)
+        return save_figure(figure, path)
+
+    def _dxf(self) -> str:
+        """The sheet as DXF (R12, mm)."""
+        out = [
+            "0",
+            "SECTION",
+            "2",
+            "HEADER",
+            "9",
+            "$INSUNITS",
+            "70",
+            "4",
+            "0",
+            "ENDSEC",
+            "0",
+            "SECTION",
+            "2",
+            "ENTITIES",
+        ]
+        for kind, points in (*self.lines, *(("AREA", np.vstack([a, a[:1]])) for _, a in self.areas)):
+            out += ["0", "POLYLINE", "8", kind, "66", "1"]
+            for x, y in points.tolist():
+                out += ["0", "VERTEX", "8", kind, "10", f"{x:.3f}", "20", f"{y:.3f}", "30", "0.0"]
+            out += ["0", "SEQEND", "8", kind]
+        for (x, y), text, height, turn, align in self.texts:
+            plain = text.translate(str.maketrans({"⌀": "%%c", "±": "%%p", "°": "%%d", "²": "2"}))
+            place = [
+                "10",
+                f"{x:.3f}",
+                "20",
+                f"{y:.3f}",
+                "30",
+                "0.0",
+                "40",
+                f"{height:g}",
+                "1",
+                plain,
+                "50",
+                f"{turn:g}",
+            ]
+            code = {"left": "0", "center": "1", "right": "2"}[align]
+            out += ["0", "TEXT", "8", "TEXT", *place, "72", code, "11", f"{x:.3f}", "21", f"{y:.3f}", "31", "0.0"]
+        return "\n".join([*out, "0", "ENDSEC", "0", "EOF", ""])
+
+
+@dataclass(frozen=True)
+class View:
+    """A view at a scale: a point of the part lies at a place of the sheet.
+
+    Attributes:
+        sheet: The sheet.
+        scale: Paper over part.
+        origin: Place on the sheet, mm.
+        of: Point of the part that lies there, mm.
+    """
+
+    sheet: Sheet
+    scale: float
+    origin: Point
+    of: Point = (0.0, 0.0)
+
+    def at(self, points: Any) -> Array:
+        """Points (..., 2) of the part on the sheet."""
+        return np.asarray(self.origin + self.scale * (np.asarray(points, dtype=float) - self.of))
+
+    def place(self, x: float, y: float) -> Point:
+        """A point of the part on the sheet."""
+        u, v = self.at((x, y)).tolist()
+        return u, v
+
+    def draw(self, shape: Any, kind: str = "THIN") -> None:
+        """The border of a shapely geometry."""
+        import shapely
+
+        for part in shapely.get_parts(shape):
+            rings = [part.exterior, *part.interiors] if part.geom_type == "Polygon" else [part]
+            for line in rings:
+                if not line.is_empty:
+                    self.sheet.line(self.at(np.asarray(line.coords)[:, :2]), kind)
+
+    def hatch(self, shape: Any) -> None:
+        """A cut area: its border, and lines at 45 degrees."""
+        import shapely
+
+        self.draw(shape, "OUTLINE")
+        if shape.is_empty:
+            return
+        low_x, low_y, high_x, high_y = shape.bounds
+        tall, step = high_y - low_y, math.sqrt(2.0) * _HATCH / self.scale
+        starts = np.arange(low_x - tall, high_x, step)
+        lines = shapely.linestrings([[(x, low_y), (x + tall, high_y)] for x in starts.tolist()])
+        for line in shapely.get_parts(shapely.intersection(lines, shape)):
+            if line.geom_type == "LineString" and line.length > 0.0:
+                self.sheet.line(self.at(line.coords), "HATCH")
