@@ -63,9 +63,6 @@ def build_ordered(
 def ordered_cell(order: ShoeOrder) -> Cell | None:
     """The cell that an order names.
 
-    Args:
-        order: What is wanted.
-
     Returns:
         The cell; None for hexagons of skin.
 
@@ -106,14 +103,7 @@ def write_ordered_coupons(build: ShoeBuild, folder: Path, progress: Progress | N
 
 
 def coupons_text(summary: dict[str, Any]) -> str:
-    """The coupons for people.
-
-    Args:
-        summary: Of `write_ordered_coupons`, with the files' paths.
-
-    Returns:
-        Lines.
-    """
+    """The coupons for people."""
     lines = [f"  {note}" for note in summary["notes"]]
     for row in summary["coupons"]:
         size = " x ".join(f"{v:.1f}" for v in row["size_mm"])

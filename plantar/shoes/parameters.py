@@ -197,9 +197,6 @@ class ShoeParameters:
     def from_mapping(cls, values: Mapping[str, Any]) -> ShoeParameters:
         """Defaults with some values replaced.
 
-        Args:
-            values: Parameter names and values in the parameter's unit.
-
         Raises:
             InputError: If a name is unknown or a value is out of its range.
         """
@@ -209,12 +206,6 @@ class ShoeParameters:
 
     def changed(self, settings: Iterable[str]) -> ShoeParameters:
         """These parameters with some replaced, as `--set` gives them.
-
-        Args:
-            settings: Texts NAME=VALUE.
-
-        Returns:
-            The parameters.
 
         Raises:
             InputError: If a text is not of that form, a name is unknown, or a value is not allowed.
@@ -241,9 +232,6 @@ def read_parameters(path: str | os.PathLike[str]) -> ShoeParameters:
     Args:
         path: File that ends in .json or .toml and holds `name = value` pairs, in mm. Of a `check.json` the table
             "parameters" is taken, so that a shoe can be built again.
-
-    Returns:
-        The checked parameters.
 
     Raises:
         InputError: If the file cannot be read, or a name or value is not allowed.

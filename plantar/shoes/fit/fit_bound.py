@@ -177,10 +177,7 @@ class _Outline:
         return len(self.cells) * (len(self.normals) + 3 * len(self.triangles))
 
     def counts(self, boxes: Array, half: Array, wanted: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Whole cells (b,) at the middle of each box (b, 3) of a half size (b, 3), and a bound (b,) for the whole box.
-
-        Where no placement of a box can hold more than `wanted`, the first is 0 and the second any number up to it.
-        """
+        """Whole cells (b,) at the middle of each box (b, 3) of a half size (b, 3); a bound (b,) for the box."""
         faces = 3 + max(len(p) for p in self.parts)
         step = max(1, _CHUNK // (len(self.cells) * (len(self.normals) + faces * len(self.triangles))))
         parts = [self._counts(boxes[i : i + step], half[i : i + step], wanted) for i in range(0, len(boxes), step)]

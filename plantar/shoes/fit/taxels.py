@@ -168,9 +168,6 @@ def rows_and_columns(lines: NDArray[np.int64]) -> tuple[int, int]:
 
     Args:
         lines: Row and column (n, 2) of each cell.
-
-    Returns:
-        Both numbers.
     """
     return len(np.unique(lines[:, 0])), len(np.unique(lines[:, 1]))
 

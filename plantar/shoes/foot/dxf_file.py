@@ -19,9 +19,6 @@ _FINE = 0.002  # of the drawing's size: how far a curve's chord may lie from it
 def lines_of_dxf(path: Path) -> dict[str, NDArray[Any]]:
     """Lines of a DXF's model space, blocks put in where they are inserted.
 
-    Args:
-        path: The file.
-
     Returns:
         "points" (n, 2) of all lines, y upwards; "counts" (k,) of the points of each; and "unit", its $INSUNITS.
 

@@ -39,9 +39,6 @@ _LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
 def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit | None]:
     """Read the triangles of a mesh file; parts of a scene are put together.
 
-    Args:
-        path: A file whose name ends in one of MESH_FORMATS.
-
     Returns:
         Triangles (n, 3, 3) in the file's unit, and that unit where the file states it.
 

@@ -332,9 +332,6 @@ class ModelSource:
 def read_model_source(file: Path) -> ModelSource:
     """A robot's model, its outermost element looked at and the names of files in it found allowed.
 
-    Args:
-        file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file.
-
     Raises:
         FootError: If it is neither, or names files that lie where they may not.
     """

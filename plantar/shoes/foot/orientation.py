@@ -80,10 +80,7 @@ def rotation_forward(forward: Axis) -> Array:
 
 
 def _thinned(points: Array) -> Array:
-    """Points without repetition; of very many the lowest in each column of a grid.
-
-    They are points of the surface, so that a plane through them is one.
-    """
+    """Points without repetition; of very many the lowest in each column of a grid."""
     if len(points) <= _MANY:
         return np.unique(points.round(6), axis=0)
     order = np.argsort(points[:, 2], kind="stable")

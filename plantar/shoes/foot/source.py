@@ -115,9 +115,6 @@ def _box_foot(text: str) -> Foot:
 def foot_of_robot(name: str) -> tuple[Foot, int | None]:
     """The foot of a built-in robot; its file is read where the simulator keeps it, which is not loaded.
 
-    Args:
-        name: The robot, for example "h1".
-
     Returns:
         The left foot, and the number of taxels that the robot's file asks for; None where it asks for none.
 

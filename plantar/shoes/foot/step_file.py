@@ -22,9 +22,6 @@ _CHORD, _ANGLE = 0.05, 0.2  # share of an edge, and rad: how far triangles may l
 def triangles_of_step(path: Path) -> dict[str, NDArray[Any]]:
     """Triangles in mm of all shapes of a STEP or IGES file; its own unit is converted while it is read.
 
-    Args:
-        path: The file.
-
     Returns:
         "triangles" (n, 3, 3).
 

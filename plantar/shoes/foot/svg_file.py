@@ -41,9 +41,6 @@ _PER_PX: dict[Unit, float] = {"mm": 25.4 / 96.0, "cm": 2.54 / 96.0, "in": 1.0 / 
 def lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
     """Lines of an SVG's shapes, with the transforms of their groups.
 
-    Args:
-        file: The drawing.
-
     Returns:
         Lines of points (k, 2), y upwards; the unit that the file states, or None; and how many of it a number is.
 

@@ -19,9 +19,6 @@ __all__ = ["triangles_of_trimesh"]
 def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
     """Triangles of a mesh file that trimesh reads, by the file's ending.
 
-    Args:
-        path: The file.
-
     Returns:
         "triangles" (n, 3, 3), in the file's unit; of COLLADA (.dae) in m, its axes as they are: which of them the file
         states is up is passed over, as viewers of robots do.

@@ -19,9 +19,6 @@ def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, st
     MuJoCo makes the root link a part of the world, its mass with it; a joint to a link above keeps it a body. It takes
     meshes of the same file name in two folders for one, and knows no packages: each mesh gets a name.
 
-    Args:
-        root: The outermost element, <robot>; it is changed.
-
     Returns:
         The text, None where every link hangs on another; and of each mesh's name in it the name that the URDF has.
 

@@ -34,9 +34,6 @@ def corner_numbers(points: Array) -> Numbers:
     Args:
         points: Points (..., 2) or (..., 3) in mm.
 
-    Returns:
-        Numbers (...), from 0 on without gaps.
-
     Example:
         >>> corner_numbers(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1e-6]])).tolist()
         [0, 1, 0]
@@ -57,9 +54,6 @@ def is_closed(triangles: Array) -> bool:
 
     Args:
         triangles: Triangles (n, 3, 3) in mm.
-
-    Returns:
-        Whether it is closed.
     """
     corners = corner_numbers(triangles)
     start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
@@ -125,11 +119,7 @@ def covered_area(flat: Array) -> Any:
 
 
 def _united(flat: Array) -> Any:
-    """What triangles (n, 3, 2) that do not join cover; holes of less than a millimetre count as covered.
-
-    Squares of a grid whose neighbours are all met are taken as covered, so that only the triangles at the border are
-    united one by one.
-    """
+    """What triangles (n, 3, 2) that do not join cover; holes of less than a millimetre count as covered."""
     import shapely
 
     parts = shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1))

@@ -133,13 +133,6 @@ def _holding(build: ShoeBuild, width: float) -> list[Part]:
 
 
 def bill_text(bills: dict[str, list[Part]]) -> str:
-    """Bills of parts of each side as CSV.
-
-    Args:
-        bills: The lines by side.
-
-    Returns:
-        The text, a header first.
-    """
+    """Bills of parts of each side as CSV."""
     rows = ([side, *asdict(part).values()] for side, parts in bills.items() for part in parts)
     return csv_text(["side", *Part.__dataclass_fields__], rows)

@@ -67,10 +67,7 @@ def render(
 
 
 def _nearest(pixel: Array, height: int, width: int) -> tuple[Array, NDArray[np.int64]]:
-    """Depth of the nearest triangle at each pixel, and which it is; -1 for none.
-
-    Each triangle is cut into the rows of pixels whose middles it covers; all rows are filled at once.
-    """
+    """Depth of the nearest triangle at each pixel, and which it is; -1 for none."""
     depth = np.full(height * width, -np.inf)
     which = np.full(height * width, -1, dtype=np.int64)
     y = pixel[..., 1]

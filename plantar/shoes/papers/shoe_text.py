@@ -9,14 +9,7 @@ __all__ = ["failed_checks", "shoe_text"]
 
 
 def shoe_text(summary: Mapping[str, Any]) -> str:
-    """The shoe's figures for people.
-
-    Args:
-        summary: `ShoeReport.as_dict`, with the paths of the files.
-
-    Returns:
-        Lines.
-    """
+    """The shoe's figures for people."""
     lines = [f"  {note}" for note in summary["notes"]]
     bound = summary["whole_taxels_bound"]
     size = f"{summary['cell_area_mm2']:g} mm^2{' or less' if summary['smallest_cell_share'] < 1.0 else ''}"
@@ -39,9 +32,6 @@ def shoe_text(summary: Mapping[str, Any]) -> str:
 
 def failed_checks(summary: Mapping[str, Any]) -> list[str]:
     """The checks that do not hold, in words; empty where all do.
-
-    Args:
-        summary: `ShoeReport.as_dict`.
 
     Returns:
         A line each: side, what was checked, its value and what is allowed.

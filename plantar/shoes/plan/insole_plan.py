@@ -57,9 +57,6 @@ def insole_foot(foot: Foot) -> Foot:
     """A foot whose sole is what an insole is cut to: the outline of its lowest 15 mm, arch and gaps of toes filled.
 
     The lowest 5 mm of a scan are its footprint: without the arch, the toes apart.
-
-    Args:
-        foot: The left foot; one without a surface stays.
     """
     if foot.triangles is None:
         return foot

@@ -109,14 +109,7 @@ def _turns_left(a: Array, b: Array, c: Array) -> bool:
 
 
 def keep_out(foot: Foot) -> KeepOut:
-    """Where other links pass around a foot.
-
-    Args:
-        foot: The left foot.
-
-    Returns:
-        The points.
-    """
+    """Where other links pass around a foot."""
     surface = None if foot.triangles is None else surface_points(foot.triangles, _SPACING)
     if foot.links is not None:
         return KeepOut(foot.links, surface, True)

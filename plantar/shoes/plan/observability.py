@@ -44,9 +44,6 @@ class Observability:
 def observability(plan: ShoePlan) -> Observability:
     """What the taxels of a sole see of the center of pressure.
 
-    Args:
-        plan: The sole.
-
     Returns:
         The shares and the error.
     """

@@ -311,10 +311,7 @@ def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
 def _route(
     layout: SoleLayout, neighbours: Sequence[Sequence[int]], heel: tuple[float, float]
 ) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
-    """Connector of each connected group of cells, and the tree of fewest hops from it to all of its cells.
-
-    The first connector is the cell nearest to the heel; another group's is the cell nearest to the groups before it.
-    """
+    """Connector of each connected group of cells, and the tree of fewest hops from it to all of its cells."""
     centres = layout.positions[:, :2]
     start = np.array([to_m(heel[0]), to_m(heel[1])])
     distance = np.hypot(*(centres - start).T)

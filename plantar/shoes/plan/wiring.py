@@ -135,9 +135,6 @@ def channel_lines(plan: ShoePlan, parameters: ShoeParameters) -> list[NDArray[np
 def wire_lines(plan: ShoePlan) -> dict[int, NDArray[np.float64]]:
     """The way of each wire between two cells: from one's centre through the middle of their port to the other's.
 
-    Args:
-        plan: The sole.
-
     Returns:
         Points (3, 2) in mm of each pair of `plan.route`, by the second of the pair.
     """

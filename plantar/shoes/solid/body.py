@@ -118,10 +118,7 @@ def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> lis
 
 
 def _within(above: Any, outline: Any) -> Any:
-    """An outline within the one above it, and the same wherever they are about the same.
-
-    Edges that run along each other a hair apart would give faces of no width. The grid would move them apart again.
-    """
+    """An outline within the one above it, and the same wherever they are about the same."""
     lower = above.difference(apart(above, outline).difference(outline))
     return max(getattr(lower, "geoms", [lower]), key=lambda g: float(g.area))
 
@@ -164,9 +161,6 @@ def mirrored_steps(steps: tuple[Step, ...]) -> tuple[Step, ...]:
 
 def bare_floor(steps: tuple[Step, ...]) -> Any | None:
     """Where the floor is not covered by what rises below the foot's arch.
-
-    Args:
-        steps: A shoe's or an insole's body, of either side.
 
     Returns:
         A shapely polygon; None where no foot has a place in the body, and all of the plate is bare.
