@@ -1,4 +1,4 @@
-"""Twelve feet that break shoe makers: split, padded and pitched soles, joints, turned, double, small and large."""
+"""Feet that break shoe makers: split, padded, pitched soles, round heels, plates, toes of two parts, double, small."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Triangles = NDArray[np.float64]
 TURNS = 50
 """Small rotations that each foot is tried in."""
 
-REFUSED = frozenset({"pair"})
+REFUSED = frozenset({"pair", "ball", "lying"})
 """Feet that no shoe can be made for."""
 
 
@@ -148,6 +148,39 @@ def _tilted() -> Triangles:
     return turned(_toe_out(), 9.0, -14.0, 0.0)
 
 
+def _stadium(heel: float, length: float, toes: float) -> NDArray[np.float64]:
+    """An outline with round ends of two radii, the ankle a third from the heel."""
+    angle = np.linspace(0.5 * np.pi, 1.5 * np.pi, 33)
+    back = np.column_stack([heel + heel * np.cos(angle), heel * np.sin(angle)])
+    front = np.column_stack([length - toes - toes * np.cos(angle), -toes * np.sin(angle)])
+    return np.vstack([back, front]) - np.array([0.36 * length, 0.0])
+
+
+def _round_heel(heel: float, length: float, toes: float) -> Triangles:
+    return np.concatenate([prism(_stadium(heel, length, toes), 0.0, 30.0), _joint()])
+
+
+def _two_toes() -> Triangles:
+    toes = [_box((70.0, 140.0), y, (0.0, 20.0)) for y in ((-48.0, -3.0), (3.0, 48.0))]
+    return np.concatenate([_box((-90.0, 70.0), (-48.0, 48.0), (0.0, 24.0)), *toes, _joint()])
+
+
+def _toe_joint() -> Triangles:
+    toes = _box((92.0, 150.0), (-48.0, 48.0), (0.0, 18.0))
+    return np.concatenate([_box((-90.0, 88.0), (-48.0, 48.0), (0.0, 24.0)), toes, _joint()])
+
+
+def _of_65_mm() -> Triangles:
+    return np.concatenate([_box((-22.0, 43.0), (-20.0, 20.0), (0.0, 12.0)), _box((-7, 7), (-8, 8), (10.0, 28.0))])
+
+
+def _ball(radius: float = 60.0, count: int = 24) -> Triangles:
+    up, around = np.meshgrid(np.linspace(0, np.pi, count), np.linspace(0, 2 * np.pi, 2 * count), indexing="ij")
+    p = radius * np.stack([np.sin(up) * np.cos(around), np.sin(up) * np.sin(around), np.cos(up)], axis=-1)
+    a, b, c, d = p[:-1, :-1], p[1:, :-1], p[1:, 1:], p[:-1, 1:]
+    return np.concatenate([np.stack(t, axis=-2).reshape(-1, 3, 3) for t in ((a, b, c), (a, c, d))])
+
+
 FAMILY: dict[str, Callable[[], Triangles]] = {
     "split": _split,
     "pads": _pads,
@@ -161,6 +194,15 @@ FAMILY: dict[str, Callable[[], Triangles]] = {
     "concave": _concave,
     "fine": rounded,
     "tilted": _tilted,
+    "round_heel": lambda: _round_heel(45.0, 240.0, 45.0),
+    "narrow_heel": lambda: _round_heel(30.0, 200.0, 45.0),
+    "narrow_toes": lambda: _round_heel(50.0, 240.0, 24.0),
+    "two_toes": _two_toes,
+    "toe_joint": _toe_joint,
+    "of_65_mm": _of_65_mm,
+    "plate": lambda: prism(_oval(240.0, 90.0, 30.0), 0.0, 2.0),
+    "ball": _ball,
+    "lying": lambda: _box((-60.0, 140.0), (-10.0, 10.0), (0.0, 120.0)),
 }
 """Surfaces in mm, x to the toes, y left, z up, the ankle above the origin, by what is hard about them."""
 

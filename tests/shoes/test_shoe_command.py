@@ -210,6 +210,14 @@ def test_a_step_file_is_a_foot(run: Run, tmp_path: Path) -> None:
     assert "cut.step" in refused(run(tmp_path / "cut.step", "-o", tmp_path / "none"), tmp_path / "none")
 
 
+def test_a_layout_that_does_not_see_the_center_of_pressure_fails(run: Run, tmp_path: Path) -> None:
+    code, out, err = run("--dimensions", "200x90x0", "--taxels", "3", "--layout-only", "-o", tmp_path / "a", "--json")
+    assert code == 1
+    assert "taxels' centres over the face's" in err
+    assert json.loads(out)["holds"] is False
+    assert len(json.loads(out)["sides"]["left"]["checks"]) > 5
+
+
 def test_a_layout_takes_no_cad_kernel_and_little_work(tmp_path: Path) -> None:
     import resource
     import subprocess

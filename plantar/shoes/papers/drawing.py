@@ -205,8 +205,8 @@ def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild,
     flat, half = 2.0 * made.scatter, p.bottom + 0.5 * p.pocket_depth
     cut_y, _ = _cuts(shoe, build)
     beside = section_along(triangles, 1, cut_y + 0.5 * p.port_width + 2.0)  # next to the ports
-    details = [
-        ("pocket and rib", along, beside, (_rib(beside, half), half), 3.4, (
+    details: list[tuple[str, View, Any, Array, float, tuple[str, ...]]] = [
+        ("pocket and rib", along, beside, np.array([_rib(beside, half), half]), 3.4, (
             f"pocket {p.pocket_depth:g} +{flat:g} 0 deep", f"floor {p.floor:g} ±{flat:g}",
             f"rib {p.rib:g} ±{made.press:g}", f"groove {p.scribe:g} x 45°"))
     ]  # fmt: skip
@@ -214,7 +214,7 @@ def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild,
         ends, _, most = plan.port(*plan.route[0])
         level = section(triangles, p.bottom + max(p.scribe, 0.5 * p.pocket_depth) + 0.05 + _OFF)
         texts: tuple[str, ...] = (f"port {min(p.port_width, most):.1f} ±{made.slide:g} wide", "cut at half the depth")
-        details.append(("port", top, level, (*ends.mean(axis=0).tolist(),), 8.5, texts))
+        details.append(("port", top, level, ends.mean(axis=0), 8.5, texts))
     if build.retention is not None and build.retention.places:
         width, kind = build.retention.width, build.retention.kind
         flip = build.retention.places[-1].side * (1.0 if shoe.side == "left" else -1.0)
@@ -226,13 +226,13 @@ def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild,
             ),
             "clips": ("clip", (f"hook {p.clip_hook:g} ±0.2, 45°", f"arm {p.clip_thickness:g} ±0.2 x {p.clip_width:g}")),
         }.get(kind, ("boss", (f"hole ⌀{width + 0.3:g} ±0.2", f"slot of the nut {0.8 * width + 0.4:g} ±0.2")))
-        details.append((name, across, cut, (edge - 2.0 * flip, high - 6.0), 8.5, texts))
+        details.append((name, across, cut, np.array([edge - 2.0 * flip, high - 6.0]), 8.5, texts))
     if plan.heel.board:
         level = section(triangles, p.thickness + 0.5 * p.rim_height + _OFF)
         wide, thick = p.board_length + 2.0 * made.slide, p.board_thickness + 2.0 * made.slide
         texts = (f"slot {wide:g} x {thick:g} +{made.slide:g} 0", f"gap to the wall {p.board_gap:g} ±0.3")
         end = plan.heel.point(-p.board_gap, 0.5 * p.board_length)
-        details.append(("slot of the board", top, level, (*end.tolist(),), 8.5, texts))
+        details.append(("slot of the board", top, level, end, 8.5, texts))
     for n, detail in enumerate(details):
         _detail("DEFG"[n], (45.0 + 47.0 * n, 54.0), *detail)
 
@@ -248,7 +248,7 @@ def _rib(cut: Any, height: float) -> float:
 
 
 def _detail(
-    letter: str, at: tuple[float, float], name: str, source: View, shape: Any, centre: tuple[float, float],
+    letter: str, at: tuple[float, float], name: str, source: View, shape: Any, centre: Array,
     radius: float, texts: Sequence[str],
 ) -> None:  # fmt: skip
     """What lies within a circle of a view, larger, with what is toleranced there."""
@@ -256,7 +256,7 @@ def _detail(
 
     sheet, scale = source.sheet, _DETAIL / radius
     circle = shapely.Point(centre).buffer(radius, quad_segs=24)
-    view = View(sheet, scale, at, centre)
+    view = View(sheet, scale, at, (float(centre[0]), float(centre[1])))
     view.hatch(shape.intersection(circle))
     view.draw(circle)
     source.draw(circle)

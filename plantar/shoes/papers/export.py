@@ -22,6 +22,7 @@ from plantar.shoes.geometry.outline import ring
 from plantar.shoes.papers.assembly import assembly_page
 from plantar.shoes.papers.bill import Part, bill_of_parts, bill_text
 from plantar.shoes.papers.drawing import draw_shoe
+from plantar.shoes.papers.kicad import board_text, net_list_text
 from plantar.shoes.papers.package_3mf import NamedBody, write_3mf, write_assembly
 from plantar.shoes.papers.picture import draw_picture
 from plantar.shoes.papers.step_assembly import assembly_parts
@@ -57,8 +58,8 @@ class ShoeReport:
     @property
     def holds(self) -> bool:
         """Whether every check of every shoe holds."""
-        plans = (c for checks in self.plan_checks.values() for c in checks)
-        return all(c.holds for c in (*self.checks.values(), *plans))
+        plans = all(c.holds for checks in self.plan_checks.values() for c in checks)
+        return plans and all(c.holds for c in self.checks.values())
 
     def as_dict(self) -> dict[str, Any]:
         """Plain JSON values; of a pair the top level holds the worse figure, `sides` each shoe's own."""
@@ -196,7 +197,9 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
         write_text(target / "wiring.csv", wiring_text(build.shoes, build.parameters))
         write_text(target / "assembly.html", assembly_page(build, checks, bills))
         files += ["parts.csv", "wiring.csv", "assembly.html", "check.json"]
-    plans = {} if checks else {shoe.side: check_plan(shoe.plan, build) for shoe in build.shoes}
+    plans: dict[str, tuple[Check, ...]] = (
+        {} if checks else {shoe.side: check_plan(shoe.plan, build) for shoe in build.shoes}
+    )
     report = ShoeReport(build, checks, tuple(files), weights, bills, plans)
     if checks:
         write_text(target / "check.json", json.dumps(report.as_dict(), indent=1) + "\n")
@@ -230,7 +233,7 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
     """Write the outlines of the cells, and the assembly with its parts by name; gives the files' names."""
     assert shoe.surface is not None
     side, p = shoe.side, build.parameters
-    names = [f"cells_{side}.dxf", f"assembly_{side}.3mf"]
+    names = [f"cells_{side}.dxf", f"assembly_{side}.3mf", f"board_{side}.kicad_pcb", f"board_{side}.net"]
     bodies = [
         NamedBody(f"{build.kind} {side}", p.material, "#4C72B0", shoe.surface),
         *(
@@ -241,6 +244,8 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
     if p.pad_thickness > 0.0:
         bodies.append(NamedBody("pad", p.pad_material, "#333333", pad_surface(shoe.plan, p)))
     write_text(target / names[0], cells_dxf(shoe, build))
+    write_text(target / names[2], board_text(shoe, p))
+    write_text(target / names[3], net_list_text(shoe))
     write_assembly(bodies, f"{shoe.layout.name} {side}", target / names[1])
     return names
 

@@ -169,7 +169,7 @@ class Sheet:
                 out += ["0", "VERTEX", "8", kind, "10", f"{x:.3f}", "20", f"{y:.3f}", "30", "0.0"]
             out += ["0", "SEQEND", "8", kind]
         for (x, y), text, height, turn, align in self.texts:
-            plain = text.translate(str.maketrans({"⌀": "%%c", "±": "%%p", "°": "%%d", "²": "2"}))
+            plain = text.replace("⌀", "%%c").replace("±", "%%p").replace("°", "%%d").replace("²", "2")
             place = [
                 "10",
                 f"{x:.3f}",

@@ -1,1 +1,1 @@
-"""The solids: body, tray, pad, retention, lettering. The only room that builds with cadquery."""
+"""The solids: body, kernel, arcs, STEP, pad, retention, lettering. The only room that builds with OpenCascade."""

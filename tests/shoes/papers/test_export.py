@@ -24,7 +24,7 @@ from plantar.shoes.solid.step_model import read_step
 def test_every_file_is_there_and_says_the_same(exported: tuple[ShoeReport, Path]) -> None:
     report, folder = exported
     assert sorted(report.files) == sorted(f.name for f in folder.iterdir())
-    assert len(report.files) == 2 * 12 + 4
+    assert len(report.files) == 2 * 16 + 4
     figures = json.loads((folder / "check.json").read_text())
     assert figures == json.loads(json.dumps(report.as_dict()))
     assert figures["holds"] is True
