@@ -41,7 +41,7 @@ def checked(build: ShoeBuild, folder: Path) -> ShoeCheck:
     assert shoe.surface is not None
     write_stl(shoe.surface, folder / "shoe.stl")
     assert shoe.solid is not None
-    write_step([StepPart("a", shoe.solid, {}, (1.0, 1.0, 1.0))], folder / "shoe.step", "a")
+    write_step([StepPart("a", shoe.solid, {})], folder / "shoe.step", "a")
     return check_shoe(shoe, build, surface=read_stl(folder / "shoe.stl"), step=read_step(folder / "shoe.step"))
 
 

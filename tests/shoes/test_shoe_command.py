@@ -201,7 +201,7 @@ def test_a_step_file_is_a_foot(run: Run, tmp_path: Path) -> None:
     from plantar.shoes.solid.step_model import StepPart, write_step
 
     solid = build_solid([Step("add", "a", (box_block((-60, -45, 0), (140, 45, 50)),))])
-    write_step([StepPart("a", solid, {}, (1.0, 1.0, 1.0))], tmp_path / "foot.step", "a")
+    write_step([StepPart("a", solid, {})], tmp_path / "foot.step", "a")
     code, out, err = run(tmp_path / "foot.step", "--layout-only", "-o", tmp_path / "out", "--json")
     assert (code, err) == (0, "")
     assert json.loads(out)["taxels"] == 20

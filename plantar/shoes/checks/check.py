@@ -175,7 +175,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
 
 
 def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
-    """What the layout alone decides: blind rim, center of pressure, taxels that touch, and their share of the load."""
+    """Gives what a plan of a build decides: blind rim, center of pressure, taxels that touch, their load share."""
     return (*_rim_checks(plan, build), *_contact_checks(plan, build), *_share_checks(build.load_share))
 
 

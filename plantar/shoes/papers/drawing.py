@@ -51,7 +51,7 @@ def draw_shoe(shoe: Shoe, build: ShoeBuild, triangles: Array, paths: Sequence[st
 
 
 def sheet_of(shoe: Shoe, build: ShoeBuild, triangles: Array) -> Sheet:
-    """The sheet of one shoe, see `draw_shoe`."""
+    """The sheet of a shoe of a build with its triangles, as `draw_shoe` writes it; gives the sheet."""
     sheet, body = Sheet(), triangles.reshape(-1, 3)
     low, high = body.min(axis=0), body.max(axis=0)
     size = high - low

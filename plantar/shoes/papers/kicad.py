@@ -36,13 +36,13 @@ def board_nets(shoe: Shoe) -> dict[str, list[str]]:
 
 
 def board_outlines(shoe: Shoe, parameters: ShoeParameters) -> list[Any]:
-    """The board's outline, shapely polygons in mm in the sole frame: one for each patch that hangs together."""
+    """The board's outlines of a shoe and its parameters; gives shapely polygons in mm, one for each patch."""
     found = [q.buffer(-parameters.made_by.slide) for q in pocket_outlines(shoe.plan, parameters)]
     return [part for q in found for part in getattr(q, "geoms", [q]) if not part.is_empty]
 
 
 def board_text(shoe: Shoe, parameters: ShoeParameters) -> str:
-    """The board as a .kicad_pcb file: edges, footprints of taxels and of the connector; returns text."""
+    """A shoe's board as .kicad_pcb, edges by its parameters, taxels and connector as footprints; returns text."""
     nets = board_nets(shoe)
     number = {name: i for i, name in enumerate(nets, start=1)}
     lines = [

@@ -54,26 +54,26 @@ class Sheet:
     texts: list[tuple[Point, str, float, float, str]] = field(default_factory=list)
 
     def line(self, points: Any, kind: str = "THIN") -> None:
-        """A line through points (k, 2)."""
+        """A line of a kind through points (k, 2)."""
         self.lines.append((kind, np.asarray(points, dtype=float)))
 
     def box(self, low: Point, high: Point, kind: str = "THIN") -> None:
-        """A rectangle."""
+        """A rectangle from low to high, in lines of a kind."""
         self.line([low, (high[0], low[1]), high, (low[0], high[1]), low], kind)
 
     def text(self, at: Point, text: str, height: float = 2.5, *, turn: float = 0.0, align: str = "left") -> None:
-        """A line of text; it begins, or ends, or has its middle, at a place."""
+        """A text of a height in mm, turn in degrees; align: whether it begins, ends, or has its middle at a place."""
         self.texts.append((at, text, height, turn, align))
 
     def arrow(self, tip: Point, way: Point) -> None:
-        """A filled arrow head that points along a direction."""
+        """A filled arrow head whose tip points along a way."""
         x, y = np.array(way) / math.hypot(*way)
         back = np.array(tip) - _ARROW * np.array([x, y])
         side = _ARROW / 6.0 * np.array([-y, x])
         self.areas.append(("#111111", np.array([tip, back + side, back - side])))
 
     def dimension(self, start: Point, end: Point, text: str, off: float) -> None:
-        """A level or upright dimension between two points, its line so far from the first, upwards or to the right."""
+        """A level or upright dimension from start to end with a text, so far off the start, up or to the right."""
         level = abs(end[0] - start[0]) >= abs(end[1] - start[1])
         a, b = (
             ((start[0], start[1] + off), (end[0], start[1] + off))
@@ -99,7 +99,7 @@ class Sheet:
             self.text((middle[0] - 2.2, middle[1]), text, turn=90.0, align="center")
 
     def datum(self, tip: Point, letter: str, way: Point) -> None:
-        """A datum's triangle on a line, and its letter in a box (ISO 5459), away from the line along a direction."""
+        """A datum's triangle with its tip on a line, and its letter in a box (ISO 5459) along a way from there."""
         x, y = np.array(way) / math.hypot(*way)
         across = 1.3 * np.array([-y, x])
         at = np.array(tip)
@@ -111,7 +111,7 @@ class Sheet:
         self.text((float(middle[0]), float(middle[1]) - 1.2), letter, align="center")
 
     def table(self, at: Point, widths: Iterable[float], rows: Iterable[Iterable[str]], step: float = 4.0) -> None:
-        """A table from its upper left corner down, its first row a head."""
+        """A table at its upper left corner: widths of columns, rows, the first a head, step of each, in mm."""
         columns, lines = list(widths), [list(row) for row in rows]
         edges, text = np.cumsum([at[0], *columns]), 0.55 * step
         for i, row in enumerate(lines):
@@ -128,18 +128,18 @@ class Sheet:
         """Write the sheet in the format of the path's ending: .pdf, .svg, .png or .dxf."""
         if Path(path).suffix == ".dxf":
             return write_text(Path(path), self._dxf())
-        from matplotlib.collections import LineCollection, PolyCollection
-
         figure, axes = new_figure(_SIZE[0] / _INCH, _SIZE[1] / _INCH)
         figure.set_layout_engine("none")
         axes.set_position([0.0, 0.0, 1.0, 1.0])
         axes.set(xlim=(0.0, _SIZE[0]), ylim=(0.0, _SIZE[1]))
         axes.set_axis_off()
         points = 72.0 / _INCH
-        axes.add_collection(PolyCollection([a for _, a in self.areas], facecolors=[c for c, _ in self.areas], lw=0))
+        for colour, corners in self.areas:
+            axes.fill(*corners.T, facecolor=colour, lw=0)
         for kind, (width, dashes, colour) in _KINDS.items():
-            own = [line for k, line in self.lines if k == kind]
-            axes.add_collection(LineCollection(own, colors=colour, linewidths=width * points, linestyles=dashes))
+            own = [np.vstack([line, [np.nan, np.nan]]) for k, line in self.lines if k == kind]
+            if own:
+                axes.plot(*np.vstack(own).T, color=colour, lw=width * points, ls=dashes)
         for at, text, height, turn, align in self.texts:
             style: dict[str, Any] = {"rotation": turn, "ha": align, "va": "bottom" if turn == 0.0 else "center"}
             axes.text(*at, text, fontsize=1.25 * height * points, **style)
@@ -210,12 +210,12 @@ class View:
         return np.asarray(self.origin + self.scale * (np.asarray(points, dtype=float) - self.of))
 
     def place(self, x: float, y: float) -> Point:
-        """A point of the part on the sheet."""
+        """Gives a point x, y of the part on the sheet."""
         u, v = self.at((x, y)).tolist()
         return u, v
 
     def draw(self, shape: Any, kind: str = "THIN") -> None:
-        """The border of a shapely geometry."""
+        """The border of a shapely shape, in lines of a kind."""
         import shapely
 
         for part in shapely.get_parts(shape):

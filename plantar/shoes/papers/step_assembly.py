@@ -23,25 +23,23 @@ from plantar.shoes.solid.step_model import StepPart
 
 __all__ = ["assembly_parts"]
 
-_PRINT = (0.30, 0.45, 0.69)
-_SKIN, _RUBBER, _GREEN, _WEBBING = (0.33, 0.66, 0.41), (0.2, 0.2, 0.2), (0.16, 0.42, 0.3), (0.55, 0.5, 0.42)
 _SAME = 1e-3  # mm: bodies whose corners lie nearer are one product
 _DETAIL = 0.1  # mm of the pad's rim that is dropped
 _HERE = (0.0, 0.0, 0.0)
 
 
 def assembly_parts(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
-    """The printed part first, its taxels, pad, connection board and straps, in the sole frame."""
+    """Gives the parts of a shoe of a build: the printed one first, taxels, pad, board, straps; in the sole frame."""
     assert shoe.solid is not None
     plan, p, name = shoe.plan, build.parameters, f"{build.kind} {shoe.side}"
-    parts = [StepPart(f"{shoe.layout.name} {name}", shoe.solid, {name: _HERE}, _PRINT), *_taxels(plan, p)]
+    parts = [StepPart(f"{shoe.layout.name} {name}", shoe.solid, {name: _HERE}), *_taxels(plan, p)]
     if p.pad_thickness > 0.0:
-        parts.append(StepPart("pad", _pad(plan, p), {"pad": _HERE}, _RUBBER))
+        parts.append(StepPart("pad", _pad(plan, p), {"pad": _HERE}))
     if plan.heel.board:
         gap, half = p.board_gap + p.made_by.slide, 0.5 * p.board_length
         face = plan.heel.placed(_rectangle(-gap - p.board_thickness, -half, -gap, half))
         board = _solid(Block(face, p.thickness, p.thickness + BOARD_UP))
-        parts.append(StepPart("connection board", board, {"connection board": _HERE}, _GREEN))
+        parts.append(StepPart("connection board", board, {"connection board": _HERE}))
     return parts + _straps(shoe, build)
 
 
@@ -72,7 +70,7 @@ def _taxels(plan: ShoePlan, p: ShoeParameters) -> list[StepPart]:
         called = what if len(plan.pockets) == 1 else f"{what} {number}"
         shapes.setdefault(key, (own, {}))[1][called] = (x, y, 0.0)
     return [
-        StepPart(what if len(shapes) == 1 else f"{what} shape {n}", _solid(*blocks), places, _SKIN)
+        StepPart(what if len(shapes) == 1 else f"{what} shape {n}", _solid(*blocks), places)
         for n, (blocks, places) in enumerate(shapes.values(), start=1)
     ]
 
@@ -118,5 +116,5 @@ def _straps(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
         y, z, along = flat.corners.T
         turned = np.column_stack([x - 0.5 * retention.width + along, y * flip, z])
         faces = flat.faces if flip > 0.0 else tuple(tuple(loop[::-1] for loop in f) for f in flat.faces)
-        out.append(StepPart(f"strap {n}", Polyhedron(turned, faces), {f"strap {n}": _HERE}, _WEBBING))
+        out.append(StepPart(f"strap {n}", Polyhedron(turned, faces), {f"strap {n}": _HERE}))
     return out

@@ -87,7 +87,7 @@ class KeepOut:
 
 
 def strap_path(surface: Array | None, x: float, width: float, lugs: tuple[float, float], slot: float) -> Array:
-    """The way (k, 2) in y, z of a taut strap over a foot, from slot to slot; see `KeepOut.strap_meets`."""
+    """Gives the way (k, 2) in y, z of a strap over a surface; x, width, lugs, slot as in `KeepOut.strap_meets`."""
     ends = np.array([[lugs[0], slot], [lugs[1], slot]])
     below = np.empty((0, 2)) if surface is None else surface[np.abs(surface[:, 0] - x) < 0.5 * width, 1:]
     inside = (below[:, 0] > lugs[0]) & (below[:, 0] < lugs[1])

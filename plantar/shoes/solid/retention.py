@@ -188,7 +188,7 @@ def strap_meets(others: KeepOut, outline: Any, x: float, width: float, parameter
 
 
 def slot_lines(outline: Any, x: float, width: float, parameters: ShoeParameters) -> tuple[float, float]:
-    """The outer y of the right and the left lug of a strap, see `strap_meets`."""
+    """Gives the outer y of the right and left lug; outline, x, width, parameters as in `strap_meets`."""
     p, half = parameters, 0.5 * (width + _SLOT_PLAY) + _LUG_END
     out = p.clearance + p.strap_thickness + p.rim_thickness
     right, left = (_wall_line(outline, x, side, half, outline.centroid.y)[0] for side in (-1, 1))

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cached_property
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -36,13 +37,11 @@ class StepPart:
         name: Of the product.
         body: Its solid.
         places: Where it lies: shifts (3,) in mm, each with the name of that instance.
-        colour: Red, green, blue, 0..1.
     """
 
     name: str
     body: Polyhedron
     places: Mapping[str, tuple[float, float, float]]
-    colour: tuple[float, float, float]
 
     @cached_property
     def shape(self) -> Any:
@@ -90,24 +89,21 @@ def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: st
     load_kernel()
     from OCP.gp import gp_Trsf, gp_Vec
     from OCP.Interface import Interface_Static
-    from OCP.Quantity import Quantity_Color, Quantity_TOC_RGB
     from OCP.STEPCAFControl import STEPCAFControl_Writer
     from OCP.STEPControl import STEPControl_AsIs
     from OCP.TCollection import TCollection_ExtendedString
     from OCP.TDataStd import TDataStd_Name
     from OCP.TDocStd import TDocStd_Document
     from OCP.TopLoc import TopLoc_Location
-    from OCP.XCAFDoc import XCAFDoc_ColorSurf, XCAFDoc_DocumentTool
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool
 
     plain = _plain(name)
     document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
     shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
-    colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
     whole = shapes.NewShape() if len(parts) > 1 else None
     for part in parts:
         label = shapes.AddShape(part.shape, False)
         TDataStd_Name.Set_s(label, TCollection_ExtendedString(_plain(part.name)))
-        colours.SetColor(label, Quantity_Color(*part.colour, Quantity_TOC_RGB), XCAFDoc_ColorSurf)
         for called, shift in part.places.items() if whole is not None else ():
             move = gp_Trsf()
             move.SetTranslation(gp_Vec(*shift))
@@ -123,7 +119,9 @@ def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: st
     writer.Write(str(path))
     text = Path(path).read_text(encoding="utf-8")
     text = re.sub(r"FILE_NAME\('[^']*','[^']*'", f"FILE_NAME('{plain}','{release_date()}'", text, count=1)
-    text = re.sub(r"(STEP translator \d+\.\d+) \d+", r"\1", text)  # counts the exports of the process
+    # Both count the exports of the process.
+    text, number = re.sub(r"(STEP translator \d+\.\d+) \d+", r"\1", text), count(1)
+    text = re.sub(r"(?<=NEXT_ASSEMBLY_USAGE_OCCURRENCE\(')\d+", lambda _: str(next(number)), text)
     Path(path).write_text(with_shared_entities(text), encoding="utf-8")
 
 

@@ -32,7 +32,7 @@ def test_step_reads_back_with_a_name_and_a_date_that_does_not_change(
 ) -> None:
     solid = exported[0].build.shoes[0].solid
     assert solid is not None
-    part = StepPart("my foot's shoe", solid, {}, (0.3, 0.4, 0.5))
+    part = StepPart("my foot's shoe", solid, {})
     for name in ("a", "b"):
         write_step([part], tmp_path / f"{name}.step", "my foot's shoe")
     text = (tmp_path / "a.step").read_text()
@@ -86,7 +86,7 @@ def test_a_round_wall_becomes_cylinders_and_its_bevel_cones() -> None:
 def test_a_concave_wall_and_a_round_hole_are_valid(tmp_path: Path) -> None:
     plate = shapely.box(-40, -40, 40, 40).difference(shapely.Point(45, 0).buffer(25, quad_segs=24))
     plate = plate.difference(shapely.Point(-15, 0).buffer(10, quad_segs=24))
-    write_step([StepPart("a", of_blocks(Block(plate, 0.0, 10.0)), {}, (1.0, 1.0, 1.0))], tmp_path / "a.step", "a")
+    write_step([StepPart("a", of_blocks(Block(plate, 0.0, 10.0)), {})], tmp_path / "a.step", "a")
     step = read_step(tmp_path / "a.step")
     assert (step.solids, step.valid) == (1, True)
     assert step.flat == 0.0
