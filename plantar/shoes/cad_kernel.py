@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+from functools import cache
+from typing import Any
+
 from plantar.optional_library import optional_library
 
 __all__ = ["load_kernel"]
 
 
-def load_kernel() -> None:
-    """Load OpenCascade's Python modules; takes a second.
+@cache
+def load_kernel() -> Any:
+    """OpenCascade's module with all of its packages; loading it takes a second.
 
     Raises:
         DependencyError: If it is not installed or cannot be loaded.
     """
     with optional_library("OCP", "shoes"):
-        from OCP.Message import Message, Message_PrinterOStream
+        import OCP
+        import OCP.TopoDS  # gives names of the version before
     # It prints what it finds wrong in a file to stdout, which belongs to the command; errors are raised anyhow.
-    Message.DefaultMessenger_s().RemovePrinters(Message_PrinterOStream.get_type_descriptor_s())
+    printers = OCP.Message.Message_PrinterOStream.get_type_descriptor_s()
+    OCP.Message.Message.DefaultMessenger_s().RemovePrinters(printers)
+    return OCP

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
@@ -101,8 +102,6 @@ def _cell_text(plan: ShoePlan) -> str:
 
 def _cell_window(plan: ShoePlan, build: ShoeBuild) -> Any:
     """A cell and its pocket with the ribs around them; of a sheet what lies around the recess's rearmost point."""
-    import shapely
-
     rib = build.parameters.rib
     if plan.cell is not None and plan.cell.kind == "sheet":
         recess = plan.pockets[0]
@@ -122,8 +121,6 @@ def _place_text(retention: Retention) -> str:
 
 def _holder(plan: Any, retention: Retention) -> Any:
     """A piece of plate and wall around the last of what holds the shoe."""
-    import shapely
-
     place, half = retention.places[-1], 0.5 * retention.width + _BESIDE
     strip = plan.contact.intersection(shapely.box(place.x - half, -1e3, place.x + half, 1e3)).bounds
     edge = strip[3] if place.side > 0 else strip[1]
@@ -133,8 +130,6 @@ def _holder(plan: Any, retention: Retention) -> Any:
 
 def _limited(steps: tuple[Step, ...], window: Any) -> tuple[Step, ...]:
     """The steps, of each what lies in a window, and one more that cuts off what is left around it."""
-    import shapely
-
     around = window.buffer(_MORE, join_style="mitre")
     kept = []
     for step in steps:

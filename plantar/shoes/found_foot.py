@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError, PlantarError
@@ -128,8 +129,6 @@ def _foot(name: str, triangles: NDArray[np.float64]) -> Foot:
     try:
         return foot_from_triangles(name, triangles, where=name, file_unit="m", up="z", forward="x", sole_z=0.0)
     except FootError as error:
-        import shapely
-
         points = triangles.reshape(-1, 3) * MM_PER_M
         lowest = points[points[:, 2] <= 5.0][:, :2]
         hull = shapely.MultiPoint(lowest).convex_hull

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.optional_library import optional_library
@@ -254,8 +255,6 @@ def _insole_checks(shoe: Shoe, surface: Array, p: ShoeParameters) -> Iterator[Ch
 
 def _beyond(outline: Any, surface: Array) -> float:
     """How far any corner of a surface lies beyond an outline, in mm."""
-    import shapely
-
     points = np.unique(surface.reshape(-1, 3)[:, :2].round(4), axis=0)
     return float(outline.distance(shapely.points(points)).max())
 
@@ -347,8 +346,6 @@ def _printing_checks(best: Printing, plan: ShoePlan, p: ShoeParameters) -> Itera
 
 def _reach(plan: ShoePlan, surface: Array) -> float:
     """How far any corner of a surface lies beyond the foot's outline, in mm."""
-    import shapely
-
     hull = shapely.MultiPoint(surface.reshape(-1, 3)[:, :2]).convex_hull
     return float(max(plan.foot.distance(shapely.points(ring(hull)))))
 
@@ -366,8 +363,6 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tu
         ribs, and of a pocket's corner (the cell's, moved in by half a rib) from one in the pockets' ceiling. Corners
         that a port or the cable's channel takes away are left out.
     """
-    import shapely
-
     p = parameters
     cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(0.05)
     cable = cable.union(
@@ -393,8 +388,6 @@ def _farthest(wanted: Array, step: StepSolid, height: float) -> float:
 
 def _taxels_outside(shoe: Shoe) -> int:
     """Number of taxels that are not wholly inside the layout's outline."""
-    import shapely
-
     outline = shapely.Polygon(to_mm(shoe.layout.outline)).buffer(1e-3)
     cells = [shapely.Polygon(to_mm(shoe.layout.cell_polygon(i))) for i in range(len(shoe.layout))]
     return sum(not outline.covers(c) for c in cells)

@@ -15,6 +15,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.build import Shoe, ShoeBuild
@@ -96,8 +97,6 @@ def printed_features(shoe: Shoe, build: ShoeBuild, surface: Array) -> tuple[Feat
 
 def _seats(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature]:
     """A pocket for each taxel, free up to its ceiling, with print above and ribs around it."""
-    import shapely
-
     part = "taxel" if plan.cell is None else "cell"
     hole, ways = hole_outline(plan, p), shapely.union_all(cable_outlines(plan, p))
     free, roofs, ribs = [], [], []
@@ -119,8 +118,6 @@ def _seats(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
 
 def _cable(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature]:
     """From each pocket a way as wide as a cable leads through ports and channel to the hole, or out of the plate."""
-    import shapely
-
     if not plan.connectors:
         return
     height = p.bottom + max(p.scribe, 0.5 * p.pocket_depth) + 0.05
@@ -140,8 +137,6 @@ def _cable(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
 
 def _rails(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature]:
     """The board's slot is free, and stopped at both ends, in front, behind and below."""
-    import shapely
-
     half, gap = 0.5 * p.board_length, p.made_by.slide
     back = -holder_depth(p)
     levels = np.linspace(p.thickness + 0.3, p.rim_top - 0.3, 4).tolist()
@@ -168,8 +163,6 @@ def _rails(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
 
 def _holders(solid: _Print, shoe: Shoe, build: ShoeBuild, retention: Retention) -> Iterator[Feature]:
     """Slots and bars of straps, hooks of clips with room to bend, holes and nut slots of screws."""
-    import shapely
-
     p, width = build.parameters, retention.width
     middle = shoe.plan.foot.centroid.y
     flip = 1.0 if shoe.side == "left" else -1.0

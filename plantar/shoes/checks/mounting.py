@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.layouts.layout import Side
@@ -74,8 +75,6 @@ def check_mounting(
     Returns:
         The gaps.
     """
-    import shapely
-
     p = parameters
     flip = np.array([1.0, 1.0, 1.0]) if side == "left" else np.array([1.0, -1.0, 1.0])
     shoe = surface * flip  # the left foot is put into either
@@ -115,8 +114,6 @@ def check_mounting(
 
 def _links_met(links: Array, shoe: Array, p: ShoeParameters) -> int:
     """How many points of other links lie in a left shoe."""
-    import shapely
-
     heights, count = links[:, 2] + p.thickness, 0
     for low in np.arange(0.0, float(shoe[..., 2].max()), _SLICE).tolist():
         near = links[(heights > low) & (heights <= low + _SLICE)]
@@ -127,8 +124,6 @@ def _links_met(links: Array, shoe: Array, p: ShoeParameters) -> int:
 
 def _undercut(shoe: Array, retention: Retention, p: ShoeParameters) -> float:
     """Area of what a left shoe has over the place of the foot within the wall's height, section over section."""
-    import shapely
-
     half = 0.5 * retention.width + _BESIDE
     kept = [shapely.box(q.x - half, 0.0, q.x + half, q.side * 1e3) for q in retention.places]
     levels = np.unique(shoe[..., 2].round(3))
@@ -147,8 +142,6 @@ def _undercut(shoe: Array, retention: Retention, p: ShoeParameters) -> float:
 
 def _gap(foot: Foot, height: float, solid: Any) -> float:
     """Smallest distance between the foot at a height above the floor and a section of the shoe there."""
-    import shapely
-
     if foot.triangles is None:
         return float(foot.sole.distance(solid))
     segments, _ = cut_segments(foot.triangles, height + 1e-5)
@@ -160,8 +153,6 @@ def _gap(foot: Foot, height: float, solid: Any) -> float:
 
 def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
     """Smallest distance, seen from above, between the foot up to a height and a section of the shoe there."""
-    import shapely
-
     if foot.triangles is None:
         return float(foot.passing(height).distance(solid))
     flat = cut_below(foot.triangles, height)[..., :2]
@@ -179,8 +170,6 @@ def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
 
 def _play(outline: Any, solid: Any) -> float:
     """Largest distance of the hole's border in a section from the foot's outline."""
-    import shapely
-
     holes = [shapely.Polygon(h) for part in getattr(solid, "geoms", [solid]) for h in part.interiors]
     around = [h for h in holes if h.covers(outline)]
     if around:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.parameters import ShoeParameters
@@ -74,8 +75,6 @@ def _printing(name: str, triangles: Array, p: ShoeParameters) -> Printing:
 
 def _overhang(triangles: Array, bridge_max: float) -> tuple[float, float]:
     """Area of overhangs and of bridges in mm^2, with z up."""
-    import shapely
-
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     double = np.linalg.norm(cross, axis=1)
     keep = double > 1e-9

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
@@ -121,8 +122,6 @@ def _links(
     pattern: CellPattern, lattice: Lattice, axial: NDArray[np.int64], pockets: tuple[Array, ...]
 ) -> tuple[tuple[int, int], ...]:
     """Pairs of cells between whose middles lie no other cell's pocket and less than two pitches: where a cable goes."""
-    import shapely
-
     centres = lattice.centres(axial)
     far = 1.01 * max(pattern.width, math.hypot(0.5 * pattern.width, pattern.rise), pattern.rise)
     gaps = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
@@ -136,8 +135,6 @@ def _links(
 
 def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, border: float) -> TaxelFit:
     """Crossings of a sheet whose electrodes lie inside the face, with what lies around each."""
-    import shapely
-
     edge = region.buffer(-cell.play - 0.5 * rib, join_style="mitre")
     sheet = tidy(edge) if not edge.is_empty else edge
     inside = sheet.buffer(-cell.edge, join_style="mitre")

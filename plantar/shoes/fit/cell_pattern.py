@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
@@ -249,8 +250,6 @@ def _pitch(cell: Cell, axis: str, least: float, rib: float) -> float:
 
 def _least_rise(parts: Sequence[Array], width: float, shift: float, height: float) -> float:
     """How near to each other rows may be: rooms are convex across the rows, so that they part once."""
-    import shapely
-
     if not shift:
         return float(height)
     room = shapely.union_all([shapely.Polygon(p) for p in parts])
@@ -301,8 +300,6 @@ def pocket_parts(cell: Cell, around: float = 0.0) -> tuple[Array, ...]:
 
 def joined(parts: Sequence[Array]) -> Any:
     """Convex parts (k, 2) that overlap as one shapely polygon, counter-clockwise and without needless corners."""
-    import shapely
-
     shape = shapely.union_all([shapely.Polygon(p) for p in parts], grid_size=1e-6)
     return shapely.geometry.polygon.orient(shape.simplify(1e-6))
 

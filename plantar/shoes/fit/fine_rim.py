@@ -12,6 +12,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
@@ -54,8 +55,6 @@ def blind_rim(face: Any, centres: Array) -> float:
         >>> blind_rim(shapely.box(0, 0, 10, 4), np.array([[2.0, 2.0], [8.0, 2.0]]))
         2.8284271247461903
     """
-    import shapely
-
     corners = shapely.points(shapely.get_coordinates(face.exterior))
     return float(shapely.distance(corners, shapely.MultiPoint(centres).convex_hull).max())
 
@@ -74,8 +73,6 @@ def strip_cells(region: Any, face: Any, cell_area: float) -> tuple[tuple[Array, 
     Raises:
         FootError: If no such cells of a size that can be made leave a blind rim of BLIND_MOST.
     """
-    import shapely
-
     found: list[tuple[float, list[Any], Any]] = []
     edge = shapely.geometry.polygon.orient(shapely.Polygon(region.exterior).simplify(_DETAIL))
     for depth in _DEPTHS:
@@ -102,8 +99,6 @@ class _Line:
     """A closed line, its places told by the way along it from its first corner."""
 
     def __init__(self, polygon: Any) -> None:
-        import shapely
-
         self.ring = polygon.exterior
         self.points = shapely.get_coordinates(self.ring)[:-1]
         steps = np.roll(self.points, -1, axis=0) - self.points
@@ -117,8 +112,6 @@ class _Line:
 
     def nearest(self, point: Array) -> float:
         """The place nearest to a point, or the corner that is as good as there."""
-        import shapely
-
         at = float(self.ring.project(shapely.Point(point)))
         off = np.abs(self.starts - at)
         return float(self.starts[int(off.argmin())]) % self.length if off.min() < _SNAP else at
@@ -137,8 +130,6 @@ class _Line:
 
 def _strip(edge: Any, inside: Any, depth: float, length: float) -> list[Any]:
     """The strip between two rings, cut into cells of about a length along it."""
-    import shapely
-
     inner, outer = _Line(inside), _Line(edge)
     cuts = _cuts(inner, outer, depth, length)
     cells = []
@@ -175,8 +166,6 @@ def _cuts(inner: _Line, outer: _Line, depth: float, length: float) -> list[tuple
 
 def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
     """Cells inside of a strip: of the lattice with the most whole ones, and trimmed ones; and the whole ones' bound."""
-    import shapely
-
     clear = inside.buffer(-_CLEAR, join_style="mitre")
     try:
         fit = fit_lattice(clear, cell_area=cell_area)
@@ -214,8 +203,6 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
         InputError: If the area is out of its range.
         FootError: If no cells that can be made leave a blind rim of BLIND_MOST.
     """
-    import shapely
-
     region, face = tidy(grown(foot, overhang)), tidy(grown(foot, overhang + border))
     strip, inside = strip_cells(region, face, cell_area)
     core, lattice, bound = _core(inside, cell_area)

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.fit.cell_pattern import CellPattern
@@ -137,8 +138,6 @@ class _Outline:
 
     @classmethod
     def of(cls, region: Any, pattern: CellPattern) -> _Outline:
-        import shapely
-
         hull = region.convex_hull
         circle = shapely.minimum_bounding_circle(region)
         centre = circle.centroid

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
@@ -85,8 +86,6 @@ def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: 
         >>> bool(abs(whole_cell_region(shapely.box(0, 0, 10, 10), parts, 0.0).area - (10 - 3**0.5) * 8) < 0.1)
         True
     """
-    import shapely
-
     c, s = math.cos(angle), math.sin(angle)
     turn = np.array([[c, s], [-s, c]])
     region = region.buffer(_SLACK, join_style="mitre")
@@ -97,8 +96,6 @@ def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: 
 
 def _swept(points: NDArray[np.float64], part: NDArray[np.float64]) -> Any:
     """Where a part's centre may not lie along each edge of a ring: what the part, turned about, sweeps there."""
-    import shapely
-
     swept = np.concatenate([points[:-1, None] - part, points[1:, None] - part], axis=1)
     return shapely.convex_hull(shapely.multipoints(swept))
 
@@ -202,8 +199,6 @@ def _scan(sole: Any, pattern: CellPattern, overhang: float, angles: Sequence[flo
 
     Where none are given: those of `_angles`, and rows along and across the outline's long edges.
     """
-    import shapely
-
     region = sole.buffer(overhang) if overhang > 0.0 else sole
     out = []
     known = _angles(pattern)
@@ -296,8 +291,6 @@ def _critical_offsets(allowed: Any, pattern: CellPattern, lattice: Lattice) -> N
     The number of cells at an origin is the number of copies of the allowed area, moved by lattice vectors, that hold
     the origin. The most copies overlap at a corner of one or where the edges of two cross: the best is among these.
     """
-    import shapely
-
     edge = allowed.boundary
     shifts = _difference_vectors(allowed, lattice)
     corners = shapely.get_coordinates(edge)
@@ -326,8 +319,6 @@ def _difference_vectors(allowed: Any, lattice: Lattice) -> NDArray[np.float64]:
 
 def _count(allowed: Any, lattice: Lattice, offsets: NDArray[np.float64]) -> NDArray[np.int64]:
     """Number of whole cells (k,) at each lattice origin (k, 2)."""
-    import shapely
-
     centres = _near_centres(allowed, lattice)[1]
     x = centres[None, :, 0] + offsets[:, None, 0]
     y = centres[None, :, 1] + offsets[:, None, 1]
@@ -342,8 +333,6 @@ def _near_centres(allowed: Any, lattice: Lattice) -> tuple[NDArray[np.int64], ND
 
 
 def _cells_inside(allowed: Any, lattice: Lattice, pattern: CellPattern) -> NDArray[np.int64]:
-    import shapely
-
     cells, centres = _near_centres(allowed, pattern.at((0.0, 0.0), lattice.angle))
     inside = shapely.contains_xy(allowed, centres[:, 0] + lattice.origin[0], centres[:, 1] + lattice.origin[1])
     return np.asarray(cells[inside])
@@ -351,14 +340,10 @@ def _cells_inside(allowed: Any, lattice: Lattice, pattern: CellPattern) -> NDArr
 
 def _covered_of_cells(sole: Any, lattice: Lattice, cells: NDArray[np.int64]) -> NDArray[np.float64]:
     """Area (n,) of the sole under each cell in mm^2."""
-    import shapely
-
     return np.asarray(shapely.area(shapely.intersection(shapely.polygons(lattice.corners(cells)), sole)))
 
 
 def _candidate(sole: Any, lattice: Lattice, cells: NDArray[np.int64], rank: int, straight: bool) -> _Candidate:
-    import shapely
-
     covered = float(_covered_of_cells(sole, lattice, cells).sum())
     spread = float(shapely.MultiPoint(lattice.corners(cells).reshape(-1, 2)).convex_hull.intersection(sole).area)
     middle = lattice.centres(cells).mean(axis=0)
@@ -376,8 +361,6 @@ def _reduced(sole: Any, lattice: Lattice, cells: NDArray[np.int64], taxels: int)
 
 def _centred(start: _Candidate, sole: Any, region: Any, pattern: CellPattern) -> _Candidate:
     """The same cells moved towards the sole's centre as far as they stay inside the region."""
-    import shapely
-
     allowed = whole_cell_region(region, pattern.parts, start.lattice.angle)
     shapely.prepare(allowed)
     best, step = start, 1.6

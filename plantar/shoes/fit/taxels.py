@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
@@ -182,15 +183,11 @@ def covered_area(sole: Any, cells: Sequence[NDArray[np.float64]]) -> float:
     Returns:
         The area.
     """
-    import shapely
-
     return float(shapely.area(shapely.intersection([shapely.Polygon(c) for c in cells], sole)).sum())
 
 
 def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit | None:
     """So many cells within a distance of the sole, of which the rim cuts the least; None where they do not fit."""
-    import shapely
-
     from plantar.shoes.fit.fit_bound import bound_whole_cells
 
     # Gentle corners stay one point: a cut cell gets no short edges.
@@ -240,8 +237,6 @@ def _cut_placement(
     region: Any, cell_area: float, taxels: int, degrees: float, i: float, j: float
 ) -> tuple[float, HexLattice, NDArray[np.int64], NDArray[np.float64]] | None:
     """The cells of one placement that the region cuts least: their score, lattice, axial coordinates and shares."""
-    import shapely
-
     angle = math.radians(degrees)
     start = HexLattice(cell_area, angle=angle)
     c, s = math.cos(angle), math.sin(angle)

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 __all__ = ["trimmed_cell"]
@@ -28,8 +29,6 @@ def trimmed_cell(cell: Any, region: Any) -> NDArray[np.float64]:
         >>> len(trimmed_cell(shapely.box(0, 0, 4, 4), shapely.box(-1, -1, 3, 5)))
         4
     """
-    import shapely
-
     corners = shapely.get_coordinates(cell.exterior)[:-1]
     points = shapely.get_coordinates(shapely.geometry.polygon.orient(_largest(cell.intersection(region))).exterior)[:-1]
     own = np.hypot(*(points[:, None] - corners[None]).transpose(2, 0, 1)).min(axis=1) < 1e-6

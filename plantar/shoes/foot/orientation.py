@@ -6,6 +6,7 @@ import math
 from typing import Any, Literal
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
@@ -263,8 +264,6 @@ def check_one_body(triangles: Array, where: str) -> None:
     Raises:
         FootError: If seen from above it falls into two bodies of about a size.
     """
-    import shapely
-
     with optional_library("scipy", "shoes"):
         from scipy.sparse import coo_array
         from scipy.sparse.csgraph import connected_components
@@ -308,8 +307,6 @@ def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list
     Raises:
         FootError: If it is about as wide as long, and askew by so much that it could point along either axis.
     """
-    import shapely
-
     hull = convex_outline(triangles.reshape(-1, 3)[:, :2])
     if hull.geom_type != "Polygon":
         return triangles, []
@@ -345,8 +342,6 @@ def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list
 
 def _likeness(outline: Any, degrees: float) -> float:
     """Share of an outline, 0..1, that is covered by its mirror image about a line through its middle."""
-    import shapely
-
     level = shapely.affinity.rotate(outline, -degrees, origin="centroid")
     image = shapely.affinity.scale(level, 1.0, -1.0, origin="centroid")
     return float(level.intersection(image).area / level.union(image).area)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FootError, InputError
@@ -75,8 +76,6 @@ def foot_from_drawing(
     if mesh_side == "right":
         turn = np.diag([1.0, -1.0]) @ turn
         notes.append("the drawing is of a right foot; mirrored to the left")
-    import shapely
-
     outline = shapely.transform(outline, lambda points: points @ turn.T)
     low_x, low_y, high_x, high_y = outline.bounds
     if not (low_x <= 0.0 <= high_x and low_y <= 0.0 <= high_y):
@@ -126,8 +125,6 @@ def read_outline(path: str | os.PathLike[str]) -> tuple[Lines, Unit | None, floa
 
 def _closed_area(lines: Lines, where: str) -> Any:
     """The one outline that lines enclose."""
-    import shapely
-
     extent = float(np.ptp(np.concatenate(lines), axis=0).max())
     if extent <= 0.0:
         raise FootError(f"{where}: the drawing has no size")
@@ -149,8 +146,6 @@ def _closed_area(lines: Lines, where: str) -> Any:
 
 def _refuse_tangle(lines: Lines, where: str) -> None:
     """Refuse lines that meet each other almost everywhere: their crossings grow with the square of their number."""
-    import shapely
-
     ends = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines])
     drawn = shapely.linestrings(ends)
     tree = shapely.STRtree(drawn)
@@ -165,8 +160,6 @@ def _refuse_tangle(lines: Lines, where: str) -> None:
 
 def _refuse_crossing(line: NDArray[np.float64], grid: float, where: str) -> None:
     """Refuse a line that crosses itself and encloses two areas or more, as an eight does: no sole is meant by it."""
-    import shapely
-
     drawn = shapely.LineString(line)
     if drawn.is_simple:
         return
@@ -178,8 +171,6 @@ def _refuse_crossing(line: NDArray[np.float64], grid: float, where: str) -> None
 
 def _what_was_drawn(outline: Any, lines: Lines) -> list[str]:
     """Notes on lines that are left out, and on a sole that lies askew on the sheet."""
-    import shapely
-
     notes = []
     extent = max(np.ptp(np.array(outline.exterior.coords), axis=0))
     within = outline.buffer(-1e-3 * extent)

@@ -9,6 +9,7 @@ import math
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
@@ -52,8 +53,6 @@ def tidy(polygon: Any) -> Any:
     Returns:
         The shapely polygon.
     """
-    import shapely
-
     shape = shapely.set_precision(polygon, GRID)
     parts = [p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon" and not p.is_empty]
     if not parts:
@@ -80,8 +79,6 @@ def grown(shape: Any, distance: float) -> Any:
 
 def _pointed(polygon: Any) -> Any:
     """A polygon whose corners with a short bevel have a point instead, where that lies near."""
-    import shapely
-
     points = ring(polygon)
     for i in range(len(points) - 1, -1, -1):
         a, b, c, d = (points[(i + k) % len(points)] for k in (-1, 0, 1, 2))
@@ -133,8 +130,6 @@ def flush(outer: Any, inner: Any) -> Any:
         >>> flush(shapely.box(-0.01, 0.0, 9.0, 4.0), shapely.box(0.0, 0.0, 5.0, 4.0)).bounds
         (0.0, 0.0, 9.0, 4.0)
     """
-    import shapely
-
     joined = inner.union(apart(outer, inner).intersection(outer))
     largest = max(getattr(joined, "geoms", [joined]), key=lambda g: float(g.area))
     points = ring(shapely.geometry.polygon.orient(shapely.Polygon(largest.exterior)))
@@ -170,8 +165,6 @@ def rounded_rectangle(length: float, width: float, centre: tuple[float, float], 
         >>> rounded_rectangle(200.0, 100.0, (20.0, 0.0), 10.0).bounds
         (-80.0, -50.0, 120.0, 50.0)
     """
-    import shapely
-
     x, y = centre
     a, b = 0.5 * length - radius, 0.5 * width - radius
     core = shapely.LineString([(x - a, y), (x + a, y)]) if b <= 0.0 < a else shapely.box(x - a, y - b, x + a, y + b)
@@ -233,8 +226,6 @@ def touching(triangles: NDArray[np.float64], height: float) -> Any:
 
 def _projected(triangles: NDArray[np.float64]) -> Any:
     """Union of triangles seen from above."""
-    import shapely
-
     return shapely.set_precision(covered_area(triangles[..., :2]), GRID)  # which closes hairline gaps
 
 
@@ -252,8 +243,6 @@ def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
     Returns:
         The shapely polygon.
     """
-    import shapely
-
     filled = shapely.union_all([shapely.Polygon(p.exterior) for p in getattr(union, "geoms", [union]) if p.area > 1.0])
     bridged = filled.buffer(_GROOVE).buffer(-_GROOVE)
     one_patch = bridged.geom_type == "Polygon" and not bridged.is_empty

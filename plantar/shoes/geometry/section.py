@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 __all__ = ["cut_segments", "section", "section_along", "thinnest_wall", "wall_thickness"]
@@ -56,8 +57,6 @@ def section(triangles: Array, height: float) -> Any:
     Returns:
         A shapely polygon or multipolygon in mm, empty where nothing is cut.
     """
-    import shapely
-
     segments, _ = cut_segments(triangles, height)
     return shapely.build_area(shapely.union_all(shapely.linestrings(segments))) if len(segments) else shapely.Polygon()
 

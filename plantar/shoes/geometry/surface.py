@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
@@ -71,8 +72,6 @@ def convex_outline(points: Array) -> Any:
     Returns:
         A shapely geometry: a polygon, or a line or point where they have no area.
     """
-    import shapely
-
     if len(points) > _FEW:
         x, y = np.ascontiguousarray(points[:, 0]), np.ascontiguousarray(points[:, 1])
         extreme: list[int] = []
@@ -99,8 +98,6 @@ def covered_area(flat: Array) -> Any:
     Raises:
         FootError: If they do not join and cover the same area many times: a crowd is no surface.
     """
-    import shapely
-
     flat = np.rint(flat / _GRID) * _GRID
     u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     double = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
@@ -120,8 +117,6 @@ def covered_area(flat: Array) -> Any:
 
 def _united(flat: Array) -> Any:
     """What triangles (n, 3, 2) that do not join cover; holes of less than a millimetre count as covered."""
-    import shapely
-
     parts = shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1))
     if shapely.area(parts).sum() > _MOST_TIMES * convex_outline(flat.reshape(-1, 2)).area:
         raise FootError("its triangles overlap without joining; give a surface")

@@ -6,6 +6,7 @@ import html
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.gravity import GRAVITY
@@ -380,8 +381,6 @@ class _Views:
         return self._shown([(mould, _MOULD), (turned + 2.0 * self.apart, _PAD)], _ABOVE)
 
     def _cables(self) -> Bodies:
-        import shapely
-
         plan, p = self.shoe.plan, self.build.parameters
         lines = [*wire_lines(plan).values(), *channel_lines(plan, p)]
         low, high = p.ceiling - min(_WIRE_WIDE, 0.6 * p.pocket_depth) - 0.1, p.ceiling - 0.1
@@ -394,8 +393,6 @@ class _Views:
 
     def of_exit(self) -> bytes:
         """The board above its rails, from behind; the cable's end from below where there is none."""
-        import shapely
-
         heel, p = self.shoe.plan.heel, self.build.parameters
         if not heel.board:
             return self._shown([(self.surface, _PRINT), *self._cables()], {"azimuth": 160.0, "elevation": -35.0})
@@ -424,8 +421,6 @@ class _Views:
 
     def _foot(self) -> Array:
         """The foot on the floor of the shoe: its mesh, or its outline where it has none or a very fine one."""
-        import shapely
-
         foot, p = self.build.foot, self.build.parameters
         floor = p.thickness
         if foot.triangles is not None and len(foot.triangles) <= _MANY:

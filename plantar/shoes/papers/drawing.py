@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.build import Shoe, ShoeBuild
@@ -87,8 +88,6 @@ def _cuts(shoe: Shoe, build: ShoeBuild) -> tuple[float, float]:
 
 def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cuts: tuple[float, float]) -> None:
     """The shoe from above: outlines, hidden pockets with the ids of their taxels, cable, datums, cuts, sizes."""
-    import shapely
-
     plan, sheet, p = shoe.plan, view.sheet, build.parameters
     flip = 1.0 if shoe.side == "left" else -1.0
     for pocket in plan.pockets:
@@ -139,8 +138,6 @@ def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cut
 
 def _section(view: View, shoe: Shoe, build: ShoeBuild, triangles: Array, axis: int, at: float, name: str) -> Any:
     """A section with the foot as it is cut, taxels and pad; gives the print's area."""
-    import shapely
-
     p, plan, sheet = build.parameters, shoe.plan, view.sheet
     cut, across = section_along(triangles, axis, at), 1 - axis
     line = shapely.LineString([(at, -1e4), (at, 1e4)] if axis == 0 else [(-1e4, at), (1e4, at)])
@@ -167,8 +164,6 @@ def _section(view: View, shoe: Shoe, build: ShoeBuild, triangles: Array, axis: i
 
 def _foot_section(shoe: Shoe, build: ShoeBuild, axis: int, at: float, top: float) -> Any:
     """The foot in the shoe, cut where the shoe is; of an open surface, or of dimensions, its outlines by height."""
-    import shapely
-
     floor, triangles = build.parameters.thickness, build.foot.triangles
     room = shapely.box(-1e4, floor, 1e4, top)
     if triangles is not None:
@@ -239,8 +234,6 @@ def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild,
 
 def _rib(cut: Any, height: float) -> float:
     """Middle of the rib in a section that is nearest to the section's own."""
-    import shapely
-
     low, _, high, _ = cut.bounds
     parts = shapely.get_parts(cut.intersection(shapely.LineString([(low, height), (high, height)])))
     middles = [0.5 * (q.bounds[0] + q.bounds[2]) for q in parts if q.length < 6.0] or [0.5 * (low + high)]
@@ -252,8 +245,6 @@ def _detail(
     radius: float, texts: Sequence[str],
 ) -> None:  # fmt: skip
     """What lies within a circle of a view, larger, with what is toleranced there."""
-    import shapely
-
     sheet, scale = source.sheet, _DETAIL / radius
     circle = shapely.Point(centre).buffer(radius, quad_segs=24)
     view = View(sheet, scale, at, (float(centre[0]), float(centre[1])))

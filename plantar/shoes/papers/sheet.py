@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.atomic import write_text
@@ -216,8 +217,6 @@ class View:
 
     def draw(self, shape: Any, kind: str = "THIN") -> None:
         """The border of a shapely shape, in lines of a kind."""
-        import shapely
-
         for part in shapely.get_parts(shape):
             rings = [part.exterior, *part.interiors] if part.geom_type == "Polygon" else [part]
             for line in rings:
@@ -226,8 +225,6 @@ class View:
 
     def hatch(self, shape: Any) -> None:
         """A cut area: its border, and lines at 45 degrees."""
-        import shapely
-
         self.draw(shape, "OUTLINE")
         if shape.is_empty:
             return

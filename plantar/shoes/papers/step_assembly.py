@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.build import Shoe, ShoeBuild
@@ -44,8 +45,6 @@ def assembly_parts(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
 
 
 def _rectangle(*bounds: float) -> Any:
-    import shapely
-
     return shapely.box(*bounds)
 
 
@@ -82,14 +81,10 @@ def _from_lowest(points: NDArray[np.float64], grid: float) -> NDArray[np.int64]:
 
 
 def _moved(polygon: Any, x: float, y: float) -> Any:
-    import shapely
-
     return shapely.affinity.translate(polygon, x, y)
 
 
 def _pad(plan: ShoePlan, p: ShoeParameters) -> Polyhedron:
-    import shapely
-
     low, high = 0.5 * p.pad_thickness, p.pad_thickness + p.pad_rim_height
     within = pad_rim(plan, p).buffer(-2.0 * _DETAIL, join_style="mitre").buffer(_DETAIL, join_style="mitre")
     rims = shapely.get_parts(within.simplify(_DETAIL))
@@ -100,8 +95,6 @@ def _pad(plan: ShoePlan, p: ShoeParameters) -> Polyhedron:
 
 def _straps(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
     """Straps from slot to slot over the foot, as a taut band lies."""
-    import shapely
-
     retention, p = build.retention, build.parameters
     if retention is None or retention.kind != "straps":
         return []

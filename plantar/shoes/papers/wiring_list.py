@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+import shapely
 
 from plantar.csv_table import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
@@ -70,8 +71,6 @@ def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
         (contact face), and KEEPOUT: ports, channel and hole of the cable, places of clips, lugs or screws, where no
         board may be. Of a sheet ROWS and COLUMNS, its electrodes.
     """
-    import shapely
-
     p, plan = build.parameters, shoe.plan
     flip = 1.0 if shoe.side == "left" else -1.0
     keep_out = [*cable_outlines(plan, p), hole_outline(plan, p)]
@@ -99,8 +98,6 @@ def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
 
 def _electrodes(shoe: Shoe) -> dict[str, tuple[Any, ...]]:
     """A sheet's electrodes, each from its first crossing to its last."""
-    import shapely
-
     plan, cell = shoe.plan, shoe.plan.cell
     assert plan.lines is not None
     assert plan.crossings is not None

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.geometry.outline import ring
@@ -74,8 +75,6 @@ def box_block(low: tuple[float, float, float], high: tuple[float, float, float])
     Returns:
         The block.
     """
-    import shapely
-
     return Block(shapely.box(low[0], low[1], high[0], high[1]), low[2], high[2])
 
 
@@ -94,8 +93,6 @@ def mirrored_step(step: Step) -> Step:
 
 
 def _flipped(polygon: Any) -> Any:
-    import shapely
-
     flat = np.array([1.0, -1.0])
     holes = [np.asarray(h.coords)[:-1][::-1] * flat for h in polygon.interiors]
     return shapely.Polygon(ring(polygon)[::-1] * flat, holes)
@@ -115,8 +112,6 @@ def moved_edges(points: NDArray[np.float64], distance: float) -> NDArray[np.floa
         >>> moved_edges(np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]]), -0.5).tolist()
         [[0.5, 0.5], [3.5, 0.5], [3.5, 1.5], [0.5, 1.5]]
     """
-    import shapely
-
     edge = np.roll(points, -1, axis=0) - points
     length = np.hypot(*edge.T)
     if not (length > 0.0).all():
@@ -146,8 +141,6 @@ def tapered(polygon: Any, start: float, end: float, z_low: float, z_high: float)
     Returns:
         The block, or None where an edge would vanish.
     """
-    import shapely
-
     low, high = moved_edges(ring(polygon), start), moved_edges(ring(polygon), end)
     if low is None or high is None:
         return None

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.geometry.outline import ring
@@ -43,8 +44,6 @@ class Heel:
 
     def placed(self, shape: Any) -> Any:
         """A shapely shape of this frame in the sole frame."""
-        import shapely
-
         turned = shapely.affinity.rotate(shape, self.turn, origin=(0.0, 0.0), use_radians=True) if self.turn else shape
         return shapely.affinity.translate(turned, self.x, self.y)
 
@@ -83,8 +82,6 @@ def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, st
     Returns:
         The place; and a note where the holder is left out because it would reach farther than allowed.
     """
-    import shapely
-
     half = 0.5 * parameters.board_length + POST + parameters.made_by.slide
     depth = holder_depth(parameters)
     points = ring(rim)

@@ -11,6 +11,8 @@ from collections.abc import Iterable
 from dataclasses import fields, replace
 from typing import Any
 
+import shapely
+
 from plantar.errors import FootError, InputError
 from plantar.shoes.cells.cell import Cell
 from plantar.shoes.fit.cell_fit import fit_cells
@@ -167,8 +169,6 @@ def even_share(cells: Iterable[Any], sole: Any) -> float:
     Returns:
         The share, 0..1.
     """
-    import shapely
-
     covered = shapely.union_all([shapely.Polygon(c) for c in cells]).intersection(sole)
     return float(covered.area / sole.area)
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.foot.foot import Foot
@@ -113,8 +114,6 @@ def keep_out(foot: Foot) -> KeepOut:
     surface = None if foot.triangles is None else surface_points(foot.triangles, _SPACING)
     if foot.links is not None:
         return KeepOut(foot.links, surface, True)
-    import shapely
-
     low, _, high, _ = foot.sole.bounds
     length, top = high - low, min(foot.height, 60.0)
     shank = shapely.Point(0.0, 0.0).buffer(_SHANK * length)

@@ -30,6 +30,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.parameters import ShoeParameters
@@ -215,8 +216,6 @@ class _Springs:
 
     @classmethod
     def of(cls, plan: ShoePlan, p: ShoeParameters, pressure: float) -> _Springs:
-        import shapely
-
         step = math.sqrt(plan.contact.area / _POINTS)
         low_x, low_y, high_x, high_y = plan.contact.bounds
         x, y = np.meshgrid(np.arange(low_x + 0.5 * step, high_x, step), np.arange(low_y + 0.5 * step, high_y, step))
@@ -265,7 +264,5 @@ class _Springs:
 
 
 def _within(shape: Any, points: Array) -> NDArray[np.bool_]:
-    import shapely
-
     shapely.prepare(shape)
     return np.asarray(shapely.contains_xy(shape, points[:, 0], points[:, 1]))

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.units import to_mm
@@ -47,8 +48,6 @@ def observability(plan: ShoePlan) -> Observability:
     Returns:
         The shares and the error.
     """
-    import shapely
-
     low_x, low_y, high_x, high_y = plan.contact.bounds
     box = shapely.MultiPoint(to_mm(plan.layout.positions[:, :2])).minimum_rotated_rectangle
     corners = shapely.get_coordinates(box)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import shapely
+
 from plantar.shoes.geometry.outline import GRID
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.shoe_plan import ShoePlan
@@ -25,8 +27,6 @@ def pad_rim(plan: ShoePlan, parameters: ShoeParameters) -> Any:
         A shapely polygon or multipolygon in mm, empty where the taxels reach the edge, or do not stand out farther than
         the rim stays below the print.
     """
-    import shapely
-
     if parameters.pad_rim_height <= 0.0:
         return shapely.Polygon()
     beside = plan.contact.difference(shapely.union_all(plan.cells).buffer(_PLAY, join_style="mitre"))

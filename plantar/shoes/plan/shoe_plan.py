@@ -10,6 +10,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError, LayoutError
@@ -80,8 +81,6 @@ class ShoePlan:
             return ()
         if self.cell.kind == "film":
             return self.cells
-        import shapely
-
         # Only below cells: what presses next to them would not be measured.
         land = shapely.union_all(self.cells, grid_size=GRID).intersection(self.pockets[0].buffer(-_LAND_PLAY))
         parts = shapely.get_parts(shapely.set_precision(land, GRID))
@@ -105,8 +104,6 @@ class ShoePlan:
             across = across / length
             along = np.array([across[1], -across[0]])
             return np.stack([middle - along, middle + along]), across, _PORT_SHARE * length
-        import shapely
-
         ends = to_mm(self.layout.positions[[i, j], :2])
         line = shapely.LineString(ends)
         step = (ends[1] - ends[0]) / line.length
@@ -125,8 +122,6 @@ class ShoePlan:
     @property
     def overhang(self) -> float:
         """How far the contact face reaches beyond the foot, in mm."""
-        import shapely
-
         return float(max(self.foot.distance(shapely.points(ring(self.contact)))))
 
     @property
@@ -147,8 +142,6 @@ class ShoePlan:
         Returns:
             The ends.
         """
-        import shapely
-
         common = self.cells[i].exterior.intersection(self.cells[j].buffer(_TOUCH))
         lines = [shapely.get_coordinates(line) for line in shapely.get_parts(shapely.line_merge(common))]
         ends = [np.stack(pair) for line in lines for pair in pairwise(line)]
@@ -189,8 +182,6 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
     Raises:
         FootError: If the cells are so small that no pocket is left between the ribs.
     """
-    import shapely
-
     outline = foot.passing(parameters.rim_height)
     cavity = tidy(grown(outline, parameters.clearance))
     rim = tidy(grown(outline, parameters.clearance + parameters.rim_thickness))
@@ -222,8 +213,6 @@ def plan_face(
     Raises:
         FootError: If the cells are so small that no pocket is left between the ribs.
     """
-    import shapely
-
     cells = tuple(shapely.Polygon(c) for c in fit.cells)
     if fit.pockets is not None:
         pockets = tuple(shapely.Polygon(p) for p in fit.pockets)
@@ -252,8 +241,6 @@ def plan_face(
 
 def _crossed(pocket: Any, line: Any) -> NDArray[np.float64]:
     """Where a line crosses the border of a pocket, (k, 2)."""
-    import shapely
-
     return np.asarray(shapely.get_coordinates(pocket.exterior.intersection(line)))
 
 
@@ -268,8 +255,6 @@ def _linked(links: Sequence[tuple[int, int]], count: int) -> tuple[tuple[int, ..
 
 def _pocket(cell: Any, rib: float) -> Any | None:
     """A cell with its edges moved in by half a rib; None where nothing is left."""
-    import shapely
-
     moved = moved_edges(ring(cell), -0.5 * rib)
     if moved is not None:
         return shapely.Polygon(moved)
@@ -372,8 +357,6 @@ def mirrored_plan(plan: ShoePlan) -> ShoePlan:
     """The plan of the other foot's shoe: y changes sign, taxel ids stay."""
 
     def flip(polygon: Any) -> Any:
-        import shapely
-
         return shapely.geometry.polygon.orient(shapely.Polygon(ring(polygon) * np.array([1.0, -1.0])))
 
     layout = mirrored(plan.layout)

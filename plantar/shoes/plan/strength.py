@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import shapely
 
 from plantar.mechanics.lip import GRAVITY
 from plantar.shoes.foot.foot import Foot
@@ -123,8 +124,6 @@ def check_strength(foot: Foot, contact: Any, parameters: ShoeParameters) -> tupl
     Returns:
         The load, and each member.
     """
-    import shapely
-
     p, material = parameters, parameters.printed
     load = load_case(foot, p)
     allowed = material.strength / p.safety
@@ -159,8 +158,6 @@ def check_strength(foot: Foot, contact: Any, parameters: ShoeParameters) -> tupl
 
 def _unsupported_span(foot: Foot) -> float:
     """Widest place of the sole where the foot does not touch, in mm: the diameter of the largest circle in it."""
-    import shapely
-
     if foot.support is None or foot.support.is_empty:
         return 0.0
     free = foot.sole.difference(foot.support)

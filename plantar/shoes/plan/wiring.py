@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.parameters import ShoeParameters
@@ -43,8 +44,6 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
     Returns:
         Shapely polygons, possibly with holes, from the printed lower face to the pockets' ceiling.
     """
-    import shapely
-
     cable = cable_outlines(plan, parameters)
     openings = shapely.union_all([*plan.pockets, *cable])
     ways, wall = shapely.union_all(cable), parameters.wall_min
@@ -86,8 +85,6 @@ def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
     Returns:
         Shapely polygons; none without connectors.
     """
-    import shapely
-
     if not plan.connectors:
         return []
     parts = []
@@ -162,8 +159,6 @@ def hole_outline(plan: ShoePlan, parameters: ShoeParameters) -> Any:
     Returns:
         A shapely polygon, empty without a board.
     """
-    import shapely
-
     if not plan.heel.board:
         return shapely.Polygon()
 
@@ -194,8 +189,6 @@ def wiring_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[list[Block
     Returns:
         Blocks of the body, and the steps that cut it: the board's slot and the cable's hole.
     """
-    import shapely
-
     p, heel = parameters, plan.heel
     if not heel.board:
         return [], []

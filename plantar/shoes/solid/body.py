@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import shapely
 
 from plantar.layouts.layout import Side
 from plantar.shoes.foot.foot import Foot
@@ -144,8 +145,6 @@ def _fillet(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
 
 def _scribe(cell: Any, p: ShoeParameters) -> Block | Groove:
     """Half of the groove around a cell: its upper edge is the cell's border, its lower lies within the cell."""
-    import shapely
-
     for width in p.scribe * np.array([1.0, 0.5, 0.25, 0.125]):  # narrower in a cut cell with a short edge
         inner = moved_edges(ring(cell), -width)
         if inner is not None:
@@ -181,7 +180,6 @@ def mark_outline(plan: ShoePlan, parameters: ShoeParameters, side: Side, floor: 
     Returns:
         A shapely multipolygon, read with the toes to the right, empty without a mark.
     """
-    import shapely
     from shapely.ops import polylabel
 
     name = "".join(c if c.isascii() and (c.isalnum() or c in "-_./") else " " for c in plan.layout.name)

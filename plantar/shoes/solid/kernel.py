@@ -44,9 +44,7 @@ def build_solid(steps: Sequence[Step]) -> Polyhedron:
 
 
 def _assembled(steps: Sequence[Step]) -> Any:
-    from OCP.BRepAlgoAPI import BRepAlgoAPI_Common, BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
-    from OCP.ShapeUpgrade import ShapeUpgrade_UnifySameDomain
-
+    ocp = load_kernel()
     shape: Any = None
     for step in steps:
         bodies = [_body(block) for block in step.blocks]
@@ -55,23 +53,26 @@ def _assembled(steps: Sequence[Step]) -> Any:
         if step.within is not None:
             low, high = min(b.z_low for b in step.blocks), max(b.z_high for b in step.blocks)
             limit = _prism(Block(step.within, low - 1.0, high + 1.0))
-            together = _combined(BRepAlgoAPI_Fuse, bodies[:1], bodies[1:])
-            bodies = [_combined(BRepAlgoAPI_Common, [together], [limit])]
+            together = _combined(ocp.BRepAlgoAPI.BRepAlgoAPI_Fuse, bodies[:1], bodies[1:])
+            bodies = [_combined(ocp.BRepAlgoAPI.BRepAlgoAPI_Common, [together], [limit])]
         first = [] if shape is None else [shape]
         every = [*first, *bodies]
-        shape = _combined(BRepAlgoAPI_Fuse if step.kind == "add" else BRepAlgoAPI_Cut, every[:1], every[1:])
-    unified = ShapeUpgrade_UnifySameDomain(shape, True, True, True)
+        shape = _combined(
+            ocp.BRepAlgoAPI.BRepAlgoAPI_Fuse if step.kind == "add" else ocp.BRepAlgoAPI.BRepAlgoAPI_Cut,
+            every[:1],
+            every[1:],
+        )
+    unified = ocp.ShapeUpgrade.ShapeUpgrade_UnifySameDomain(shape, True, True, True)
     unified.Build()
     return unified.Shape()
 
 
 def _combined(operation: Any, arguments: Iterable[Any], tools: Sequence[Any]) -> Any:
     """The result of a boolean of the kernel; without its history and copies, which take a fifth of the time."""
-    from OCP.TopTools import TopTools_ListOfShape
-
+    ocp = load_kernel()
     if not tools:
         return next(iter(arguments))
-    lists = TopTools_ListOfShape(), TopTools_ListOfShape()
+    lists = ocp.TopTools.TopTools_ListOfShape(), ocp.TopTools.TopTools_ListOfShape()
     for shapes, held in zip((arguments, tools), lists, strict=True):
         for shape in shapes:
             held.Append(shape)
@@ -110,79 +111,66 @@ def _sides(low: Points, high: Points) -> list[Any]:
 
 
 def _wire(points: Points) -> Any:
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakePolygon
-    from OCP.gp import gp_Pnt
-
-    made = BRepBuilderAPI_MakePolygon()
+    ocp = load_kernel()
+    made = ocp.BRepBuilderAPI.BRepBuilderAPI_MakePolygon()
     for point in points:
-        made.Add(gp_Pnt(*point))
+        made.Add(ocp.gp.gp_Pnt(*point))
     made.Close()
     return made.Wire()
 
 
 def _face(outer: Points, *holes: Points) -> Any:
     """A flat face; holes turn the other way."""
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
-
-    made = BRepBuilderAPI_MakeFace(_wire(outer), True)
+    ocp = load_kernel()
+    made = ocp.BRepBuilderAPI.BRepBuilderAPI_MakeFace(_wire(outer), True)
     for hole in holes:
         made.Add(_wire(hole))
     return made.Face()
 
 
 def _prism(block: Block) -> Any:
-    from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
-    from OCP.gp import gp_Vec
-
+    ocp = load_kernel()
     holes = [np.asarray(h.coords)[:-1] if not h.is_ccw else np.asarray(h.coords)[:0:-1] for h in block.low.interiors]
     face = _face(_at(ring(block.low), block.z_low), *(_at(h, block.z_low) for h in holes))
-    return BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, block.z_high - block.z_low)).Shape()
+    return ocp.BRepPrimAPI.BRepPrimAPI_MakePrism(face, ocp.gp.gp_Vec(0.0, 0.0, block.z_high - block.z_low)).Shape()
 
 
 def _solid(faces: list[Any]) -> Any:
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid, BRepBuilderAPI_Sewing
-    from OCP.TopoDS import TopoDS
-
-    sewn = BRepBuilderAPI_Sewing(1e-6)
+    ocp = load_kernel()
+    sewn = ocp.BRepBuilderAPI.BRepBuilderAPI_Sewing(1e-6)
     for face in faces:
         sewn.Add(face)
     sewn.Perform()
-    return BRepBuilderAPI_MakeSolid(TopoDS.Shell_s(sewn.SewedShape())).Solid()
+    return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeSolid(ocp.TopoDS.TopoDS.Shell_s(sewn.SewedShape())).Solid()
 
 
 def _count(shape: Any) -> int:
-    from OCP.TopAbs import TopAbs_SOLID
-    from OCP.TopExp import TopExp
-    from OCP.TopTools import TopTools_IndexedMapOfShape
-
-    found = TopTools_IndexedMapOfShape()
-    TopExp.MapShapes_s(shape, TopAbs_SOLID, found)
+    ocp = load_kernel()
+    found = ocp.TopTools.TopTools_IndexedMapOfShape()
+    ocp.TopExp.TopExp.MapShapes_s(shape, ocp.TopAbs.TopAbs_SOLID, found)
     return int(found.Size())
 
 
 def _polyhedron(shape: Any) -> Polyhedron:
     """Corners and loops of the kernel's solid, all of whose faces are flat."""
-    from OCP.BRep import BRep_Tool
-    from OCP.BRepTools import BRepTools, BRepTools_WireExplorer
-    from OCP.TopAbs import TopAbs_FACE, TopAbs_VERTEX, TopAbs_WIRE
-    from OCP.TopExp import TopExp, TopExp_Explorer
-    from OCP.TopoDS import TopoDS
-    from OCP.TopTools import TopTools_IndexedMapOfShape
-
-    found = TopTools_IndexedMapOfShape()
-    TopExp.MapShapes_s(shape, TopAbs_VERTEX, found)
-    points = (BRep_Tool.Pnt_s(TopoDS.Vertex_s(found.FindKey(i + 1))) for i in range(found.Size()))
+    ocp = load_kernel()
+    found = ocp.TopTools.TopTools_IndexedMapOfShape()
+    ocp.TopExp.TopExp.MapShapes_s(shape, ocp.TopAbs.TopAbs_VERTEX, found)
+    points = (ocp.BRep.BRep_Tool.Pnt_s(ocp.TopoDS.TopoDS.Vertex_s(found.FindKey(i + 1))) for i in range(found.Size()))
     corners = np.array([(p.X(), p.Y(), p.Z()) for p in points])
     faces = []
-    each = TopExp_Explorer(shape, TopAbs_FACE)
+    each = ocp.TopExp.TopExp_Explorer(shape, ocp.TopAbs.TopAbs_FACE)
     while each.More():
-        face, loops = TopoDS.Face_s(each.Current()), list[tuple[int, ...]]()
+        face, loops = ocp.TopoDS.TopoDS.Face_s(each.Current()), list[tuple[int, ...]]()
         each.Next()
-        outer, wires = BRepTools.OuterWire_s(face), TopExp_Explorer(face, TopAbs_WIRE)
+        outer, wires = (
+            ocp.BRepTools.BRepTools.OuterWire_s(face),
+            ocp.TopExp.TopExp_Explorer(face, ocp.TopAbs.TopAbs_WIRE),
+        )
         while wires.More():
-            wire, loop = TopoDS.Wire_s(wires.Current()), list[int]()
+            wire, loop = ocp.TopoDS.TopoDS.Wire_s(wires.Current()), list[int]()
             wires.Next()
-            edges = BRepTools_WireExplorer(wire, face)
+            edges = ocp.BRepTools.BRepTools_WireExplorer(wire, face)
             while edges.More():
                 loop.append(found.FindIndex(edges.CurrentVertex()) - 1)
                 edges.Next()

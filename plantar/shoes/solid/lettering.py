@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import shapely
+
 __all__ = ["lettering"]
 
 # Strokes on a grid 4 wide and 6 high, one letter a line: polylines of points, x then y.
@@ -70,8 +72,6 @@ def lettering(text: str, height: float) -> Any:
         >>> [round(v, 2) for v in outline.bounds]
         [-0.45, -0.45, 4.45, 6.45]
     """
-    import shapely
-
     scale = height / 6.0
     lines = []
     for place, letter in enumerate(text.upper()):

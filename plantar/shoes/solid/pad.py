@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.geometry.outline import GRID, ring
@@ -53,8 +54,6 @@ def mould_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
 
 def _faces(plan: ShoePlan, p: ShoeParameters, around: float = 0.0) -> tuple[list[Any], list[float]]:
     """The pad from above, and so much around it, as polygons that share their corners; how high the pad is in each."""
-    import shapely
-
     rim, full = pad_rim(plan, p), p.pad_thickness + p.pad_rim_height
     # Borders cut each other where they meet, so that neighbouring faces share their corners.
     whole, pad, raised = plan.contact.buffer(around, join_style="mitre"), plan.contact.buffer(GRID), rim.buffer(GRID)
@@ -86,8 +85,6 @@ def land_top(plan: ShoePlan, parameters: ShoeParameters) -> float:
 
 def _height_field(faces: Sequence[Any], tops: Sequence[float]) -> Array:
     """Closed surface over z = 0 of polygons that share their corners, each up to its own height."""
-    import shapely
-
     parts = []
     owners: dict[tuple[tuple[float, float], tuple[float, float]], float] = {}
     for face, top in zip(faces, tops, strict=True):
@@ -162,8 +159,6 @@ def prism_surface(polygon: Any, low: float, high: float) -> Array:
 
 def _triangles(face: Any) -> Array:
     """Triangles (n, 3, 2) of a polygon, counter-clockwise, with its own corners only."""
-    import shapely
-
     oriented = [shapely.geometry.polygon.orient(t) for t in shapely.constrained_delaunay_triangles(face).geoms]
     return np.array([np.array(t.exterior.coords)[:3, :2] for t in oriented])
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 __all__ = ["Loops", "Polyhedron", "without_short_edges"]
@@ -81,8 +82,6 @@ def _of_quads(corners: Array, quads: NDArray[np.int64]) -> NDArray[np.int64]:
 
 def _triangles(corners: Array, face: Loops) -> NDArray[np.int64]:
     """Corner numbers (k, 3) of a face's triangles."""
-    import shapely
-
     if len(face) == 1 and len(face[0]) == 3:
         return np.array([face[0]])
     flat, up = _flattened(corners, face)
@@ -171,8 +170,6 @@ def _bend(corners: Array, normals: Array, faces: set[int], lost: int, kept: int)
 
 def _sound(corners: Array, face: list[list[int]]) -> bool:
     """Whether a face has an area and its border does not cross itself."""
-    import shapely
-
     flat, _ = _flattened(corners, face)
     polygon = shapely.Polygon(flat[0], flat[1:])
     return bool(polygon.is_valid and polygon.area > _SLIVER)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
+import shapely
 
 from plantar.errors import FootError
 from plantar.shoes.foot.foot import Foot
@@ -247,8 +248,6 @@ def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | N
 
 def _window(x: float, side: int, half: float, y: float) -> Any:
     """The half strip of a wall within half a width of x, from y outwards."""
-    import shapely
-
     return (
         shapely.box(x - half, y, x + half, y + 1000.0) if side > 0 else shapely.box(x - half, y - 1000.0, x + half, y)
     )
@@ -337,8 +336,6 @@ def _one(shape: Any) -> Any:
 
 def _bevel(place: _Place, end: int, half: float, size: float, middle: float, top: float) -> Block:
     """The wedge that takes off an upper corner of a lug."""
-    import shapely
-
     y = sorted((middle, middle + place.side * 1000.0))
     at = place.x + end * half
 
@@ -351,8 +348,6 @@ def _bevel(place: _Place, end: int, half: float, size: float, middle: float, top
 
 def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -> list[Step]:
     """Arms with hooks in windows of the wall."""
-    import shapely
-
     outline = foot.passing(min(foot.height, p.clip_height_max))
     middle = plan.foot.centroid.y
     half = 0.5 * retention.width
@@ -416,8 +411,6 @@ def _bosses(plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[li
 
 def _hole(place: _Place, middle: float, radius: float, height: float) -> list[Block]:
     """A horizontal hole outwards from the middle: eight-sided, so that its roof carries itself."""
-    import shapely
-
     y = sorted((middle, middle + place.side * 1000.0))
     narrow = radius * math.tan(math.pi / 8.0)
 

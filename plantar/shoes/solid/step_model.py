@@ -86,36 +86,28 @@ def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: st
         path: File to write.
         name: Of the assembly, or the file.
     """
-    load_kernel()
-    from OCP.gp import gp_Trsf, gp_Vec
-    from OCP.Interface import Interface_Static
-    from OCP.STEPCAFControl import STEPCAFControl_Writer
-    from OCP.STEPControl import STEPControl_AsIs
-    from OCP.TCollection import TCollection_ExtendedString
-    from OCP.TDataStd import TDataStd_Name
-    from OCP.TDocStd import TDocStd_Document
-    from OCP.TopLoc import TopLoc_Location
-    from OCP.XCAFDoc import XCAFDoc_DocumentTool
-
+    ocp = load_kernel()
     plain = _plain(name)
-    document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
-    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    document = ocp.TDocStd.TDocStd_Document(ocp.TCollection.TCollection_ExtendedString("XmlOcaf"))
+    shapes = ocp.XCAFDoc.XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
     whole = shapes.NewShape() if len(parts) > 1 else None
     for part in parts:
         label = shapes.AddShape(part.shape, False)
-        TDataStd_Name.Set_s(label, TCollection_ExtendedString(_plain(part.name)))
+        ocp.TDataStd.TDataStd_Name.Set_s(label, ocp.TCollection.TCollection_ExtendedString(_plain(part.name)))
         for called, shift in part.places.items() if whole is not None else ():
-            move = gp_Trsf()
-            move.SetTranslation(gp_Vec(*shift))
-            placed = shapes.AddComponent(whole, label, TopLoc_Location(move))
-            TDataStd_Name.Set_s(placed, TCollection_ExtendedString(_plain(called)))
+            move = ocp.gp.gp_Trsf()
+            move.SetTranslation(ocp.gp.gp_Vec(*shift))
+            placed = shapes.AddComponent(whole, label, ocp.TopLoc.TopLoc_Location(move))
+            ocp.TDataStd.TDataStd_Name.Set_s(placed, ocp.TCollection.TCollection_ExtendedString(_plain(called)))
     if whole is not None:
-        TDataStd_Name.Set_s(whole, TCollection_ExtendedString(plain))
+        ocp.TDataStd.TDataStd_Name.Set_s(whole, ocp.TCollection.TCollection_ExtendedString(plain))
         shapes.UpdateAssemblies()
-    writer = STEPCAFControl_Writer()
-    Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)  # what a surface states need not be stated again
-    Interface_Static.SetCVal_s("write.step.product.name", plain)
-    writer.Transfer(document, STEPControl_AsIs)
+    writer = ocp.STEPCAFControl.STEPCAFControl_Writer()
+    ocp.Interface.Interface_Static.SetIVal_s(
+        "write.surfacecurve.mode", 0
+    )  # what a surface states need not be stated again
+    ocp.Interface.Interface_Static.SetCVal_s("write.step.product.name", plain)
+    writer.Transfer(document, ocp.STEPControl.STEPControl_AsIs)
     writer.Write(str(path))
     text = Path(path).read_text(encoding="utf-8")
     text = re.sub(r"FILE_NAME\('[^']*','[^']*'", f"FILE_NAME('{plain}','{release_date()}'", text, count=1)
@@ -138,63 +130,57 @@ def release_date() -> str:
 
 def _solid(solid: CurvedSolid) -> Any:
     """The kernel's solid: faces that share edges, edges that share corners."""
-    from OCP.BRep import BRep_Builder
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid, BRepBuilderAPI_MakeVertex
-    from OCP.gp import gp_Pnt
-    from OCP.ShapeFix import ShapeFix_ShapeTolerance
-    from OCP.TopoDS import TopoDS_Shell
-
-    vertices = [BRepBuilderAPI_MakeVertex(gp_Pnt(*p)).Vertex() for p in solid.body.corners.tolist()]
+    ocp = load_kernel()
+    vertices = [
+        ocp.BRepBuilderAPI.BRepBuilderAPI_MakeVertex(ocp.gp.gp_Pnt(*p)).Vertex() for p in solid.body.corners.tolist()
+    ]
     edges = {
         (a, b): _edge(solid.body.corners, vertices, a, b, solid.arcs.get((a, b)))
         for a, b in solid.body.neighbours
         if a < b
     }
-    builder, shell = BRep_Builder(), TopoDS_Shell()
+    builder, shell = ocp.BRep.BRep_Builder(), ocp.TopoDS.TopoDS_Shell()
     builder.MakeShell(shell)
     for number, face in enumerate(solid.body.faces):
         curved = number in solid.curved
         made = (_curved_face if curved else _flat_face)(solid, face, solid.body.normals[number], edges)
         builder.Add(shell, made)
     shell.Closed(True)
-    whole = BRepBuilderAPI_MakeSolid(shell).Solid()
-    ShapeFix_ShapeTolerance().SetTolerance(whole, _TOLERANCE)
+    whole = ocp.BRepBuilderAPI.BRepBuilderAPI_MakeSolid(shell).Solid()
+    ocp.ShapeFix.ShapeFix_ShapeTolerance().SetTolerance(whole, _TOLERANCE)
     return whole
 
 
 def _edge(corners: Array, vertices: list[Any], a: int, b: int, arc: Arc | None) -> Any:
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
-
+    ocp = load_kernel()
     if arc is None:
-        return BRepBuilderAPI_MakeEdge(vertices[a], vertices[b]).Edge()
-    return BRepBuilderAPI_MakeEdge(_curve(corners, a, b, arc), vertices[a], vertices[b]).Edge()
+        return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(vertices[a], vertices[b]).Edge()
+    return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(_curve(corners, a, b, arc), vertices[a], vertices[b]).Edge()
 
 
 def _curve(corners: Array, a: int, b: int, arc: Arc) -> Any:
-    from OCP.GC import GC_MakeArcOfCircle
-    from OCP.gp import gp_Pnt
-
-    return GC_MakeArcOfCircle(*(gp_Pnt(*map(float, p)) for p in (corners[a], arc.middle, corners[b]))).Value()
+    ocp = load_kernel()
+    return ocp.GC.GC_MakeArcOfCircle(
+        *(ocp.gp.gp_Pnt(*map(float, p)) for p in (corners[a], arc.middle, corners[b]))
+    ).Value()
 
 
 def _wire(loop: tuple[int, ...], edges: dict[tuple[int, int], Any]) -> Any:
-    from OCP.BRep import BRep_Builder
-    from OCP.TopoDS import TopoDS, TopoDS_Wire
-
-    builder, wire = BRep_Builder(), TopoDS_Wire()
+    ocp = load_kernel()
+    builder, wire = ocp.BRep.BRep_Builder(), ocp.TopoDS.TopoDS_Wire()
     builder.MakeWire(wire)
     for a, b in zip(loop, (*loop[1:], loop[0]), strict=True):
-        builder.Add(wire, edges[a, b] if a < b else TopoDS.Edge_s(edges[b, a].Reversed()))
+        builder.Add(wire, edges[a, b] if a < b else ocp.TopoDS.TopoDS.Edge_s(edges[b, a].Reversed()))
     wire.Closed(True)
     return wire
 
 
 def _flat_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple[int, int], Any]) -> Any:
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
-    from OCP.gp import gp_Dir, gp_Pln, gp_Pnt
-
-    plane = gp_Pln(gp_Pnt(*solid.body.corners[list(face[0])].mean(axis=0).tolist()), gp_Dir(*normal.tolist()))
-    made = BRepBuilderAPI_MakeFace(plane, _wire(face[0], edges), True)
+    ocp = load_kernel()
+    plane = ocp.gp.gp_Pln(
+        ocp.gp.gp_Pnt(*solid.body.corners[list(face[0])].mean(axis=0).tolist()), ocp.gp.gp_Dir(*normal.tolist())
+    )
+    made = ocp.BRepBuilderAPI.BRepBuilderAPI_MakeFace(plane, _wire(face[0], edges), True)
     for hole in face[1:]:
         made.Add(_wire(hole, edges))
     return made.Face()
@@ -202,15 +188,7 @@ def _flat_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple
 
 def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple[int, int], Any]) -> Any:
     """A cylinder, a cone, or what lies between two arcs about different axes."""
-    from OCP.BRep import BRep_Builder
-    from OCP.Geom import Geom_ConicalSurface, Geom_CylindricalSurface
-    from OCP.GeomFill import GeomFill
-    from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt
-    from OCP.ShapeFix import ShapeFix_Edge
-    from OCP.TopAbs import TopAbs_EDGE
-    from OCP.TopExp import TopExp_Explorer
-    from OCP.TopoDS import TopoDS, TopoDS_Face
-
+    ocp = load_kernel()
     loop, corners = face[0], solid.body.corners
     around = tuple(zip(loop, (*loop[1:], loop[0]), strict=True))
     both = [(a, b) for a, b in around if (min(a, b), max(a, b)) in solid.arcs]
@@ -219,55 +197,48 @@ def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tup
     low = float(corners[a, 2])
     rise, wider = float(corners[c, 2]) - low, two.radius - one.radius
     outwards = np.array([*(np.array(one.middle[:2]) - one.centre), 0.0])
-    axes = gp_Ax3(gp_Pnt(*one.centre, low), gp_Dir(0.0, 0.0, 1.0), gp_Dir(*-outwards))  # the seam lies opposite
+    axes = ocp.gp.gp_Ax3(
+        ocp.gp.gp_Pnt(*one.centre, low), ocp.gp.gp_Dir(0.0, 0.0, 1.0), ocp.gp.gp_Dir(*-outwards)
+    )  # the seam lies opposite
     if math.dist(one.centre, two.centre) > _SAME:
-        surface = GeomFill.Surface_s(_curve(corners, a, b, one), _curve(corners, c, d, two))
+        surface = ocp.GeomFill.GeomFill.Surface_s(_curve(corners, a, b, one), _curve(corners, c, d, two))
         outwards = np.cross(corners[b] - corners[a], corners[c] - corners[a])
     elif abs(wider) < _SAME:
-        surface = Geom_CylindricalSurface(axes, one.radius)
+        surface = ocp.Geom.Geom_CylindricalSurface(axes, one.radius)
     else:
-        surface = Geom_ConicalSurface(axes, math.atan2(wider, rise), one.radius)
+        surface = ocp.Geom.Geom_ConicalSurface(axes, math.atan2(wider, rise), one.radius)
     turned = normal @ outwards < 0.0
-    made, builder = TopoDS_Face(), BRep_Builder()
+    made, builder = ocp.TopoDS.TopoDS_Face(), ocp.BRep.BRep_Builder()
     builder.MakeFace(made, surface, _TOLERANCE)
     builder.Add(made, _wire(loop[::-1] if turned else loop, edges))
-    each = TopExp_Explorer(made, TopAbs_EDGE)
+    each = ocp.TopExp.TopExp_Explorer(made, ocp.TopAbs.TopAbs_EDGE)
     while each.More():
-        ShapeFix_Edge().FixAddPCurve(TopoDS.Edge_s(each.Current()), made, False, _TOLERANCE)
+        ocp.ShapeFix.ShapeFix_Edge().FixAddPCurve(ocp.TopoDS.TopoDS.Edge_s(each.Current()), made, False, _TOLERANCE)
         each.Next()
-    return TopoDS.Face_s(made.Reversed()) if turned else made
+    return ocp.TopoDS.TopoDS.Face_s(made.Reversed()) if turned else made
 
 
 def read_step(path: str | os.PathLike[str]) -> StepSolid:
     """Measure the solid of a STEP file."""
-    load_kernel()
-    from OCP.BRep import BRep_Tool
-    from OCP.BRepAdaptor import BRepAdaptor_Curve
-    from OCP.BRepCheck import BRepCheck_Analyzer
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GCPnts import GCPnts_AbscissaPoint
-    from OCP.GeomAbs import GeomAbs_Circle
-    from OCP.GProp import GProp_GProps
-    from OCP.STEPControl import STEPControl_Reader
-    from OCP.TopAbs import TopAbs_EDGE, TopAbs_SOLID, TopAbs_VERTEX
-    from OCP.TopoDS import TopoDS
-
-    reader = STEPControl_Reader()
+    ocp = load_kernel()
+    reader = ocp.STEPControl.STEPControl_Reader()
     reader.ReadFile(str(path))
     reader.TransferRoots()
-    shape, volume = reader.OneShape(), GProp_GProps()
-    BRepGProp.VolumeProperties_s(shape, volume)
-    points = [BRep_Tool.Pnt_s(TopoDS.Vertex_s(v)) for v in _each(shape, TopAbs_VERTEX)]
-    curves = [BRepAdaptor_Curve(TopoDS.Edge_s(e)) for e in _each(shape, TopAbs_EDGE)]
-    circles = [c.Circle() for c in curves if c.GetType() == GeomAbs_Circle]
+    shape, volume = reader.OneShape(), ocp.GProp.GProp_GProps()
+    ocp.BRepGProp.BRepGProp.VolumeProperties_s(shape, volume)
+    points = [ocp.BRep.BRep_Tool.Pnt_s(ocp.TopoDS.TopoDS.Vertex_s(v)) for v in _each(shape, ocp.TopAbs.TopAbs_VERTEX)]
+    curves = [
+        ocp.BRepAdaptor.BRepAdaptor_Curve(ocp.TopoDS.TopoDS.Edge_s(e)) for e in _each(shape, ocp.TopAbs.TopAbs_EDGE)
+    ]
+    circles = [c.Circle() for c in curves if c.GetType() == ocp.GeomAbs.GeomAbs_Circle]
     flat, bent = _bent_walls(shape)
     return StepSolid(
-        solids=len(_each(shape, TopAbs_SOLID)),
-        valid=bool(BRepCheck_Analyzer(shape).IsValid()),
+        solids=len(_each(shape, ocp.TopAbs.TopAbs_SOLID)),
+        valid=bool(ocp.BRepCheck.BRepCheck_Analyzer(shape).IsValid()),
         volume=float(volume.Mass()),
         corners=np.array([(p.X(), p.Y(), p.Z()) for p in points]),
         circles=np.array([(*(c.Location().Coord()), c.Radius()) for c in circles]).reshape(-1, 4),
-        shortest=min(float(GCPnts_AbscissaPoint.Length_s(c)) for c in curves),
+        shortest=min(float(ocp.GCPnts.GCPnts_AbscissaPoint.Length_s(c)) for c in curves),
         flat=flat,
         round=bent,
     )
@@ -275,40 +246,32 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
 
 def _each(shape: Any, kind: Any) -> list[Any]:
     """Parts of a kind, each once."""
-    from OCP.TopExp import TopExp
-    from OCP.TopTools import TopTools_IndexedMapOfShape
-
-    found = TopTools_IndexedMapOfShape()
-    TopExp.MapShapes_s(shape, kind, found)
+    ocp = load_kernel()
+    found = ocp.TopTools.TopTools_IndexedMapOfShape()
+    ocp.TopExp.TopExp.MapShapes_s(shape, kind, found)
     return [found.FindKey(i + 1) for i in range(found.Size())]
 
 
 def _bent_walls(shape: Any) -> tuple[float, float]:
     """Area of flat facets of bent walls, as `StepSolid.flat`, and of cylinders and cones."""
-    from OCP.BRep import BRep_Tool
-    from OCP.BRepAdaptor import BRepAdaptor_Surface
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GeomAbs import GeomAbs_Cone, GeomAbs_Cylinder, GeomAbs_Plane
-    from OCP.GProp import GProp_GProps
-    from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_VERTEX
-    from OCP.TopExp import TopExp
-    from OCP.TopoDS import TopoDS
-    from OCP.TopTools import TopTools_IndexedMapOfShape
-
-    faces = [TopoDS.Face_s(f) for f in _each(shape, TopAbs_FACE)]
-    surfaces = [BRepAdaptor_Surface(f) for f in faces]
+    ocp = load_kernel()
+    faces = [ocp.TopoDS.TopoDS.Face_s(f) for f in _each(shape, ocp.TopAbs.TopAbs_FACE)]
+    surfaces = [ocp.BRepAdaptor.BRepAdaptor_Surface(f) for f in faces]
     flat, normals = np.zeros(len(faces), dtype=bool), np.zeros((len(faces), 3))
     long = np.zeros(len(faces))
-    edges = TopTools_IndexedMapOfShape()
-    TopExp.MapShapes_s(shape, TopAbs_EDGE, edges)
+    edges = ocp.TopTools.TopTools_IndexedMapOfShape()
+    ocp.TopExp.TopExp.MapShapes_s(shape, ocp.TopAbs.TopAbs_EDGE, edges)
     owners: list[list[int]] = [[] for _ in range(edges.Size())]
     for i, (face, surface) in enumerate(zip(faces, surfaces, strict=True)):
-        if surface.GetType() == GeomAbs_Plane:
+        if surface.GetType() == ocp.GeomAbs.GeomAbs_Plane:
             normals[i] = surface.Plane().Axis().Direction().Coord()
             if abs(normals[i, 2]) < 1e-6:
-                points = [BRep_Tool.Pnt_s(TopoDS.Vertex_s(v)).Coord() for v in _each(face, TopAbs_VERTEX)]
+                points = [
+                    ocp.BRep.BRep_Tool.Pnt_s(ocp.TopoDS.TopoDS.Vertex_s(v)).Coord()
+                    for v in _each(face, ocp.TopAbs.TopAbs_VERTEX)
+                ]
                 long[i] = math.hypot(*np.ptp(np.array(points)[:, :2], axis=0))
-                for edge in _each(face, TopAbs_EDGE):
+                for edge in _each(face, ocp.TopAbs.TopAbs_EDGE):
                     owners[edges.FindIndex(edge) - 1].append(i)
     for pair in (p for p in owners if len(p) == 2):
         bend = math.acos(min(1.0, abs(float(normals[pair[0]] @ normals[pair[1]]))))
@@ -318,10 +281,12 @@ def _bent_walls(shape: Any) -> tuple[float, float]:
     def area(numbers: Any) -> float:
         total = 0.0
         for i in numbers:
-            measured = GProp_GProps()
-            BRepGProp.SurfaceProperties_s(faces[i], measured)
+            measured = ocp.GProp.GProp_GProps()
+            ocp.BRepGProp.BRepGProp.SurfaceProperties_s(faces[i], measured)
             total += float(measured.Mass())
         return total
 
-    bent = [i for i, s in enumerate(surfaces) if s.GetType() in (GeomAbs_Cylinder, GeomAbs_Cone)]
+    bent = [
+        i for i, s in enumerate(surfaces) if s.GetType() in (ocp.GeomAbs.GeomAbs_Cylinder, ocp.GeomAbs.GeomAbs_Cone)
+    ]
     return area(np.flatnonzero(flat).tolist()), area(bent)
