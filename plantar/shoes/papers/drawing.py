@@ -27,7 +27,7 @@ from plantar.shoes.units import to_mm
 __all__ = ["draw_shoe", "sheet_of"]
 
 _SCALES = ((2.0, "2:1"), (1.0, "1:1"), (0.5, "1:2"), (0.4, "1:2.5"), (0.2, "1:5"))
-_PLAN = (165.0, 105.0)  # mm of paper for the view from above
+_PLAN = (150.0, 78.0)  # mm of paper for the view from above
 _DETAIL = 17.0  # mm of paper: radius of a detail
 _ROWS = 46  # of a column of the table of features
 _OFF = 1.3e-3  # mm next to a place where corners lie
@@ -60,14 +60,13 @@ def sheet_of(shoe: Shoe, build: ShoeBuild, triangles: Array) -> Sheet:
     sheet.box((20.0, 10.0), (410.0, 287.0), "OUTLINE")
     cut_y, cut_x = _cuts(shoe, build)
     middle = 0.5 * (low + high)
-    top = View(sheet, scale, (122.0, 222.0), (float(middle[0]), float(middle[1])))
+    top = View(sheet, scale, (116.0, 222.0), (float(middle[0]), float(middle[1])))
     _plan(top, shoe, build, low, high, (cut_x, cut_y))
     below = 222.0 - 0.5 * size[1] * scale - 22.0 - size[2] * scale - 14.0
-    along = View(sheet, scale, (122.0, below), (float(middle[0]), 0.0))
+    along = View(sheet, scale, (116.0, below), (float(middle[0]), 0.0))
     cut = _section(along, shoe, build, triangles, 1, cut_y, "A-A")
     _heights(along, build, cut)
-    beside = 122.0 + 0.5 * size[0] * scale + 32.0 + 0.5 * size[1] * scale
-    across = View(sheet, scale, (beside, 222.0 - 0.5 * size[2] * scale), (float(middle[1]), 0.0))
+    across = View(sheet, scale, (246.0, 222.0 - 0.5 * size[2] * scale), (float(middle[1]), 0.0))
     cut = _section(across, shoe, build, triangles, 0, cut_x, "B-B")
     _details(top, along, across, shoe, build, triangles, cut)
     _features(sheet, shoe, build)
@@ -282,9 +281,9 @@ def _features(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
     for name in ("contact face", "inner wall") if build.kind == "shoe" else ("contact face",):
         rows.append((name, "STEP", "STEP", "profile 0.3 A B C"))
     columns = -(-len(rows) // _ROWS)
-    step = 3.4 if columns <= 2 else 3.4 * 2 / columns
+    step = 3.4 * 0.9 * 2.0 / max(2, columns)
     per = -(-len(rows) // columns)
-    wide = 144.0 / max(2, columns)
+    wide = 124.0 / max(2, columns)
     for n in range(columns):
         part = rows[n * per : (n + 1) * per]
         widths = [0.34 * wide, 0.18 * wide, 0.18 * wide, 0.3 * wide]

@@ -61,7 +61,7 @@ def render(
     depth, which = _nearest(pixel, height, width)
     light = np.array([-0.35, 0.5, 0.79])
     shade = 0.42 + 0.58 * np.clip(normal @ light, 0.0, 1.0)
-    picture = np.vstack([shade[:, None] * colours, np.ones(3)])[which]
+    picture = np.vstack([shade[:, None] * colours, np.ones(3)]).astype(np.float32)[which]
     picture[_edges(depth, which, normal, 1.2 / scale + 0.15)] *= _EDGE
     return picture
 
@@ -144,7 +144,7 @@ def rendered_png(
 
 
 def draw_picture(
-    surface: Array, pad: Array | None, title: str, path: str | os.PathLike[str], *, width: int = 720
+    surface: Array, pad: Array | None, title: str, path: str | os.PathLike[str], *, width: int = 560
 ) -> Path:
     """Draw a shoe from above and, its pad apart, from below.
 
