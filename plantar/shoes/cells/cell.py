@@ -108,7 +108,6 @@ class Cell:
         self._check_sizes()
 
     def _check_needs(self) -> None:
-        """What a shape cannot be without."""
         needs = {"rectangle": ("length", "width"), "sheet": ("pitch_x", "pitch_y", "line_width", "thickness")}
         for name in needs.get(self.shape, ("size",)):
             if not getattr(self, name):
@@ -128,7 +127,6 @@ class Cell:
             raise InputError(f"cell key leads is {self.leads:g}; allowed: a whole number, 0 to 40")
 
     def _check_sizes(self) -> None:
-        """What has to be smaller than something else."""
         pairs = [
             ("active", "size"),
             ("active_length", "length"),

@@ -181,7 +181,6 @@ def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
 
 
 def _left(shoe: Shoe, build: ShoeBuild) -> ShoePlan:
-    """The plan of the left shoe."""
     return (
         shoe.plan
         if shoe.side == "left"

@@ -209,5 +209,4 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
 
 
 def _ranks(values: Array) -> NDArray[np.int64]:
-    """Place of each value among the different ones."""
     return np.unique(values.round(3), return_inverse=True)[1].astype(np.int64)

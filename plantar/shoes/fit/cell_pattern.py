@@ -324,12 +324,10 @@ def _rectangle(along: float, across: float) -> Array:
 
 
 def _hexagon(width: float) -> Array:
-    """A hexagon, its flats along x as wide apart."""
     turns = math.pi / 6.0 + np.arange(6) * math.pi / 3.0
     return width / math.sqrt(3.0) * np.column_stack([np.cos(turns), np.sin(turns)])
 
 
 def _circle(radius: float) -> Array:
-    """A polygon around a circle."""
     turns = (np.arange(_SIDES) + 0.5) * 2.0 * math.pi / _SIDES
     return radius / math.cos(math.pi / _SIDES) * np.column_stack([np.cos(turns), np.sin(turns)])

@@ -146,7 +146,6 @@ def _narrow(border: float) -> str:
 
 
 def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: tuple[str, ...]) -> TaxelFit:
-    """Whole cells of a lattice."""
     cells = tuple(fit.lattice.corners(fit.cells))
     covered = covered_area(sole, cells)
     return TaxelFit(

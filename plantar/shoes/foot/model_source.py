@@ -303,7 +303,6 @@ class ModelSource:
                 mesh.userface = np.arange(3 * len(triangles), dtype=np.int32)
 
     def _path(self, spec: Spec, mesh: Any) -> Path:
-        """Where the file of a mesh lies."""
         where = f"{self.file}: <mesh name='{mesh.name}'>"
         if self.urdf is not None:
             return mesh_of_urdf(self.file, self.mesh_names.get(mesh.file, mesh.file), FootError, where)
@@ -366,7 +365,6 @@ def _mesh_folder(spec: Spec, mesh: Any) -> str:
 
 
 def _fixed_to(body: Any) -> Iterator[Any]:
-    """A body and those without joints below it."""
     yield body
     for child in body.bodies:
         if not child.joints:
@@ -402,7 +400,6 @@ def _delete(spec: Spec, elements: list[Any]) -> None:
 
 
 def _weighed_by_shapes(spec: Spec, body: Any) -> bool:
-    """Whether MuJoCo takes a body's mass from its shapes."""
     import mujoco
 
     kind = mujoco.mjtInertiaFromGeom

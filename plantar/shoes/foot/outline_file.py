@@ -124,7 +124,6 @@ def read_outline(path: str | os.PathLike[str]) -> tuple[Lines, Unit | None, floa
 
 
 def _closed_area(lines: Lines, where: str) -> Any:
-    """The one outline that lines enclose."""
     extent = float(np.ptp(np.concatenate(lines), axis=0).max())
     if extent <= 0.0:
         raise FootError(f"{where}: the drawing has no size")
@@ -189,7 +188,6 @@ def _what_was_drawn(outline: Any, lines: Lines) -> list[str]:
 
 
 def _read_dxf(file: Path) -> tuple[Lines, Unit | None, float]:
-    """Lines of a DXF's model space."""
     if find_spec("ezdxf") is None:
         raise DependencyError("ezdxf", "shoes")
     check_input(file, FootError, _LARGEST_DXF)

@@ -123,7 +123,6 @@ def _called_foot(name: str) -> int:
 
 
 def _together(shapes: list[Array], where: str) -> Array:
-    """Triangles of all shapes."""
     triangles = np.concatenate(shapes)
     if not (np.abs(triangles) < FARTHEST).all():
         raise FootError(f"{where} reaches farther than {FARTHEST:g} m")

@@ -103,7 +103,6 @@ def lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
 
 
 def _plain_length(name: str, value: str) -> str:
-    """A length without the px behind it."""
     return re.sub(r"px$", "", value.strip()) if name not in ("d", "points", "id", "class", "style") else value
 
 
@@ -167,7 +166,6 @@ def _flattened(commands: list[tuple[str, tuple[Any, ...]]], matrix: NDArray[np.f
 
 
 def _curve(name: str, a: NDArray[np.float64], at: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
-    """Points of a curve from a point on."""
     share = np.linspace(0.0, 1.0, 25)[1:, None]
     if name == "curveTo" and len(at) == 3:
         b, c, d = at

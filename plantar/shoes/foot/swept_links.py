@@ -53,6 +53,5 @@ def swept_points(source: ModelSource, name: str, surface: Array) -> tuple[Array 
 
 
 def _thinned(points: Array) -> Array:
-    """A point of each cube of the spacing."""
     _, first = np.unique(corner_numbers(1e-3 * points / _SPACING), return_index=True)
     return np.asarray(points[first])

@@ -225,7 +225,6 @@ def touching(triangles: NDArray[np.float64], height: float) -> Any:
 
 
 def _projected(triangles: NDArray[np.float64]) -> Any:
-    """Union of triangles seen from above."""
     return shapely.set_precision(covered_area(triangles[..., :2]), GRID)  # which closes hairline gaps
 
 

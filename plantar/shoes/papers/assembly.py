@@ -89,7 +89,6 @@ def _step(paragraphs: Sequence[str], view: bytes, caption: str, more: str = "") 
 def _steps(
     shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], bills: Mapping[str, Sequence[Part]], views: _Views
 ) -> Iterator[tuple[str, str]]:
-    """Name and content of each step."""
     yield "Try the fit with a coupon", _coupon(shoe, build, views)
     yield "Print", _print(shoe, build, checks, views)
     if build.parameters.pad_thickness > 0.0:

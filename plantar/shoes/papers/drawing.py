@@ -182,7 +182,6 @@ def _foot_section(shoe: Shoe, build: ShoeBuild, axis: int, at: float, top: float
 
 
 def _heights(view: View, build: ShoeBuild, cut: Any) -> None:
-    """Heights of a section, and datum A."""
     p, sheet = build.parameters, view.sheet
     low, high, made = cut.bounds[0], cut.bounds[2], build.parameters.made_by
     levels = [(p.thickness, f"{p.thickness:g} ±{2 * made.scatter:g}")]

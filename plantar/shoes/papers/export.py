@@ -251,7 +251,6 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
 
 
 def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Path) -> list[str]:
-    """Draw a shoe; gives the files' names."""
     side, p = shoe.side, build.parameters
     formats = ("png", "svg", "pdf", "dxf")
     drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.{ending}" for ending in formats])

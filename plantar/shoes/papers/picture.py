@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ _PRINTED = (0.36, 0.55, 0.72)
 _PAD = (0.30, 0.31, 0.33)
 _EDGE = 0.35  # brightness of an edge
 
-Array = NDArray[np.float64]
+Array = NDArray[np.floating[Any]]
 
 
 def render(

@@ -245,7 +245,6 @@ def _crossed(pocket: Any, line: Any) -> NDArray[np.float64]:
 
 
 def _linked(links: Sequence[tuple[int, int]], count: int) -> tuple[tuple[int, ...], ...]:
-    """Indices of the cells that each is linked to."""
     near: list[list[int]] = [[] for _ in range(count)]
     for i, j in links:
         near[i].append(j)

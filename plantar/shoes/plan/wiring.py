@@ -171,7 +171,6 @@ _SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 
 
 def _patch_of(plan: ShoePlan, connector: int) -> list[int]:
-    """The cells of a connector's patch."""
     inside = {connector}
     for i, j in plan.route:  # a tree, from the connector outwards
         if i in inside:

@@ -125,7 +125,6 @@ def _within(above: Any, outline: Any) -> Any:
 
 
 def _wall(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
-    """The wall, its upper outer edge bevelled."""
     trim = min(_TRIM, 0.3 * p.rim_thickness, 0.3 * p.rim_height)
     cap = tapered(plan.rim, 0.0, -trim, p.rim_top - trim, p.rim_top)
     return [Block(plan.rim, p.bottom, p.rim_top - (trim if cap else 0.0)), *([cap] if cap else [])]

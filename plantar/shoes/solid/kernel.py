@@ -89,7 +89,6 @@ def _combined(operation: Any, arguments: Iterable[Any], tools: Sequence[Any]) ->
 
 
 def _body(block: Block | Groove) -> Any:
-    """The kernel's solid of a block."""
     if isinstance(block, Groove):
         line, edge, low = ring(block.line), ring(block.edge), block.z_low - _BELOW
         levels = [_at(line, low), _at(line, block.z_high), _at(edge, block.z_low), _at(edge, low)]
@@ -120,7 +119,6 @@ def _wire(points: Points) -> Any:
 
 
 def _face(outer: Points, *holes: Points) -> Any:
-    """A flat face; holes turn the other way."""
     ocp = load_kernel()
     made = ocp.BRepBuilderAPI.BRepBuilderAPI_MakeFace(_wire(outer), True)
     for hole in holes:

@@ -330,7 +330,6 @@ def _lugs(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
 
 
 def _one(shape: Any) -> Any:
-    """The largest polygon of a shape, on the grid."""
     return tidy(max(getattr(shape, "geoms", [shape]), key=lambda g: g.area))
 
 
@@ -347,7 +346,6 @@ def _bevel(place: _Place, end: int, half: float, size: float, middle: float, top
 
 
 def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -> list[Step]:
-    """Arms with hooks in windows of the wall."""
     outline = foot.passing(min(foot.height, p.clip_height_max))
     middle = plan.foot.centroid.y
     half = 0.5 * retention.width

@@ -245,7 +245,6 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
 
 
 def _each(shape: Any, kind: Any) -> list[Any]:
-    """Parts of a kind, each once."""
     ocp = load_kernel()
     found = ocp.TopTools.TopTools_IndexedMapOfShape()
     ocp.TopExp.TopExp.MapShapes_s(shape, kind, found)
