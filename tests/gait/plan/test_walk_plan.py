@@ -164,7 +164,7 @@ def test_a_replan_costs_the_same_in_a_long_plan() -> None:
 
 @pytest.mark.parametrize("moves", [False, True])
 def test_a_stance_that_is_held_longer_keeps_the_com_over_it(moves: bool) -> None:
-    """In mid swing the DCM comes back over the stance foot, waits, and leaves for the next foothold in time."""
+    """In mid swing the DCM stays over the stance foot, and leaves for the next foothold in time."""
     feet, steps = straight_plan(8, length=0.2)
     plan = WalkPlan(feet, steps, Timing(), CENTER, OMEGA, 1.0)
     schedule = plan.schedule
@@ -181,7 +181,8 @@ def test_a_stance_that_is_held_longer_keeps_the_com_over_it(moves: bool) -> None
     assert np.hypot(*gap) < 1e-6
     assert np.allclose(after.dcm, before.dcm, atol=1e-6)
     assert np.allclose(after.com, before.com, atol=1e-6)
-    assert np.hypot(*(plan.at(swing.end).dcm - stance)) < 0.02  # where it would have been 0.1 m away
+    away = [float(np.hypot(*(plan.at(time + t).dcm - stance))) for t in (0.2, 0.4, 0.6, 0.8)]
+    assert max(away) < 0.045  # over the sole, where it would have been 0.14 m away after 0.45 s
     held = np.array([plan.at(t).vrp for t in np.arange(time, swing.end + 0.8, 0.01)])
     assert np.abs(held - stance).max() < 0.06 + 1e-9
     assert np.allclose(plan.end, end + later, atol=1e-9)
