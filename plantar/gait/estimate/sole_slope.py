@@ -32,7 +32,7 @@ class SoleSlope:
     def __init__(self, least_load: float, smoothing: float = 0.02) -> None:
         self._least_load = least_load
         self._smoothing = smoothing
-        self._standing: NDArray[np.float64] | None = None
+        self._standing: dict[Side, NDArray[np.float64]] = {}
         self._slopes: dict[Side, NDArray[np.float64]] = {side: np.zeros(2) for side in SIDES}
         self._known: dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
 
@@ -47,12 +47,11 @@ class SoleSlope:
             standing: Whether this is the opening stand, with both soles flat.
         """
         between = rotations["right"].T @ rotations["left"]
-        if standing:
-            if self._standing is None:
-                self._standing = between[2, :2]
-            self._standing = self._standing + self._smoothing * (between[2, :2] - self._standing)
-        zero = np.zeros(2) if self._standing is None else self._standing
-        against = {"left": between[2, :2] - zero, "right": between[:2, 2] + zero}
+        against = {"left": between[2, :2], "right": between[:2, 2]}
+        for side in SIDES if standing else ():
+            zero = self._standing.setdefault(side, against[side])
+            self._standing[side] = zero + self._smoothing * (against[side] - zero)
+        against = {side: against[side] - self._standing.get(side, 0.0) for side in SIDES}
         for side in SIDES:
             world = rotations[side][2, :2]
             if loads[other_side(side)] > self._least_load or side not in self._known:

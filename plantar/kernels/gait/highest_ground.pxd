@@ -28,7 +28,8 @@ cdef double _explained(double noise, double readings) noexcept
 
 @cython.locals(
     count=Py_ssize_t, whole=double, mx=double, my=double, md=double, i=Py_ssize_t, w=double, xx=double, xy=double,
-    yy=double, xd=double, yd=double, u=double, v=double, d=double, determinant=double, sx=double, sy=double
+    yy=double, xd=double, yd=double, u=double, v=double, d=double, determinant=double, sx=double, sy=double, n=Py_ssize_t,
+    ax=double, ay=double, axx=double, ayy=double, least=double
 )
 cdef bint _fit(
     const double[:] x, const double[:] y, const double[:] distance, const double[:] readings,

@@ -12,7 +12,7 @@ _TOLERANCE_OF_MEAN = 4.0  # the same in those of the mean of the readings behind
 _CUTS = 8  # times at most that the plane is fitted to what of the ground is left
 _POLISHES = 3  # times at most that it is fitted again to all points on it
 _LEAST_POINTS = 6
-_LEAST_SPREAD = 2e-4  # m^2: least variance along x and y of the points that a plane is fitted to
+_LEAST_SPREAD = 0.115  # of the variance of all taxels across the sole: the least of points that carry a plane
 _IN_A_ROW = 0.02  # share of the product of the variances below which the points are in a row
 
 
@@ -92,8 +92,13 @@ def _explained(noise, readings):
 def _fit(x, y, distance, readings, used, plane):
     """Weighted least squares; False, with the plane unchanged, where there is none."""
     count = 0
-    whole = mx = my = md = 0.0
-    for i in range(x.shape[0]):
+    whole = mx = my = md = ax = ay = axx = ayy = 0.0
+    n = x.shape[0]
+    for i in range(n):
+        ax += x[i]
+        ay += y[i]
+        axx += x[i] * x[i]
+        ayy += y[i] * y[i]
         if used[i] & 1:
             w = readings[i]
             count += 1
@@ -114,7 +119,8 @@ def _fit(x, y, distance, readings, used, plane):
             xd += w * u * d
             yd += w * v * d
     determinant = xx * yy - xy * xy
-    if determinant < _IN_A_ROW * xx * yy or min(xx, yy) < whole * _LEAST_SPREAD:
+    least = _LEAST_SPREAD * min(axx / n - ax * ax / n / n, ayy / n - ay * ay / n / n)
+    if determinant < _IN_A_ROW * xx * yy or min(xx, yy) < whole * least:
         return False
     sx, sy = (xy * yd - yy * xd) / determinant, (xy * xd - xx * yd) / determinant
     plane[0], plane[1], plane[2] = md + sx * mx + sy * my, sx, sy

@@ -14,6 +14,8 @@ from scipy.spatial import ConvexHull, QhullError
 __all__ = ["convex_surface", "geom_triangles", "resting_plane", "shapes_of"]
 
 _AROUND, _ALONG = 32, 8  # of a round shape
+_MARKER, _BALL = 0.02, 0.5  # of the largest shape's size: smaller drawn shapes, and smaller balls, mark a place
+_PLANE, _SPHERE = mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_SPHERE
 _STEEPEST = math.cos(math.radians(45.0))  # of a plane to rest on
 _SAME_PLANE = math.cos(math.radians(1.0))
 _BOX = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
@@ -29,14 +31,15 @@ def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]
         bodies: Ids of the bodies.
 
     Returns:
-        Ids of those that are only drawn, and of those that collide; planes are neither.
+        Ids of those that are only drawn, without markers, and of those that collide; planes are neither.
     """
-    drawn: list[int] = []
-    colliding: list[int] = []
-    for i in range(model.ngeom):
-        if int(model.geom_bodyid[i]) in bodies and model.geom_type[i] != mujoco.mjtGeom.mjGEOM_PLANE:
-            touches = bool(model.geom_contype[i] or model.geom_conaffinity[i])
-            (colliding if touches else drawn).append(i)
+    shapes = [i for i in range(model.ngeom) if int(model.geom_bodyid[i]) in bodies and model.geom_type[i] != _PLANE]
+    size = {i: float(model.geom_rbound[i]) for i in shapes}
+    largest = max(size.values(), default=0.0)
+    colliding = [i for i in shapes if model.geom_contype[i] or model.geom_conaffinity[i]]
+    round_only = all(model.geom_type[i] == _SPHERE for i in shapes)
+    least = {i: largest * (_BALL if model.geom_type[i] == _SPHERE and not round_only else _MARKER) for i in shapes}
+    drawn = [i for i in shapes if i not in colliding and model.geom_rgba[i, 3] > 0.0 and size[i] > least[i]]
     return drawn, colliding
 
 

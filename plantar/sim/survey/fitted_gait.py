@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from itertools import product
+from dataclasses import dataclass, replace
 from typing import Any
 
 import mujoco
@@ -78,16 +77,25 @@ _SPARE = math.radians(1.0)  # of a joint's range that a walk leaves unused
 _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
 _MOST_CROUCH = 0.25
 _CROUCH_STEPS = 5
-_SLOWER = (1.0, 1.15, 1.3)
 _APPROACHES = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2.0)
 _PACES = (1.0, 1.2, 1.4, 1.6, 1.8, 2.0)
-_SHORTER = (1.0, 0.85, 0.7, 0.55, 0.4)
-_BENDS = tuple(math.radians(a) for a in (20.0, 30.0, 40.0, 50.0))
 _QUICK_STEPS = 4  # two of each foot
 _GAP = 0.25  # of the sole's width between two soles that stand side by side: h1 has 0.3
+_WIDE = 0.33  # of the leg: distance of the feet above which a narrower stance is tried, too; h1 has 0.28
 _SINGLE, _DOUBLE = 3.15, 1.05  # t_ss and t_ds of h1 over sqrt(h / g) of its height
 _H1_STEP = 4.85  # beats of a step of h1
 _LEAN = 0.48  # rad of trunk lean per leg length of lateral motion, as h1
+
+_SHORTER = (1.0, 0.85, 0.7, 0.55, 0.4)
+_OTHER_PACES = (0.8, 1.25, 0.64, 1.6)
+_TRIED_LEANS = (1.0, 1.6)
+_TRIED_STANCES = (0.3, 0.24)  # of the leg
+_HIGHEST, _LOWEST, _LOWER = 0.15, 0.45, 0.04  # of the leg, above and below the posture with knees of 40 degrees
+_LEAST_KNEE = math.radians(10.0)
+_GOOD = 0.3
+"""Cost of a walk from which no other one is looked for: level steps at h1's pace with 75 % of the torque have 0.15."""
+_OTHER_SPEED, _OTHER_LEAN, _OTHER_STANCE = 0.6, 0.1, 0.15
+"""Cost of steps half as long, or of twice or half the pace; of each further lean, and stance."""
 
 Array = NDArray[np.float64]
 
@@ -121,7 +129,7 @@ def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int =
     """Level steps of a third of a leg at the robot's own pace.
 
     Args:
-        robot: The robot.
+        robot: The robot, which leans its trunk as scenes ask for it.
         body: How large it is.
         com_height: Height of its CoM in m.
         steps: Number of steps.
@@ -131,7 +139,7 @@ def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int =
     """
     feet, plan = straight_plan(steps, length=STEP_SHARE * body.leg, width=robot.stance_width)
     timing = walk_timing(Walk().for_body(body), robot, body)
-    return Walked(feet, plan, timing, SWING_SHARE * body.leg, com_height)
+    return Walked(feet, plan, timing, SWING_SHARE * body.leg, com_height, robot.trunk_lean)
 
 
 def fit_gait(draft: Robot, rotors: Array | None = None) -> FittedGait:
@@ -151,7 +159,7 @@ def fit_gait(draft: Robot, rotors: Array | None = None) -> FittedGait:
     robot = replace(draft, posture=_bent(draft, legs))
     body = body_of(robot, legs.model)
     notes: list[str] = []
-    robot = replace(robot, stance_width=stance_width(robot, legs), trunk_lean=float(f"{_LEAN / body.leg:.2g}"))
+    robot = replace(robot, stance_width=stance_width(robot, legs))
     ankle = _ankle(robot, legs)
     bears = ankle_reach(robot, body.weight, ankle)
     if bears is not None:
@@ -172,7 +180,6 @@ def fit_gait(draft: Robot, rotors: Array | None = None) -> FittedGait:
     stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
     crouch = _crouch(robot, legs, body)
     pace = _pace(robot, legs, body)
-    own = _paced(robot, robot.com_height, pace) if pace > 1.0 and not robot.rocks else robot
     held = 0.0 if robot.rocks else least_single_support(robot, legs, body, STEP_SHARE * body.leg)
     robot = replace(
         robot,
@@ -181,8 +188,7 @@ def fit_gait(draft: Robot, rotors: Array | None = None) -> FittedGait:
         largest_crouch=crouch,
         largest_crouch_partial=crouch,
         pace=pace,
-        single_support=max(robot.single_support, own.single_support, held),
-        double_support=max(robot.double_support, own.double_support),
+        single_support=max(robot.single_support, held),
         balance=_balance(body),
     )
     robot = replace(robot, approach_support=_approach_support(robot, legs, body))
@@ -268,22 +274,125 @@ def _paced(robot: Robot, height: float, slower: float) -> Robot:
 def _stepping(
     robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
 ) -> tuple[Robot, BodyScale, PlanReach]:
-    """The robot with a height and pace, and the leg that its steps are shares of: the whole one where joints let it."""
+    """The robot with the walk that costs least, and the leg that its steps are shares of: the whole one where joints and
+    motors let it."""
+    best: _Tried | None = None
+    heights = seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -_LOWER)
     for share in (_rocking_share(robot, body, seed),) if robot.rocks else _SHORTER:
-        length = math.floor(1e4 * share * body.leg) / 1e4 if share < 1.0 else body.leg
-        shorter = replace(body, leg=length)
-        found = _fitted(robot, legs, shorter, seed, notes)
-        if found is None:
-            continue
-        if share < 1.0:
-            why = "quick steps are short" if robot.rocks else "joint limits leave no steps of a third of the leg"
-            notes.append(f"{why}: steps are shares of leg_length = {length:g} m, not of {body.leg:g} m")
-            return replace(found[0], leg_length=length), shorter, found[1]
-        return found[0], body, found[1]
-    raise RobotError(
-        f"robot '{robot.name}': no height of its CoM lets it take steps of {share * STEP_SHARE * body.leg:.3f} "
-        "m with bent knees and within its joints' limits; are these the legs, and their limits right?"
-    )
+        shorter = replace(body, leg=math.floor(1e4 * share * body.leg) / 1e4 if share < 1.0 else body.leg)
+        paid = 0.0 if robot.rocks else _OTHER_SPEED * -math.log2(share)
+        for other, changed in _others(robot, body):
+            if best is None or paid + changed < best.cost > _GOOD:
+                best = _least(best, other, legs, shorter, heights, paid + changed)
+        for pace in () if robot.rocks or best is None else _OTHER_PACES:
+            paid = best.paid + _OTHER_SPEED * abs(math.log2(pace / best.robot.pace))
+            if paid < best.cost > _GOOD:
+                best = _least(best, replace(best.robot, pace=pace), legs, shorter, heights, paid)
+        best = best and _refined(best, legs)
+    if best is None:
+        raise RobotError(
+            f"robot '{robot.name}': no height of its CoM, pace or stance lets it take steps of "
+            f"{share * STEP_SHARE * body.leg:.3f} m within its joints' limits; nearest is "
+            f"{_nearest(robot, legs, body, seed)}"
+        )
+    if best.body.leg < body.leg:
+        why = "quick steps are short" if robot.rocks else "joints or motors leave no steps of a third of the leg"
+        notes.append(f"{why}: steps are shares of leg_length = {best.body.leg:g} m, not of {body.leg:g} m")
+    limits = np.array(robot.effort_limits) if robot.effort_limits else np.full(len(best.reach.torque), np.inf)
+    j = int((best.reach.torque / limits).argmax())
+    if best.reach.torque[j] > HELD * limits[j]:
+        notes.append(
+            f"{robot.legs['left'].joints[j]} needs {best.reach.torque[j]:.3g} N m for level steps at their best height "
+            f"and pace; its limit is {limits[j]:.3g} N m: more than {100.0 * HELD:.0f} % of it leaves little to balance "
+            "with"
+        )
+    return replace(best.robot, leg_length=best.body.leg if best.body.leg < body.leg else 0.0), best.body, best.reach
+
+
+@dataclass(frozen=True)
+class _Tried:
+    """A walk that the legs reach, and what it costs beside the best there could be."""
+
+    cost: float
+    paid: float
+    robot: Robot
+    body: BodyScale
+    reach: PlanReach
+
+
+def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
+    """The robot at other stances and leans, each with what that costs, cheapest first."""
+    outline = robot.layouts["left"].outline[:, 1]
+    least = -2.0 * float(outline.min()) + _GAP * float(np.ptp(outline))
+    widths = [robot.stance_width]
+    if robot.stance_width > _WIDE * body.leg:
+        widths += [round(max(least, share * body.leg), 3) for share in _TRIED_STANCES]
+    found = [
+        (
+            replace(robot, stance_width=width, trunk_lean=float(f"{lean * _LEAN / body.leg:.2g}")),
+            i * _OTHER_STANCE + j * _OTHER_LEAN,
+        )
+        for i, width in enumerate(dict.fromkeys(widths))
+        for j, lean in enumerate(_TRIED_LEANS)
+    ]
+    return sorted(found, key=lambda f: f[1])
+
+
+def _least(
+    best: _Tried | None, robot: Robot, legs: LegModel, body: BodyScale, heights: Array, paid: float
+) -> _Tried | None:
+    """The walk that costs least: the one that was found, or one at another height in m."""
+    for height in heights.tolist():
+        tried = _tried(robot, legs, body, height, paid)
+        if tried is not None and (best is None or tried.cost < best.cost):
+            best = tried
+    return best
+
+
+def _tried(robot: Robot, legs: LegModel, body: BodyScale, height: float, paid: float) -> _Tried | None:
+    """A walk at a height in m of the CoM; None where the legs do not reach it."""
+    robot = replace(_paced(robot, height, robot.pace), com_height=math.floor(1e4 * height) / 1e4)
+    reach = plan_reach(robot, legs, straight_walk(robot, body, robot.com_height, _QUICK_STEPS), _bears)
+    if not _bears(reach.missed, reach.knee, reach.spare):
+        return None
+    limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
+    asked = float((reach.torque / limits).max())
+    least = KNEE_LEAST + (math.radians(10.0) if robot.rocks else 0.0)
+    straight, bent = max(0.0, least - reach.knee), max(0.0, reach.knee - least)
+    cost = paid + 0.2 * asked + 4.0 * max(0.0, asked - HELD) + 3.0 * straight + 0.5 * bent
+    return _Tried(cost, paid, robot, body, reach)
+
+
+def _bears(missed: float, knee: float, spare: Array) -> bool:
+    return missed <= MISSED and knee >= _LEAST_KNEE and float(spare.min()) >= _SPARE
+
+
+def _refined(best: _Tried, legs: LegModel) -> _Tried:
+    """The walk at the best height near one."""
+    step = 0.5 * _LOWER * best.body.leg
+    while step > 2e-3 * best.body.leg:
+        near = best.robot.com_height + step * np.array([1.0, -1.0])
+        best = _least(best, best.robot, legs, best.body, near, best.paid) or best
+        step *= 0.5
+    return best
+
+
+def _nearest(robot: Robot, legs: LegModel, body: BodyScale, seed: float) -> str:
+    """What is missing of the walk that is missed by least: which limit, and by how much."""
+    short = replace(body, leg=_SHORTER[-1] * body.leg)
+    found = []
+    for height in seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -2.0 * _LOWER):
+        walk = straight_walk(_paced(robot, float(height), 1.0), short, float(height), _QUICK_STEPS)
+        reach = plan_reach(robot, legs, walk)
+        found.append((max(reach.missed, 0.1 * max(0.0, _SPARE - float(reach.spare.min()))), float(height), reach))
+    _, height, reach = min(found, key=lambda f: f[0])
+    j = int(reach.spare.argmin())
+    if math.isfinite(reach.spare[j]) and reach.spare[j] < _SPARE:
+        missing = math.degrees(_SPARE - float(reach.spare[j]))
+        return f"a CoM at {height:.3f} m, where {robot.legs['left'].joints[j]} lacks {missing:.1f} degrees of range"
+    if reach.knee < _LEAST_KNEE:
+        return f"a CoM at {height:.3f} m, where a knee bends by {math.degrees(reach.knee):.0f} degrees; allowed: 10"
+    return f"a CoM at {height:.3f} m, where the feet miss their places by {1e3 * reach.missed:.0f} mm or mrad"
 
 
 def _rocking_share(robot: Robot, body: BodyScale, height: float) -> float:
@@ -291,65 +400,6 @@ def _rocking_share(robot: Robot, body: BodyScale, height: float) -> float:
     it walks as fast as h1 in legs a beat."""
     rocks = rocking(robot, height)
     return min(1.0, (rocks.single_support + rocks.double_support) / (_H1_STEP * body.beat))
-
-
-def _fitted(
-    robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
-) -> tuple[Robot, PlanReach] | None:
-    """The robot at the greatest height and the quickest pace at which its knees stay bent and its motors hold.
-
-    A knee that is almost straight has to move fast, and a quick swing takes torque to move itself: where motors do not
-    hold, more bend and a slower pace are tried, the least of both first. None where there is no such height.
-    """
-    limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
-    found: list[tuple[float, Robot, PlanReach]] = []
-    for slower, bend in product(*((_SLOWER[:1], _BENDS[1:]) if robot.rocks else (_SLOWER, _BENDS))):
-        paced = _paced(robot, seed, slower)
-        height, reach = _height(paced, legs, body, seed, bend)
-        if reach is None:
-            if not found:
-                return None  # more bend and more sway reach no further
-            continue
-        asked = float((reach.torque / limits).max())
-        found.append((asked, replace(paced, com_height=height), reach))
-        if asked <= HELD:
-            break
-    asked, best, reach = min(found, key=lambda f: (max(f[0], HELD), found.index(f)))
-    if asked > HELD:
-        j = int((reach.torque / limits).argmax())
-        notes.append(
-            f"{robot.legs['left'].joints[j]} needs {reach.torque[j]:.3g} N m for level steps at their best height and "
-            f"pace; its limit is {robot.effort_limits[j]:.3g} N m: more than {100.0 * HELD:.0f} % of it leaves little "
-            "to balance with"
-        )
-    return best, reach
-
-
-def _height(robot: Robot, legs: LegModel, body: BodyScale, seed: float, bend: float) -> tuple[float, PlanReach | None]:
-    """The greatest height in m of the CoM at which the knees stay bent by `bend` rad; None where there is none."""
-
-    def bears(missed: float, knee: float, spare: Array) -> bool:
-        return missed <= MISSED and knee >= bend and float(spare.min()) >= _SPARE
-
-    def reach(height: float) -> PlanReach:
-        return plan_reach(robot, legs, straight_walk(robot, body, height), bears)
-
-    def holds(found: PlanReach) -> bool:
-        return bears(found.missed, found.knee, found.spare)
-
-    low = high = seed + 0.15 * body.leg
-    found = None
-    while found is None and low > seed - 0.4 * body.leg:
-        high, low = low, low - 0.06 * body.leg
-        now = reach(low)
-        found = now if holds(now) else None
-    if found is None:
-        return low, None
-    while high - low > 2e-3 * body.leg:
-        middle = 0.5 * (low + high)
-        now = reach(middle)
-        low, high, found = (middle, high, now) if holds(now) else (low, middle, found)
-    return math.floor(1e4 * low) / 1e4, found
 
 
 def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
@@ -364,7 +414,8 @@ def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
         pace = beats * body.beat
         quick = replace(robot, single_support=QUICK_SINGLE * pace, double_support=QUICK_DOUBLE * pace)
         timing = walk_timing(Walk().for_body(body), quick, body)
-        asked = plan_reach(robot, legs, Walked(feet, plan, timing, SWING_SHARE * body.leg, robot.com_height))
+        walked = Walked(feet, plan, timing, SWING_SHARE * body.leg, robot.com_height, robot.trunk_lean)
+        asked = plan_reach(robot, legs, walked)
         if not bool((asked.torque > QUICK_HELD * limits).any()):
             return beats
     return _PACES[-1]

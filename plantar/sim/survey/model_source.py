@@ -30,6 +30,15 @@ _URDF_COMPILER = {
 }
 """How MuJoCo must read a URDF: with what is drawn, link by link, and with links that have no mass."""
 
+_SIZES = {
+    mujoco.mjtGeom.mjGEOM_SPHERE: 1,
+    mujoco.mjtGeom.mjGEOM_CAPSULE: 2,
+    mujoco.mjtGeom.mjGEOM_CYLINDER: 2,
+    mujoco.mjtGeom.mjGEOM_ELLIPSOID: 3,
+    mujoco.mjtGeom.mjGEOM_BOX: 3,
+}
+"""Numbers that the size of a shape has."""
+
 _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 
@@ -225,8 +234,14 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
             spec.delete(element)
     for geom in [g for g in spec.geoms if g.type in (mujoco.mjtGeom.mjGEOM_HFIELD, mujoco.mjtGeom.mjGEOM_SDF)]:
         spec.delete(geom)
+    empty = [g for g in spec.geoms if _is_empty(g)]
+    if empty:
+        notes.append(f"{len(empty)} shapes without a size are left out")
+    for geom in empty:
+        spec.delete(geom)
     for mesh in list(spec.meshes):
-        mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX  # holds for open and flat surfaces, too
+        if mesh.inertia == mujoco.mjtMeshInertia.mjMESH_INERTIA_LEGACY:  # holds for open surfaces, too
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
         if not mesh.file:
             continue
         place = Path(mesh.file)
@@ -241,6 +256,14 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
         for geom in users:
             spec.delete(geom)
         spec.delete(mesh)
+
+
+def _is_empty(geom: Any) -> bool:
+    """Whether a simple shape has a size of 0, which MuJoCo refuses: such shapes mark a place."""
+    sizes = _SIZES.get(mujoco.mjtGeom(geom.type), 0)
+    if sizes == 2 and math.isfinite(geom.fromto[0]):
+        sizes = 1
+    return not geom.meshname and not bool((geom.size[:sizes] > 0.0).all())
 
 
 def _first_keyframe(spec: Any) -> NDArray[np.float64] | None:

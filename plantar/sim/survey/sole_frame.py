@@ -21,7 +21,6 @@ _RESTS = 0.25  # share of the silhouette that a plane must have to be what the f
 _LEVEL = math.radians(0.2)  # a sole that is tilted by less is taken as level: rounding of the model's numbers
 _BAND = 0.005  # m: the lowest part of a foot, which is its sole
 _COVERED = 0.4  # of the silhouette by the lowest band; less are balls, bars or a rounded sole
-_MARKER = 0.02  # of the largest shape's size: smaller ones mark a place
 _TOED_OUT = math.radians(8.0)  # between the foot's long side and the robot's forward direction
 _SLENDER = 1.3  # length over width of a foot whose long side is given
 
@@ -85,16 +84,13 @@ def rested(model: Any, data: Any, parts: Collection[int], rotation: Array) -> Re
         The plane; None for a foot without shapes.
     """
     found = []
-    for kind in ("drawn", "colliding"):
-        shapes: list[int] = []
-        for body in parts:  # one that has no shapes of the kind has those of the other
-            drawn, colliding = shapes_of(model, (body,))
-            shapes += (drawn or colliding) if kind == "drawn" else (colliding or drawn)
-        kept = _without_markers(model, shapes)
-        if kept:
-            surface = _surface(model, data, kept, rotation)
-            if len(surface):
-                found.append(Rested(kind, surface, *resting_plane(surface.reshape(-1, 3))))
+    drawn, colliding = shapes_of(model, parts)
+    for kind, first, second in (("drawn", drawn, colliding), ("colliding", colliding, drawn)):
+        bodies = {int(model.geom_bodyid[g]) for g in first}  # one without shapes of the kind has those of the other
+        shapes = [*first, *(g for g in second if int(model.geom_bodyid[g]) not in bodies)]
+        if shapes:
+            surface = np.concatenate([geom_triangles(model, data, g) for g in shapes]) @ rotation.T
+            found.append(Rested(kind, surface, *resting_plane(surface.reshape(-1, 3))))
     if not found:
         return None
     return found[0] if found[0].share >= _RESTS else max(found, key=lambda r: r.share)
@@ -158,17 +154,6 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
         area=_hull_area(outline),
         notes=tuple(notes),
     )
-
-
-def _without_markers(model: Any, shapes: list[int]) -> list[int]:
-    """Shapes that are seen and not tiny: invisible or minute ones mark a place and are no part of the foot."""
-    largest = max((float(model.geom_rbound[g]) for g in shapes), default=0.0)
-    return [g for g in shapes if model.geom_rgba[g, 3] > 0.0 and model.geom_rbound[g] > _MARKER * largest]
-
-
-def _surface(model: Any, data: Any, shapes: list[int], rotation: Array) -> Array:
-    """Triangles (n, 3, 3) of some shapes, turned into the robot's axes."""
-    return np.concatenate([geom_triangles(model, data, g) for g in shapes]) @ rotation.T
 
 
 def _axes(surface: Array, normal: Array) -> tuple[Array, float]:

@@ -90,7 +90,7 @@ def survey_model(file: Path, folder: Path) -> Survey:
     efforts = tuple(_lesser(source.efforts, pair) for pair in zip(names["left"], names["right"], strict=True))
     speeds = [_lesser(source.speeds, pair) for pair in zip(names["left"], names["right"], strict=True)]
     kept = [v for v in speeds if v is not None and _SPEEDS[0] <= v <= _SPEEDS[1]]
-    notes = [*source.notes, *legs.notes, *told, *_coupled_notes(source, names)]
+    notes = [*source.notes, *legs.notes, *told, *_coupled_notes(source, names), *_loop_notes(source, legs)]
     for side in SIDES:
         if legs.by_side[side].toes:
             notes.append(f"{', '.join(legs.by_side[side].toes)}: below the {side} foot, held (toes)")
@@ -101,24 +101,28 @@ def survey_model(file: Path, folder: Path) -> Survey:
 
 
 def _refuse_odd_legs(source: ModelSource, legs: Legs) -> None:
-    """Refuse legs of unlike numbers of joints, and legs that are closed chains."""
+    """Refuse legs of unlike numbers of joints."""
     counts = {s: len(legs.by_side[s].joints) for s in SIDES}
     if counts["left"] != counts["right"]:
         raise RobotError(
             f"{source.file}: the left leg has {counts['left']} hinges, the right {counts['right']}; allowed: as many"
         )
+
+
+def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
+    """Legs that the file closes to loops: here they walk as the tree of their joints."""
     model = source.model
     moved = {int(model.jnt_bodyid[j]) for leg in legs.by_side.values() for j in leg.joints}
-    for pair in source.loops:
-        for name in pair:
-            body = model.body(name).id
-            while body > 0 and body not in moved:
-                body = int(model.body_parentid[body])
-            if body > 0:
-                raise RobotError(
-                    f"{source.file}: a leg is a closed chain: '{pair[0]}' and '{pair[1]}' are tied together beside its "
-                    "joints; allowed: legs that are open chains of hinges"
-                )
+
+    def on_leg(body: int) -> bool:
+        return body > 0 and (body in moved or on_leg(int(model.body_parentid[body])))
+
+    return [
+        f"a leg is a closed chain: '{a}' and '{b}' are tied together beside its joints; here each joint of the leg has a "
+        "motor of its own, and what closes the loop is rigid"
+        for a, b in source.loops
+        if on_leg(model.body(a).id) or on_leg(model.body(b).id)
+    ]
 
 
 def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]:

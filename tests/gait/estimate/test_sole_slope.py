@@ -39,7 +39,7 @@ def test_attitude_of_the_whole_robot_does_not_matter() -> None:
 
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_what_the_opening_stand_shows_is_level(side: Side) -> None:
-    standing = {"left": turned(0.002, -0.001), "right": np.eye(3)}
+    standing = {"left": turned(0.002, -0.001, 0.2), "right": turned(0.05, 0.0, -0.2)}
     slope = SoleSlope(50.0)
     for _ in range(5):
         slope.update(standing, BOTH, standing=True)

