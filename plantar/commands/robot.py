@@ -59,7 +59,18 @@ def robot(
     with output_folder(output, files_of_model(model, RobotError)) as folder, progress_bar() as progress:
         fitted = partial(shoe_for_surface, solid=solid, progress=part_of(progress, 0.1, 0.5))
         made = introduce(model, folder, fitted, progress)
+        _refuse_other(output, made.robot.description)
     end_command(made.as_dict(output), as_json, made.text(output))
+
+
+def _refuse_other(output: Path, description: str) -> None:
+    """Refuse a folder that holds another robot, whose files would stay among this one's."""
+    from plantar.files.structured_text import read_toml
+
+    file = output / "robot.toml"
+    other = read_toml(file, RobotError, str(file)).get("description") if file.exists() else description
+    if other != description:
+        raise InputError(f"{output} holds another robot ({other}); choose another folder with -o")
 
 
 COMMAND = Command(robot, "Make a robot of an MJCF or URDF, ready to walk, and check it.", 30)

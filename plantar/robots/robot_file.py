@@ -29,7 +29,7 @@ from plantar.sides import SIDES, Side
 __all__ = ["builtin_robots", "load_robot"]
 
 _FOLDER = Path(__file__).parent
-_LEAST_JOINTS = 5  # of a leg: a sole has six degrees of freedom, of which the ground may choose its roll
+_LEAST_JOINTS = 4  # of a leg: hip roll and pitch, knee, ankle pitch; the ground chooses the sole's roll
 _LARGEST_ANGLE = 360.0  # degrees, of a posture
 
 _KEYS: Mapping[str, tuple[str, ...]] = {
@@ -279,7 +279,7 @@ class _RobotFile(RobotTables):
         return Arms(machine, self.text("chest", "arms"), {side: self.text(side, "arms") for side in SIDES})
 
     def _gait(self) -> dict[str, Any]:
-        crouch = self.number("largest_crouch", "gait", 0.0, 0.5, 0.15)
+        crouch = self.number("largest_crouch", "gait", 0.0, 0.5, 0.0)
         return {
             "com_height": self.number("com_height", "gait", 0.05, 5.0),
             "stance_width": self.number("stance_width", "gait", 0.01, 2.0),

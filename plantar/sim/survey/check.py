@@ -22,7 +22,7 @@ from plantar.robots.walk import CONTROL_PERIOD
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from plantar.sim.run.scene import Scene, load_scene
-from plantar.sim.survey.fitted_gait import HELD, MISSED, ROLL_MOST
+from plantar.sim.survey.fitted_gait import HELD, ROLL_MOST
 from plantar.sim.survey.joint_inertia import joint_inertia
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
 from plantar.sim.survey.robot_text import roll_pitch_yaw
@@ -33,6 +33,7 @@ __all__ = ["Finding", "RobotCheck", "check_robot"]
 
 _STEPS = 8  # of a longer walk: the others are as these
 _BENT = math.radians(8.0)  # of a knee: below it inverse kinematics damps, and the CoM is no longer free
+_MISSED = 0.01  # m by which feet or CoM may miss the plan: the three G1s walk with 3 to 5 mm
 _SPARE = math.radians(0.5)  # of a joint's range that feedback needs
 _TILT = math.radians(2.0)  # of a sole against the foot that it hangs on: a shoe gives way by about as much
 _BELOW = 2e-3  # m of a foot below its shoe's inner face: printer tolerance and rounded edges
@@ -173,13 +174,13 @@ class _Checked:
 
     def _reach(self, reach: PlanReach, stands: float) -> list[Finding]:
         """Whether the legs reach what the plan asks of them."""
-        holds = max(reach.missed, stands) <= MISSED and reach.knee >= _BENT
+        holds = max(reach.missed, stands) <= _MISSED and reach.knee >= _BENT
         bend = math.degrees(reach.knee)
         text = f"the straightest knee is bent by {bend:.0f} degrees {reach.straightest:.1f} s into the walk"
         text += f", feet and CoM are missed by {1e3 * reach.missed:.1f} mm or mrad"
         if not holds:
             works = self._working_height()
-            text += f"; allowed: {math.degrees(_BENT):.0f} degrees or more and {1e3 * MISSED:.0f} mm; "
+            text += f"; allowed: {math.degrees(_BENT):.0f} degrees or more and {1e3 * _MISSED:.0f} mm; "
             text += self._working_length() if works is None else f"com_height = {works:.3f} works"
         spare = min(float(reach.spare.min()), math.pi)
         joint = self.names[int(reach.spare.argmin())]
@@ -217,7 +218,7 @@ class _Checked:
         for _ in range(12):
             low -= 0.03 * self.body.leg
             found = plan_reach(self.robot, self.legs, replace(self.walked, com_height=low))
-            if found.missed <= MISSED and found.knee >= 2.0 * _BENT:
+            if found.missed <= _MISSED and found.knee >= 2.0 * _BENT:
                 return low + self.robot.com_height - self.walked.com_height
         return None
 
@@ -227,7 +228,7 @@ class _Checked:
         for share in (0.8, 0.6, 0.4, 0.2):
             feet, plan = self._planned(len(self.walked.steps), share)
             found = plan_reach(self.robot, self.legs, replace(self.walked, feet=feet, steps=plan))
-            if found.missed <= MISSED and found.knee >= _BENT:
+            if found.missed <= _MISSED and found.knee >= _BENT:
                 return f"walk.length = {share * walk.length:.3f} with walk.sideways = {share * walk.sideways:.3f} works"
         return "no height and no shorter step works: see [posture] and the joints' limits"
 
@@ -362,7 +363,7 @@ class _Checked:
         for higher in (0.03, 0.06, 0.1):
             height = self.walked.com_height + higher * self.body.leg
             found = plan_reach(self.robot, self.legs, replace(self.walked, com_height=height))
-            if found.missed <= MISSED and found.knee >= _BENT and found.carrying[joint] <= limits[joint]:
+            if found.missed <= _MISSED and found.knee >= _BENT and found.carrying[joint] <= limits[joint]:
                 return f"com_height = {self.robot.com_height + higher * self.body.leg:.3f} works"
         return f"no height or lean does; a motor of {other.carrying[joint] / HELD:.3g} N m works"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -50,9 +51,6 @@ KNEE_LEAST = math.radians(20.0)
 STEP_SHARE = 1.0 / 3.0
 """Length of a step over that of a leg: 0.20 m for the robot h1."""
 
-SWING_SHARE = 1.0 / 12.0
-"""Clearance of a swing foot over the length of a leg: 0.05 m for h1."""
-
 MISSED = 2e-3
 """How far in m or rad a solution for the legs may miss: half of what a control period moves."""
 
@@ -72,11 +70,12 @@ QUICK_HELD = 0.85
 """Share of the torque limits that quick steps may take: OP3's, whose knees took 1.6 of it, sat at a limit in a third of
 all ticks and hit the ground with 6 body weights; at 0.85 of it that was 1 %."""
 
+_OWN_STIFFNESS = 6.0  # over m g h, from which the model's own servos are kept: half of what h1 has
 _SEED_BEND = math.radians(40.0)
 _SPARE = math.radians(1.0)  # of a joint's range that a walk leaves unused
 _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
-_MOST_CROUCH = 0.25
-_CROUCH_STEPS = 5
+_MISSED_CROUCHING = 0.01  # m
+_CROUCHES = (0.02, 0.035, _LEAST_CROUCH, 0.1, 0.15, 0.2, 0.25)  # of the leg
 _APPROACHES = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2.0)
 _PACES = (1.0, 1.2, 1.4, 1.6, 1.8, 2.0)
 _QUICK_STEPS = 4  # two of each foot
@@ -138,15 +137,16 @@ def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int =
         The walk.
     """
     feet, plan = straight_plan(steps, length=STEP_SHARE * body.leg, width=robot.stance_width)
-    timing = walk_timing(Walk().for_body(body), robot, body)
-    return Walked(feet, plan, timing, SWING_SHARE * body.leg, com_height, robot.trunk_lean)
+    walk = Walk().for_body(body)
+    return Walked(feet, plan, walk_timing(walk, robot, body), walk.swing_height, com_height, robot.trunk_lean)
 
 
-def fit_gait(draft: Robot, rotors: Array | None = None) -> FittedGait:
+def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Array | None = None) -> FittedGait:
     """Fit a walk's numbers to a robot whose names, soles and limits are known.
 
     Args:
         draft: The robot; its posture, gait and gains are replaced.
+        gains: The model's own stiffness in N m/rad and damping in N m s/rad of each joint of a leg; empty for none.
         rotors: Rotor inertia in kg m^2 about each joint of a leg that was assumed; None for none.
 
     Returns:
@@ -178,7 +178,22 @@ def fit_gait(draft: Robot, rotors: Array | None = None) -> FittedGait:
     robot = replace(robot, posture=_angles(robot, legs, configuration))
     inertia = joint_inertia(robot, legs.model, configuration)
     stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
-    crouch = _crouch(robot, legs, body)
+    if gains:
+        own, unit = np.array(gains), body.weight * height
+        kept = bool((own[:, 0] >= _OWN_STIFFNESS * unit).all())
+        least, most = own[:, 0].min(), own[:, 0].max()
+        notes.append(
+            f"the model's own servos have {least:.3g} to {most:.3g} N m/rad; "
+            + (
+                "they are kept"
+                if kept
+                else f"they are replaced, as position servos that hold the robot need {_OWN_STIFFNESS:g} m g h = "
+                f"{_OWN_STIFFNESS * unit:.3g}"
+            )
+        )
+        stiffness, damping = own.T if kept else (stiffness, damping)
+    limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
+    crouch = _crouch(robot, legs, body, float((reach.torque / limits).max()))
     pace = _pace(robot, legs, body)
     held = 0.0 if robot.rocks else least_single_support(robot, legs, body, STEP_SHARE * body.leg)
     robot = replace(
@@ -274,8 +289,7 @@ def _paced(robot: Robot, height: float, slower: float) -> Robot:
 def _stepping(
     robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
 ) -> tuple[Robot, BodyScale, PlanReach]:
-    """The robot with the walk that costs least, and the leg that its steps are shares of: the whole one where joints and
-    motors let it."""
+    """The robot with the walk that costs least, and the leg that its steps are shares of."""
     best: _Tried | None = None
     heights = seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -_LOWER)
     for share in (_rocking_share(robot, body, seed),) if robot.rocks else _SHORTER:
@@ -303,8 +317,8 @@ def _stepping(
     if best.reach.torque[j] > HELD * limits[j]:
         notes.append(
             f"{robot.legs['left'].joints[j]} needs {best.reach.torque[j]:.3g} N m for level steps at their best height "
-            f"and pace; its limit is {limits[j]:.3g} N m: more than {100.0 * HELD:.0f} % of it leaves little to balance "
-            "with"
+            f"and pace; its limit is {limits[j]:.3g} N m: more than {100.0 * HELD:.0f} % of it leaves little to "
+            "balance with"
         )
     return replace(best.robot, leg_length=best.body.leg if best.body.leg < body.leg else 0.0), best.body, best.reach
 
@@ -356,7 +370,7 @@ def _tried(robot: Robot, legs: LegModel, body: BodyScale, height: float, paid: f
     if not _bears(reach.missed, reach.knee, reach.spare):
         return None
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
-    asked = float((reach.torque / limits).max())
+    asked = float(np.maximum(reach.carrying / limits, HELD * reach.torque / limits).max())
     least = KNEE_LEAST + (math.radians(10.0) if robot.rocks else 0.0)
     straight, bent = max(0.0, least - reach.knee), max(0.0, reach.knee - least)
     cost = paid + 0.2 * asked + 4.0 * max(0.0, asked - HELD) + 3.0 * straight + 0.5 * bent
@@ -413,8 +427,9 @@ def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
     for beats in _PACES:
         pace = beats * body.beat
         quick = replace(robot, single_support=QUICK_SINGLE * pace, double_support=QUICK_DOUBLE * pace)
-        timing = walk_timing(Walk().for_body(body), quick, body)
-        walked = Walked(feet, plan, timing, SWING_SHARE * body.leg, robot.com_height, robot.trunk_lean)
+        walk = Walk().for_body(body)
+        timing = walk_timing(walk, quick, body)
+        walked = Walked(feet, plan, timing, walk.swing_height, robot.com_height, robot.trunk_lean)
         asked = plan_reach(robot, legs, walked)
         if not bool((asked.torque > QUICK_HELD * limits).any()):
             return beats
@@ -450,14 +465,15 @@ def _angles(robot: Robot, legs: LegModel, configuration: Array) -> dict[Side, tu
     return {s: tuple(float(configuration[i]) for i in places[s]) for s in SIDES}
 
 
-def _crouch(robot: Robot, legs: LegModel, body: BodyScale) -> float:
-    """How much lower in m the robot can walk: its joints stay in range and below three quarters of their torque."""
+def _crouch(robot: Robot, legs: LegModel, body: BodyScale, asked: float) -> float:
+    """How much lower in m the robot can walk: its joints stay in range, and below three quarters of their torque or the
+    share that it takes at its own height."""
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     fits = 0.0
-    for lower in np.linspace(_LEAST_CROUCH, _MOST_CROUCH, _CROUCH_STEPS).tolist():
+    for lower in _CROUCHES:
         found = plan_reach(robot, legs, straight_walk(robot, body, robot.com_height - lower * body.leg))
-        enough = found.missed <= MISSED and float(found.spare.min()) >= _SPARE
-        if not enough or bool((found.torque > HELD * limits).any()):
+        enough = found.missed <= _MISSED_CROUCHING and (lower <= _LEAST_CROUCH or float(found.spare.min()) >= _SPARE)
+        if not enough or bool((found.torque > max(HELD, 1.02 * asked) * limits).any()):
             break
         fits = lower
-    return math.floor(1e3 * max(fits, _LEAST_CROUCH) * body.leg) / 1e3
+    return math.floor(1e3 * fits * body.leg) / 1e3

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -160,7 +160,7 @@ def introduce(
     shoes = make_shoes(name, survey.soles["left"].triangles, folder, survey.mass)
     tell(0.6, "fitting the walk")
     draft = _draft(survey, shoes, folder, name, upright)
-    fitted = _fitted(draft)
+    fitted = _fitted(draft, survey.gains)
     write_text(folder / "robot.toml", robot_text(survey, fitted, shoes.notes, shoes.mass is not None))
     _copy_licences(path, folder)
     robot = load_robot(folder / "robot.toml")
@@ -170,15 +170,15 @@ def introduce(
     return Introduced(robot, survey, fitted, shoes, tuple(files))
 
 
-def _fitted(draft: Robot) -> FittedGait:
+def _fitted(draft: Robot, gains: Sequence[tuple[float, float]]) -> FittedGait:
     """The robot with the numbers of its walk; joints too light for any servo get a rotor in the copy of the model."""
-    fitted = fit_gait(draft)
+    fitted = fit_gait(draft, gains)
     assumed = rotor_inertia(fitted.inertia, fitted.body.mass, fitted.robot.com_height, CONTROL_PERIOD)
     if draft.model_file is None or not assumed.any():
         return fitted
     joints = [(name, float(v)) for s in SIDES for name, v in zip(draft.legs[s].joints, assumed, strict=True)]
     add_rotors(draft.model_file, {name: value for name, value in joints if value > 0.0})
-    return fit_gait(draft, assumed)
+    return fit_gait(draft, gains, assumed)
 
 
 def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: str) -> Robot:

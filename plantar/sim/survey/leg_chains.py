@@ -16,8 +16,8 @@ from plantar.sim.survey.body_surface import geom_triangles, resting_plane, shape
 
 __all__ = ["LEAST_JOINTS", "Leg", "Legs", "find_legs"]
 
-LEAST_JOINTS = 5
-"""Hinges that a leg has at least: a sole has six degrees of freedom, one of which narrow feet do without."""
+LEAST_JOINTS = 4
+"""Hinges that a leg has at least: roll and pitch of the hip, knee and pitch of the ankle."""
 
 _NEAR_FLOOR = 0.15  # of the height of its joint: how far a part of the foot may be above the sole
 _FLAT = 0.25  # share of its silhouette that the plane has that a foot rests on
@@ -76,7 +76,7 @@ def find_legs(model: Any, data: Any, where: str) -> Legs:
         The legs.
 
     Raises:
-        RobotError: If there are not just two legs of five hinges or more; the message shows what there is.
+        RobotError: If there are not just two legs of four hinges or more; the message shows what there is.
     """
     tree = _Tree(model, data)
     up, how = _upwards(tree, where)
@@ -142,9 +142,15 @@ def _upwards(tree: _Tree, where: str) -> tuple[Array, tuple[str, ...]]:
     model, data = tree.model, tree.data
     ends = [i for i in tree.points if len(tree.hinges(tree.chain(i))) >= LEAST_JOINTS]
     if not ends:
+        longest = max(tree.points, key=lambda i: len(tree.hinges(tree.chain(i))), default=0)
+        there = (
+            f"the longest, to '{model.body(longest).name}', has {len(tree.hinges(tree.chain(longest)))}"
+            if longest
+            else f"it has {model.njnt} joints and {model.ngeom} shapes"
+        )
         raise RobotError(
-            f"{where}: no chain of {LEAST_JOINTS} hinges or more ends in a body with a shape; it has "
-            f"{model.njnt} joints and {model.ngeom} shapes: a robot with legs is needed"
+            f"{where}: no chain of {LEAST_JOINTS} hinges or more ends in a body with a shape; {there}; a leg that "
+            "walks has roll and pitch in its hip, a knee, and pitch in its ankle"
         )
     z = np.array([0.0, 0.0, 1.0])
     com = data.subtree_com[0]

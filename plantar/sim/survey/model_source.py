@@ -52,6 +52,7 @@ class ModelSource:
         model: The compiled model with all of its joints, without motors or constraints.
         efforts: Largest torque in N m of each joint whose motor or joint the file limits, by the joint's name.
         speeds: Largest speed in rad/s of each joint that the file limits, by name.
+        gains: Stiffness in N m/rad and damping in N m s/rad of each joint that a position servo moves, by name.
         imus: Sites and bodies that may be the IMU, as "site" or "body" and the name, the likeliest first: what carries
             a gyro, what carries an accelerometer, what is called IMU.
         coupled: Pairs of joint names of which the file lets the first follow the second.
@@ -65,6 +66,7 @@ class ModelSource:
     model: Any
     efforts: Mapping[str, float]
     speeds: Mapping[str, float]
+    gains: Mapping[str, tuple[float, float]]
     imus: tuple[tuple[str, str], ...]
     coupled: tuple[tuple[str, str], ...]
     loops: tuple[tuple[str, str], ...]
@@ -78,6 +80,7 @@ class _Stated:
 
     efforts: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
+    gains: dict[str, tuple[float, float]] = field(default_factory=dict)
     coupled: list[tuple[str, str]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
@@ -113,7 +116,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     keyframe = _first_keyframe(spec)
     loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS]
     stated.coupled += [(e.name1, e.name2) for e in spec.equalities if e.type == mujoco.mjtEq.mjEQ_JOINT and e.name2]
-    _collect_efforts(spec, stated)
+    _collect_motors(spec, stated)
     imus = _imus_of(spec)
     forget_own_simulation(spec)
     model = _compiled(spec, file)
@@ -123,6 +126,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
         model=model,
         efforts=stated.efforts,
         speeds=stated.speeds,
+        gains=stated.gains,
         imus=imus,
         coupled=tuple(stated.coupled),
         loops=tuple(_bodies_of(model, pair) for pair in loops),
@@ -279,8 +283,8 @@ def _angles_of(model: Any, qpos: NDArray[np.float64] | None) -> dict[str, float]
     return {model.joint(i).name: float(qpos[model.jnt_qposadr[i]]) for i in hinges}
 
 
-def _collect_efforts(spec: Any, stated: _Stated) -> None:
-    """Largest torque of each joint: of its motor by force or control range, or of the joint itself."""
+def _collect_motors(spec: Any, stated: _Stated) -> None:
+    """Largest torque of each joint: of its motor by force or control range, or of the joint itself; gains of servos."""
     for joint in spec.joints:
         limited = joint.actfrclimited != mujoco.mjtLimited.mjLIMITED_FALSE
         if limited and joint.actfrcrange[0] < joint.actfrcrange[1]:
@@ -289,6 +293,8 @@ def _collect_efforts(spec: Any, stated: _Stated) -> None:
         if motor.trntype not in (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT):
             continue
         gear = abs(float(motor.gear[0])) or 1.0
+        if motor.gainprm[0] > 0.0 and motor.biasprm[1] == -motor.gainprm[0]:
+            stated.gains[motor.target] = (gear**2 * float(motor.gainprm[0]), -(gear**2) * float(motor.biasprm[2]))
         limits = []
         if motor.forcelimited != mujoco.mjtLimited.mjLIMITED_FALSE and motor.forcerange[0] < motor.forcerange[1]:
             limits.append(gear * float(np.abs(motor.forcerange).max()))

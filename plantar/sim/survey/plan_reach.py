@@ -28,6 +28,9 @@ __all__ = ["PlanReach", "Walked", "plan_reach", "settled", "standing_feet"]
 _INSTANTS = 24  # that are looked at in a single support; a swing foot moves by a twelfth of a step meanwhile at most
 _FIRST = 40  # Newton steps for the standing posture
 _EACH = 3  # Newton steps for each later instant
+_BEGIN = 0.5  # s: standing time before the walk
+_SWINGING = 0.1  # of what a swinging foot misses counts
+_LANDING = 0.1  # of a swing, at its end, in which all of it counts
 _HOPELESS = 0.05  # m or rad by which the legs miss what is asked of them: the rest of the plan is not looked at
 _STEP = 0.15  # rad: largest change in a Newton step, see plantar.robots.kinematics.inverse_kinematics
 
@@ -64,10 +67,10 @@ class PlanReach:
     """What a plan asks of the legs.
 
     Attributes:
-        missed: Largest error in m or rad by which the legs miss what is asked of them.
+        missed: Largest distance in m by which CoM or a standing sole misses its place, or a tenth of a swinging one's.
         knee: Least bend of a knee in rad; negative where one would bend backwards.
         straightest: Time in s of that.
-        spare: Least distance of each joint of a leg to its limits in rad, both legs taken together.
+        spare: Least distance of each joint of a leg that carries to its limits in rad, both legs taken together.
         torque: Largest torque in N m that each joint of a leg needs, both legs taken together: to carry, and to move
             itself against its own damping and the inertia of what it swings.
         carrying: The same without what moving takes.
@@ -130,86 +133,102 @@ def plan_reach(
     Returns:
         What it asks of them. The torques of a walk that was not looked at to its end are infinite.
     """
-    middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
-    begin = 0.5
-    plan = WalkPlan(
-        walked.feet, walked.steps, walked.timing, middles, pendulum_frequency(walked.com_height), begin=begin
-    )
-    missed = settled(robot, legs, walked.feet, walked.com_height)
-    probe = _Probe(robot, legs)
-    knee, when = probe.knees(legs), 0.0
-    low = probe.spare(legs)
-    every = walked.timing.single_support / _INSTANTS
-    angles, static = [], []
-    edged, never = 0.0, np.full(len(robot.legs["left"].joints), math.inf)
-    feet = dict(walked.feet)
-    omega2 = GRAVITY / walked.com_height
-    height = np.mean([feet[s].z for s in SIDES])
-    centre = 0.5 * (feet["left"].y + feet["right"].y)
-    for time in np.arange(begin, plan.schedule.walking_end + every, every).tolist():
-        phase, reference = plan.schedule.at(time), plan.at(time)
+    found = _Pass(robot, legs, walked)
+    for time in np.arange(_BEGIN, found.plan.schedule.walking_end + found.every, found.every).tolist():
+        found.look(time)
+        if not (found.missed < _HOPELESS and bears(found.missed, found.knee, found.spare)):
+            return found.broken_off()
+    return found.result()
+
+
+class _Pass:
+    """A walk while it is gone through: what was seen so far.
+
+    Args:
+        robot: The robot.
+        legs: Its kinematics.
+        walked: The walk.
+    """
+
+    def __init__(self, robot: Robot, legs: LegModel, walked: Walked) -> None:
+        self.legs, self.walked = legs, walked
+        self.middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
+        frequency = pendulum_frequency(walked.com_height)
+        self.plan = WalkPlan(walked.feet, walked.steps, walked.timing, self.middles, frequency, begin=_BEGIN)
+        self.every = walked.timing.single_support / _INSTANTS
+        self.missed = settled(robot, legs, walked.feet, walked.com_height)
+        self.probe = _Probe(robot, legs)
+        self.knee, self.straightest = self.probe.knees(legs), 0.0
+        self.spare = self.probe.spare(legs, SIDES)
+        self.roll = 0.0
+        self.angles: list[Array] = []
+        self.static: list[Array] = []
+        self.feet = dict(walked.feet)
+        self.ground = float(np.mean([foot.z for foot in walked.feet.values()]))
+        self.centre = 0.5 * (walked.feet["left"].y + walked.feet["right"].y)
+
+    def look(self, time: float) -> None:
+        """Solve for the legs at an instant in s, and note what they have to do."""
+        walked, legs, feet = self.walked, self.legs, self.feet
+        phase, reference = self.plan.schedule.at(time), self.plan.at(time)
         for foot in walked.steps[: phase.step]:
             feet[foot.side] = foot
         positions = {s: feet[s].position for s in SIDES}
         rotations = {s: feet[s].rotation_sole_to_world for s in SIDES}
-        share = dict.fromkeys(SIDES, 0.5)
         if phase.kind == PhaseKind.SINGLE_SUPPORT and phase.swing is not None:
-            target = walked.steps[phase.step]
-            start = feet[phase.swing]
-            path = SwingTrajectory(
-                start.position,
-                target.position,
-                start.yaw,
-                target.yaw,
-                walked.swing_height,
-                phase.end - phase.start,
-                approach_height=walked.approach_height,
-                approach_speed=walked.approach_speed,
-            )
-            at, yaw = path.at(time - phase.start)
-            if walked.approach_height > 0.0:
-                at[2] = max(at[2], target.z)  # the path goes on below level ground, which stops the foot
-            positions[phase.swing] = at
-            rotations[phase.swing] = rotation_from_angles(yaw)
             share = {s: 0.0 if s == phase.swing else 1.0 for s in SIDES}
+            path = self._swing(feet[phase.swing], walked.steps[phase.step], phase.end - phase.start)
+            positions[phase.swing], yaw = path.at(time - phase.start)
+            if walked.approach_height > 0.0:  # the path goes on below level ground, which stops the foot
+                positions[phase.swing][2] = max(positions[phase.swing][2], walked.steps[phase.step].z)
+            rotations[phase.swing] = rotation_from_angles(yaw)
         else:
-            share = _shares(reference.vrp, feet, middles)
-        com = np.array([*reference.com, height + walked.com_height])
-        roll = walked.lean * (float(reference.com[1]) - centre)
-        torso = rotation_from_angles(0.0, roll=-roll)
+            share = _shares(reference.vrp, feet, self.middles)
+        com = np.array([*reference.com, self.ground + walked.com_height])
+        torso = rotation_from_angles(0.0, roll=-walked.lean * (float(reference.com[1]) - self.centre))
+        carrying = [s for s in SIDES if share[s] > 0.0]
         yielding = [s for s in SIDES if share[s] == 0.0]
-        _, error = legs.solve(com, torso, positions, rotations, iterations=_EACH, yielding=yielding, largest_step=_STEP)
-        missed = max(missed, error)
-        if not missed < _HOPELESS:
-            return PlanReach(missed, knee, time - begin, -never, never, never, math.pi)
-        bend = probe.knees(legs)
-        if bend < knee:
-            knee, when = bend, time - begin
-        low = np.minimum(low, probe.spare(legs))
-        if not bears(missed, knee, low):
-            return PlanReach(missed, knee, when, low, never, never, math.pi)
-        push = legs.mass * np.array([*(omega2 * (reference.com - reference.vrp)), GRAVITY])
-        points = {s: np.array([*vrp_of_step(feet[s], middles[s]), feet[s].z]) for s in SIDES}
-        for s in SIDES:
-            if share[s] == 1.0:
-                points[s] = np.array([*reference.vrp, feet[s].z])
-        static.append(legs.static_torques({s: share[s] * push for s in SIDES}, points))
-        angles.append(probe.angles(legs))
-        edged = max([edged, *(probe.tilt(s) for s in SIDES if share[s] == 1.0)])
-    moved = np.gradient(np.array(angles), every, axis=0)
-    moving = probe.damping * moved + probe.swinging * np.gradient(moved, every, axis=0)
-    carrying = np.abs(np.array(static))
-    torque = np.abs(np.array(static) + moving)
-    joints = len(robot.legs["left"].joints)
-    return PlanReach(
-        missed,
-        knee,
-        when,
-        low,
-        torque.max(axis=0).reshape(2, joints).max(axis=0),
-        carrying.max(axis=0).reshape(2, joints).max(axis=0),
-        edged,
-    )
+        legs.solve(com, torso, positions, rotations, iterations=_EACH, yielding=yielding, largest_step=_STEP)
+        bend = self.probe.knees(legs)
+        if bend < self.knee:
+            self.knee, self.straightest = bend, time - _BEGIN
+        for s in SIDES:  # what a swinging foot misses in the air is made up for before it lands
+            lands = s in carrying or phase.end - time < _LANDING * (phase.end - phase.start)
+            self.missed = max(self.missed, (1.0 if lands else _SWINGING) * self.probe.off(s, positions[s]))
+        self.missed = max(self.missed, self.probe.com_off(com))
+        self.spare = np.minimum(self.spare, self.probe.spare(legs, carrying))
+        push = pendulum_frequency(walked.com_height) ** 2 * (reference.com - reference.vrp)
+        points = {s: np.array([*vrp_of_step(feet[s], self.middles[s]), feet[s].z]) for s in SIDES}
+        alone = carrying if len(carrying) == 1 else []
+        for s in alone:
+            points[s] = np.array([*reference.vrp, feet[s].z])
+            self.roll = max(self.roll, self.probe.tilt(s))
+        force = legs.mass * np.array([*push, GRAVITY])
+        self.static.append(legs.static_torques({s: share[s] * force for s in SIDES}, points))
+        self.angles.append(self.probe.angles(legs))
+
+    def _swing(self, start: Footstep, target: Footstep, duration: float) -> SwingTrajectory:
+        walked = self.walked
+        return SwingTrajectory(
+            *(start.position, target.position, start.yaw, target.yaw, walked.swing_height, duration),
+            approach_height=walked.approach_height,
+            approach_speed=walked.approach_speed,
+        )
+
+    def broken_off(self) -> PlanReach:
+        """What was seen of a walk that the legs do not bear."""
+        never = np.full(len(self.spare), math.inf)
+        spare = self.spare if self.missed < _HOPELESS else -never
+        return PlanReach(self.missed, self.knee, self.straightest, spare, never, never, math.pi)
+
+    def result(self) -> PlanReach:
+        """What the whole walk asks of the legs."""
+        moved = np.gradient(np.array(self.angles), self.every, axis=0)
+        moving = self.probe.damping * moved + self.probe.swinging * np.gradient(moved, self.every, axis=0)
+        torque, carrying = (
+            np.abs(np.array(self.static) + more).max(axis=0).reshape(2, -1).max(axis=0) for more in (moving, 0.0)
+        )
+        return PlanReach(self.missed, self.knee, self.straightest, self.spare, torque, carrying, self.roll)
 
 
 def _shares(vrp: Array, feet: Mapping[Side, Footstep], middles: Mapping[Side, Array]) -> dict[Side, float]:
@@ -241,6 +260,7 @@ class _Probe:
         self._high = np.where(free, math.inf, model.jnt_range[ids, 1])
         self._model = model
         self._torso = model.body(robot.torso_body).id
+        self._root = int(model.body_rootid[self._torso])
         self._soles = {s: model.site(robot.legs[s].sole_site).id for s in SIDES}
         self._pitch: list[tuple[int, int, int]] = []
         for side in SIDES:
@@ -264,6 +284,15 @@ class _Probe:
             bends.append(math.atan2(float(around @ axis), float(thigh @ shank)))
         return min(bends, default=math.pi)
 
+    def off(self, side: Side, position: Array) -> float:
+        """Distance in m of a sole from a position (3,), in the posture whose knees were read last."""
+        return float(np.linalg.norm(self._data.site_xpos[self._soles[side]] - position))
+
+    def com_off(self, com: Array) -> float:
+        """Distance in m of the CoM from a position (3,), likewise."""
+        mujoco.mj_comPos(self._model, self._data)
+        return float(np.linalg.norm(self._data.subtree_com[self._root] - com))
+
     def tilt(self, side: Side) -> float:
         """Angle in rad of a sole against level ground, in the posture whose knees were read last."""
         return math.acos(min(1.0, float(self._data.site_xmat[self._soles[side], 8])))
@@ -272,7 +301,8 @@ class _Probe:
         """Angles (k,) in rad of the joints of both legs in the posture that the legs hold."""
         return np.asarray(legs.configuration[self._places])
 
-    def spare(self, legs: LegModel) -> Array:
-        """Distance of each joint of a leg to its limits in rad, the lesser one of both legs."""
+    def spare(self, legs: LegModel, sides: Sequence[Side]) -> Array:
+        """Distance of each joint of some legs to its limits in rad, the lesser one of both legs."""
         angles = legs.configuration[self._places]
-        return np.asarray(np.minimum(angles - self._low, self._high - angles).reshape(2, -1).min(axis=0))
+        spare = np.minimum(angles - self._low, self._high - angles).reshape(2, -1)
+        return np.asarray(spare[[SIDES.index(s) for s in sides]].min(axis=0))

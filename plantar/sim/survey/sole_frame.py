@@ -21,6 +21,7 @@ _RESTS = 0.25  # share of the silhouette that a plane must have to be what the f
 _LEVEL = math.radians(0.2)  # a sole that is tilted by less is taken as level: rounding of the model's numbers
 _BAND = 0.005  # m: the lowest part of a foot, which is its sole
 _COVERED = 0.4  # of the silhouette by the lowest band; less are balls, bars or a rounded sole
+_LEAST_LENGTH, _LEAST_WIDTH = 0.06, 0.015  # m: of a sole that a shoe is built for
 _TOED_OUT = math.radians(8.0)  # between the foot's long side and the robot's forward direction
 _SLENDER = 1.3  # length over width of a foot whose long side is given
 
@@ -144,12 +145,20 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
     in_body = to_body @ sole_to_robot
     outline = triangles.reshape(-1, 3)
     outline = outline[outline[:, 2] <= _BAND][:, :2]
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    length, width = (high - low).tolist()
+    if min(length, width) < _LEAST_WIDTH or max(length, width) < _LEAST_LENGTH:
+        raise RobotError(
+            f"{where}: foot '{name}' is a point: {1e3 * length:.0f} x {1e3 * width:.0f} mm of it are "
+            f" within {1e3 * _BAND:g} mm of the ground; allowed: {1e3 * _LEAST_LENGTH:g} x {1e3 * _LEAST_WIDTH:g} mm or "
+            "more, on which its taxels are and its ankle pushes"
+        )
     return Sole(
         origin=body_origin,
         rotation=in_body,
         triangles=triangles,
-        low=outline.min(axis=0),
-        high=outline.max(axis=0),
+        low=low,
+        high=high,
         turn=math.acos(min(1.0, float(np.abs(in_body[:, 2]).max()))),
         area=_hull_area(outline),
         notes=tuple(notes),

@@ -34,6 +34,8 @@ class Survey:
         imu: What the IMU is, "site" or "body", and its name; None where the model has none on the body.
         efforts: Largest torque in N m of each joint of a leg, the lesser one of both; None where the model has none.
         speeds: Largest speed in rad/s of each joint of a leg; empty where the model does not state of every one.
+        gains: Stiffness in N m/rad and damping in N m s/rad of each joint of the left leg; empty where the model does
+            not state of every one.
         notes: What a user should know, each a sentence.
     """
 
@@ -44,6 +46,7 @@ class Survey:
     imu: tuple[str, str] | None
     efforts: tuple[float | None, ...]
     speeds: tuple[float, ...]
+    gains: tuple[tuple[float, float], ...]
     notes: tuple[str, ...]
 
     @property
@@ -95,8 +98,11 @@ def survey_model(file: Path, folder: Path) -> Survey:
         if legs.by_side[side].toes:
             notes.append(f"{', '.join(legs.by_side[side].toes)}: below the {side} foot, held (toes)")
     notes += _unlike(soles)
+    gains = [source.gains[name] for name in names["left"] if name in source.gains]
+    every = len(names["left"])
     return Survey(
-        source, legs, soles, held, imu, efforts, tuple(kept) if len(kept) == len(speeds) else (), tuple(notes)
+        *(source, legs, soles, held, imu, efforts, tuple(kept) if len(kept) == every else ()),
+        *(tuple(gains) if len(gains) == every else (), tuple(notes)),
     )
 
 
@@ -118,8 +124,8 @@ def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
         return body > 0 and (body in moved or on_leg(int(model.body_parentid[body])))
 
     return [
-        f"a leg is a closed chain: '{a}' and '{b}' are tied together beside its joints; here each joint of the leg has a "
-        "motor of its own, and what closes the loop is rigid"
+        f"a leg is a closed chain: '{a}' and '{b}' are tied together beside its joints; here each joint of the leg has "
+        "a motor of its own, and what closes the loop is rigid"
         for a, b in source.loops
         if on_leg(model.body(a).id) or on_leg(model.body(b).id)
     ]

@@ -89,8 +89,8 @@ def _quaternion(rotation: Array) -> Array:
     return np.roll(Rotation.from_matrix(rotation).as_quat(), 1)
 
 
-def random_biped(seed: int, folder: Path) -> Truth:
-    """Draw a biped and write its model."""
+def random_biped(seed: int, folder: Path, order: tuple[Array, ...] = ()) -> Truth:
+    """Draw a biped and write its model; its legs have the axes of an order, or drawn ones."""
     rng = np.random.default_rng(seed)
     world = (
         np.eye(3)
@@ -101,6 +101,7 @@ def random_biped(seed: int, folder: Path) -> Truth:
     leg = 0.17 * mass**0.33 * rng.uniform(0.9, 1.1)
     thigh = leg * rng.uniform(0.45, 0.55)
     axes = ORDERS[int(rng.integers(len(ORDERS)))]
+    axes = order or axes
     hip, ankle = leg * rng.uniform(0.12, 0.2), leg * rng.uniform(0.1, 0.18)
     length = max(0.11, leg * rng.uniform(0.3, 0.42))
     width = max(0.05, length * rng.uniform(0.35, 0.5))
