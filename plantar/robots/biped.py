@@ -71,13 +71,6 @@ class BipedParameters:
     def from_table(cls, table: Mapping[str, Any], where: str) -> BipedParameters:
         """Read the `[biped]` table of a robot file.
 
-        Args:
-            table: The table's values.
-            where: Name of the file, for error messages.
-
-        Returns:
-            The checked dimensions.
-
         Raises:
             RobotError: If a value is missing, unknown or of the wrong length.
         """

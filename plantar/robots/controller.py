@@ -89,9 +89,6 @@ class RobotController:
     def step(self, sensors: Sensors) -> Command:
         """One control tick.
 
-        Args:
-            sensors: What the robot's sensors measure now.
-
         Returns:
             The command: CoM, torso orientation, and pose and force of each sole.
         """
@@ -99,9 +96,6 @@ class RobotController:
 
     def joint_targets(self, command: Command) -> JointTargets:
         """Inverse kinematics of a command.
-
-        Args:
-            command: What `step` returned at this tick.
 
         Returns:
             The targets. They stay within the joints' limits; where a command is out of reach, the foot that carries
@@ -125,9 +119,6 @@ def load_controller(
         tables: Settings as the tables of a scene file: "walk" (steps or velocity), "control" (which parts run) and
             those of the controller's parts, such as "estimator" (`plantar list settings`). Default: 20 steps forward.
         seed: Draws the velocities of a walk that wanders.
-
-    Returns:
-        The controller, before its first tick.
 
     Raises:
         RobotError: If the robot is unknown, or its file or model is not valid.

@@ -35,13 +35,7 @@ _KINDS = tuple(
 
 
 def add_leg_shapes(spec: Any, robot: Robot, own: Collection[str] = ()) -> None:
-    """Give both legs shapes that collide with the other leg's.
-
-    Args:
-        spec: The robot's editable `mujoco.MjSpec`, with its soles.
-        robot: The robot.
-        own: Names of the model's geoms that collide by themselves.
-    """
+    """Give both legs shapes that collide with the other leg's."""
     for side in SIDES:
         chain = _links(spec, robot, side)
         for body, child in zip(chain, [*chain[1:], None], strict=True):
@@ -98,10 +92,6 @@ def keep_apart(model: Any, robot: Robot) -> None:
     """Shrink the legs' shapes until both legs are clear of each other in the robot's posture.
 
     Feet stay as they are: how far apart they stand is the scene's. A shape that does not come clear collides no more.
-
-    Args:
-        model: The compiled model, which is changed.
-        robot: The robot.
     """
     data = mujoco.MjData(model)
     for side in SIDES:

@@ -27,9 +27,6 @@ _SHOE_HEIGHT = 0.02  # m: where the shoe's mass is taken to be above the contact
 def spec_from_file(robot: Robot) -> Any:
     """Read a robot's model file and make it a walking robot.
 
-    Args:
-        robot: A robot with a model file.
-
     Returns:
         An editable `mujoco.MjSpec` with sites "<side>_sole" and the IMU's, geoms "<side>_sole_box", one position
         actuator a leg joint, and the sensors "imu_gyro", "imu_accelerometer", "<side>_ankle_force" and

@@ -80,9 +80,6 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
     Args:
         name: A built-in name (`builtin_robots()`) or the path of a robot TOML.
 
-    Returns:
-        The robot.
-
     Raises:
         RobotError: If the name is unknown or the file is not valid; the message names the field.
 
@@ -102,12 +99,7 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
 
 
 class _RobotFile(RobotTables):
-    """A robot's TOML, and where it lies.
-
-    Args:
-        source: What the file holds.
-        path: The file.
-    """
+    """A robot's TOML, and where it lies."""
 
     def __init__(self, source: Mapping[str, Any], path: Path) -> None:
         super().__init__(source, str(path) if path.parent.parent != _FOLDER else f"robot '{path.parent.name}'")

@@ -11,12 +11,7 @@ __all__ = ["RobotTables"]
 
 
 class RobotTables:
-    """The tables of a robot file. Everything raises RobotError for what is missing or not allowed.
-
-    Args:
-        source: What the file holds.
-        where: Name of the file or the robot, for error messages.
-    """
+    """The tables of a robot file. Everything raises RobotError for what is missing or not allowed."""
 
     def __init__(self, source: Mapping[str, Any], where: str) -> None:
         self.source = source
@@ -43,9 +38,6 @@ class RobotTables:
             field: Its name.
             tables: Names of the table that holds it, and of those around it; none for the file itself.
             default: What counts where it is left out; None lets nothing be left out.
-
-        Returns:
-            The text.
         """
         value = self.table(*tables).get(field, default)
         if not isinstance(value, str) or not value:
@@ -53,15 +45,7 @@ class RobotTables:
         return value
 
     def switch(self, field: str, table: str) -> bool:
-        """A value of a table that is true or false, and false where it is left out.
-
-        Args:
-            field: Its name.
-            table: Name of the table that holds it.
-
-        Returns:
-            The value.
-        """
+        """A value of a table that is true or false, and false where it is left out."""
         value = self.table(table).get(field, False)
         if not isinstance(value, bool):
             raise RobotError(f"{self.place(table)}: '{field}' is {value!r}; allowed: true, false")
@@ -76,43 +60,18 @@ class RobotTables:
             low: Smallest allowed value.
             high: Largest allowed value.
             default: What counts where it is left out; None lets nothing be left out.
-
-        Returns:
-            The number.
         """
         return _checked_number(self.table(table).get(field, default), field, self.place(table), low, high)
 
     def numbers(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:
-        """So many numbers of a table within limits.
-
-        Args:
-            field: Name of their list.
-            table: Name of the table that holds it.
-            count: How many there are.
-            low: Smallest allowed value.
-            high: Largest allowed value.
-
-        Returns:
-            The numbers.
-        """
+        """So many numbers of a table within limits."""
         value = self.table(table).get(field)
         if not isinstance(value, list) or len(value) != count:
             raise RobotError(f"{self.place(table)}: '{field}' is {value!r}; allowed: a list of {count} numbers")
         return tuple(_checked_number(v, field, self.place(table), low, high) for v in value)
 
     def number_each(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:
-        """So many numbers of a table within limits, or one that counts for all of them.
-
-        Args:
-            field: Name of their list, or of the number.
-            table: Name of the table that holds it.
-            count: How many there are.
-            low: Smallest allowed value.
-            high: Largest allowed value.
-
-        Returns:
-            The numbers.
-        """
+        """So many numbers of a table within limits, or one that counts for all of them."""
         if isinstance(self.table(table).get(field), list):
             return self.numbers(field, table, count, low, high)
         return (self.number(field, table, low, high),) * count

@@ -26,9 +26,6 @@ def start_of_walk(
         height: Height of the ground that the feet stand on in m.
         velocities: What is commanded over time, `walk.velocities`; None for a number of steps.
 
-    Returns:
-        The start.
-
     Raises:
         SceneError: If the gait cannot be planned.
     """

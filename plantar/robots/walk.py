@@ -111,11 +111,7 @@ class Walk(Settings):
         return bool(self.velocity or self.commands or self.wander)
 
     def velocities(self, seed: int) -> VelocityTable | None:
-        """The commanded velocities over time in s; None for a walk of a number of steps.
-
-        Args:
-            seed: Draws those of a walk that wanders.
-        """
+        """The commanded velocities over time in s; None for a walk of a number of steps."""
         rows: list[Sequence[float | str]] = [self._in_si(row) for row in self.commands]
         if self.velocity:
             rows = [self._in_si([0.0, *self.velocity])]
@@ -200,14 +196,6 @@ def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
     """Durations of a walk's phases: the scene's, else the robot's, else the same number of beats for every robot.
 
     A robot that rocks from foot to foot has its own, and begins and ends as quickly.
-
-    Args:
-        walk: Gait of a scene, for the same body.
-        robot: The robot.
-        body: How large it is.
-
-    Returns:
-        The durations.
     """
     stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
     if walk.commanded and not robot.rocks:

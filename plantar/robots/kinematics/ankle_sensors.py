@@ -14,15 +14,7 @@ __all__ = ["ankle_sensors"]
 
 
 def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
-    """Where each ankle's force-torque sensor sits and what hangs below it.
-
-    Args:
-        model: The MjModel of the robot.
-        robot: The robot.
-
-    Returns:
-        The sensors, for the controller.
-    """
+    """Where each ankle's force-torque sensor sits and what hangs below it."""
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)

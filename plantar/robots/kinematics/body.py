@@ -20,10 +20,6 @@ _ALONG = 0.7  # cosine with an axis of the torso from which a joint turns about 
 def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
     """The body that a robot's settings are shares of.
 
-    Args:
-        robot: The robot.
-        model: A model with the robot in it.
-
     Returns:
         Its mass as the model has it, the leg's length as `[gait] leg_length` or else the model has it, the left sole's
         size as its layout's outline has it, and its pace as `[gait] pace`.
@@ -57,15 +53,7 @@ def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
 
 
 def hanging_on(model: Any, body: int) -> list[int]:
-    """A body and all that hang on it, in the model's order, in which none comes before what it hangs on.
-
-    Args:
-        model: The model.
-        body: The body's number.
-
-    Returns:
-        Numbers of the bodies.
-    """
+    """A body and all that hang on it, in the model's order, in which none comes before what it hangs on."""
     found = [body]
     for part in range(body + 1, model.nbody):
         if int(model.body_parentid[part]) in found:
@@ -74,15 +62,7 @@ def hanging_on(model: Any, body: int) -> list[int]:
 
 
 def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:
-    """State of a model whose legs are in the robot's posture, with kinematics.
-
-    Args:
-        robot: The robot.
-        model: A model with the robot in it.
-
-    Returns:
-        The state.
-    """
+    """State of a model whose legs are in the robot's posture, with kinematics."""
     data = mujoco.MjData(model)
     for side in SIDES:
         for name, angle in zip(robot.legs[side].joints, robot.posture[side], strict=True):
@@ -92,32 +72,12 @@ def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:
 
 
 def pitching_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
-    """Joints of a leg that turn about the torso's y axis more than about another: hip, knee and ankle.
-
-    Args:
-        robot: The robot.
-        side: The leg.
-        model: A model with the robot in it.
-        data: Its state, with kinematics.
-
-    Returns:
-        Their ids from hip to ankle.
-    """
+    """Joints of a leg that turn about the torso's y axis more than about another: hip, knee and ankle."""
     return _turning_joints(robot, side, model, data, 1)
 
 
 def rolling_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
-    """Joints of a leg that turn about the torso's x axis more than about another: hip and, where there is one, ankle.
-
-    Args:
-        robot: The robot.
-        side: The leg.
-        model: A model with the robot in it.
-        data: Its state, with kinematics.
-
-    Returns:
-        Their ids from hip to ankle.
-    """
+    """Joints of a leg that turn about the torso's x axis more than about another: hip and, if there is one, ankle."""
     return _turning_joints(robot, side, model, data, 0)
 
 

@@ -21,10 +21,6 @@ _YIELDING: dict[tuple[bool, bool], tuple[Side, ...]] = {
 def follow_command(legs: LegModel, command: Command) -> float:
     """Solve a command for the joints; the angles are `legs.joints`.
 
-    Args:
-        legs: Kinematics of the robot.
-        command: What the controller asks of the body.
-
     Returns:
         The largest task error before the last step, in units of length or rad; not a number if a target is not.
     """
@@ -40,12 +36,7 @@ def follow_command(legs: LegModel, command: Command) -> float:
 
 
 def carry_command(legs: LegModel, command: Command) -> None:
-    """Torques that hold the last solution under the forces of a command; they are `legs.torques`.
-
-    Args:
-        legs: Kinematics of the robot.
-        command: What the controller asks of the body.
-    """
+    """Torques that hold the last solution under the forces of a command; they are `legs.torques`."""
     left, right = command.feet["left"], command.feet["right"]
     legs.carry(
         {"left": left.force, "right": right.force},

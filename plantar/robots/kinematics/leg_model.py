@@ -192,15 +192,6 @@ class LegModel:
     ) -> float:
         """What `solve` does, for a caller who reads `joints` at once.
 
-        Args:
-            com: As of `solve`; likewise all others.
-            rotation_torso: Likewise.
-            positions: Likewise.
-            rotations: Likewise.
-            iterations: Likewise.
-            yielding: Likewise.
-            largest_step: Likewise.
-
         Returns:
             The largest task error before the last step, as of `solve`.
         """
@@ -233,12 +224,7 @@ class LegModel:
         return self.torques.copy()
 
     def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
-        """What `static_torques` does, for a caller who reads `torques` at once.
-
-        Args:
-            forces: As of `static_torques`.
-            points: Likewise.
-        """
+        """What `static_torques` does, for a caller who reads `torques` at once."""
         self.inverse.place()
         load = self._load
         load.weigh()

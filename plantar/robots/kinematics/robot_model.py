@@ -32,9 +32,6 @@ class Visitor(Protocol):
 def robot_spec(robot: Robot) -> Any:
     """The robot alone as an editable `mujoco.MjSpec`.
 
-    Args:
-        robot: The robot.
-
     Raises:
         RobotError: If the model cannot be read.
     """
@@ -61,13 +58,6 @@ def robot_spec(robot: Robot) -> Any:
 def compiled_model(spec: Any, robot: Robot) -> Any:
     """Compile a model.
 
-    Args:
-        spec: The editable `mujoco.MjSpec`.
-        robot: The robot in it, for the message.
-
-    Returns:
-        The `mujoco.MjModel`.
-
     Raises:
         RobotError: If MuJoCo refuses it.
     """
@@ -84,9 +74,6 @@ def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
     Args:
         robot: The robot.
         worn: What it wears next to its file's model, such as an arm that moves.
-
-    Returns:
-        The model.
 
     Raises:
         RobotError: If the model cannot be read or simulated.

@@ -26,10 +26,6 @@ Triangles = NDArray[np.float64]
 def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]]:
     """Geoms of some bodies.
 
-    Args:
-        model: The model.
-        bodies: Ids of the bodies.
-
     Returns:
         Ids of those that are only drawn, without markers, and of those that collide; planes are neither.
     """
@@ -44,16 +40,7 @@ def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]
 
 
 def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
-    """Triangles (n, 3, 3) of a geom in the world in m.
-
-    Args:
-        model: The model.
-        data: Its state, with kinematics.
-        geom: Id of the geom.
-
-    Returns:
-        The triangles; round shapes are faceted.
-    """
+    """Triangles (n, 3, 3) of a geom in the world in m."""
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
         mesh = int(model.geom_dataid[geom])

@@ -104,13 +104,6 @@ class RobotCheck:
 def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
     """Measure what would go wrong with a robot.
 
-    Args:
-        file: Robot file, or the name of a built-in robot.
-        scene: Name or file of the scene whose plan it has to walk.
-
-    Returns:
-        What was measured.
-
     Raises:
         RobotError: If the robot cannot be read or simulated.
         SceneError: If the scene cannot be read.
@@ -120,12 +113,7 @@ def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
 
 
 class _Checked:
-    """A robot while it is checked.
-
-    Args:
-        robot: The robot.
-        scene: The scene.
-    """
+    """A robot while it is checked."""
 
     def __init__(self, robot: Robot, scene: Scene) -> None:
         self.robot = robot

@@ -132,9 +132,6 @@ def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int =
         body: How large it is.
         com_height: Height of its CoM in m.
         steps: Number of steps.
-
-    Returns:
-        The walk.
     """
     feet, plan = straight_plan(steps, length=STEP_SHARE * body.leg, width=robot.stance_width)
     walk = Walk().for_body(body)
@@ -148,9 +145,6 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
         draft: The robot; its posture, gait and gains are replaced.
         gains: The model's own stiffness in N m/rad and damping in N m s/rad of each joint of a leg; empty for none.
         rotors: Rotor inertia in kg m^2 about each joint of a leg that was assumed; None for none.
-
-    Returns:
-        The robot with them.
 
     Raises:
         RobotError: If the legs cannot stand on both soles.
@@ -249,10 +243,6 @@ def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
 
 def stance_width(robot: Robot, legs: LegModel) -> float:
     """Distance in m of the feet side by side: as the model has them, or so far that the soles keep a gap.
-
-    Args:
-        robot: The robot.
-        legs: Its kinematics.
 
     Returns:
         The distance of the sole frames' origins.

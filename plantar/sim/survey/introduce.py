@@ -23,6 +23,7 @@ from plantar.robots.robot import LegNames, Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sides import SIDES
+from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.fitted_gait import FittedGait, fit_gait
 from plantar.sim.survey.model_copy import add_rotors, write_model_copy
 from plantar.sim.survey.robot_picture import draw_robot
@@ -135,15 +136,6 @@ def introduce(
 ) -> Introduced:
     """Write a robot file, a copy of the model, shoes and a picture for a robot.
 
-    Args:
-        file: MJCF or URDF file of the robot.
-        folder: An existing folder.
-        make_shoes: Builds the shoes.
-        progress: Receives fraction and text.
-
-    Returns:
-        The robot, and what it rests on.
-
     Raises:
         RobotError: If the file holds no robot that can walk on two legs; the message explains why.
         FootError: If a foot cannot carry taxels.
@@ -164,6 +156,9 @@ def introduce(
     write_text(folder / "robot.toml", robot_text(survey, fitted, shoes.notes, shoes.mass is not None))
     _copy_licences(path, folder)
     robot = load_robot(folder / "robot.toml")
+    checked = check_robot(folder / "robot.toml", "flat")
+    if not checked.holds:
+        raise RobotError(f"{path}: no walk was found that the check allows; the best fails by {checked.failures[0]}")
     tell(0.9, "drawing the robot")
     draw_robot(robot, folder / "robot.png")
     files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())

@@ -40,9 +40,6 @@ def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) 
         robot: The robot.
         model: The robot alone as it is simulated, with its shoes.
         configuration: Configuration (nq,) in which it stands.
-
-    Returns:
-        The inertia about each joint.
     """
     data = _at(model, configuration)
     free = _floating(model, data)

@@ -67,14 +67,6 @@ class Legs:
 def find_legs(model: Any, data: Any, where: str) -> Legs:
     """Find the legs.
 
-    Args:
-        model: The model with all of its joints.
-        data: Its state in the posture of the file, with kinematics.
-        where: The file, for messages.
-
-    Returns:
-        The legs.
-
     Raises:
         RobotError: If there are not just two legs of four hinges or more; the message shows what there is.
     """
@@ -89,12 +81,7 @@ def find_legs(model: Any, data: Any, where: str) -> Legs:
 
 
 class _Tree:
-    """Links of a model that move against each other, each with its surface.
-
-    Args:
-        model: The model.
-        data: Its state.
-    """
+    """Links of a model that move against each other, each with its surface."""
 
     def __init__(self, model: Any, data: Any) -> None:
         self.model, self.data = model, data

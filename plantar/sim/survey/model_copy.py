@@ -56,9 +56,6 @@ def write_model_copy(
         name: Name of the robot.
         held: Angles in rad by name at which joints are held that are not the legs'; the others as the file has them.
         imu: What the IMU is, "site" or "body", its name, and the name of the copy's site; None for none.
-
-    Returns:
-        Name of the body that is kept upright.
     """
     return _Copy(model, legs, folder, held).written(name, imu)
 

@@ -92,9 +92,6 @@ def read_model(file: Path, folder: Path) -> ModelSource:
         file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file, or a scene that includes the robot.
         folder: A folder for meshes that have to be converted.
 
-    Returns:
-        The model.
-
     Raises:
         RobotError: If it cannot be read, or names files that lie where they may not.
     """

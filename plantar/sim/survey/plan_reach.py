@@ -142,13 +142,7 @@ def plan_reach(
 
 
 class _Pass:
-    """A walk while it is gone through: what was seen so far.
-
-    Args:
-        robot: The robot.
-        legs: Its kinematics.
-        walked: The walk.
-    """
+    """A walk while it is gone through: what was seen so far."""
 
     def __init__(self, robot: Robot, legs: LegModel, walked: Walked) -> None:
         self.legs, self.walked = legs, walked
@@ -240,12 +234,7 @@ def _shares(vrp: Array, feet: Mapping[Side, Footstep], middles: Mapping[Side, Ar
 
 
 class _Probe:
-    """Reads knees and joint ranges off a solution.
-
-    Args:
-        robot: The robot.
-        legs: Its kinematics.
-    """
+    """Reads knees and joint ranges off a solution."""
 
     def __init__(self, robot: Robot, legs: LegModel) -> None:
         model = legs.model

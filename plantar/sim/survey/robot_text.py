@@ -40,12 +40,6 @@ def roll_pitch_yaw(rotation: NDArray[np.float64]) -> list[float]:
 def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], weighed: bool) -> str:
     """Text of a robot file.
 
-    Args:
-        survey: What was found in the model.
-        fitted: The robot with the numbers of its walk.
-        shoe_notes: What is to be stated of the shoes.
-        weighed: Whether they were built, and their mass is known.
-
     Returns:
         TOML that `plantar.robots.load_robot` reads.
     """

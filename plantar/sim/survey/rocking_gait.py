@@ -36,16 +36,7 @@ _SHORTEST = 0.2  # s: the least that the timing of a walk allows
 
 
 def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
-    """Whether a leg has two joints that roll, in hip and ankle, so that it leans while its sole stays level.
-
-    Args:
-        robot: The robot.
-        legs: Its kinematics.
-        side: Which leg.
-
-    Returns:
-        Whether it has.
-    """
+    """Whether a leg has two joints that roll, in hip and ankle, so that it leans while its sole stays level."""
     return len(rolling_joints(robot, side, legs.model, stood(robot, legs.model))) >= 2
 
 
@@ -55,9 +46,6 @@ def rocking(robot: Robot, com_height: float) -> Robot:
     Args:
         robot: The robot.
         com_height: Height of its CoM in m.
-
-    Returns:
-        The robot.
     """
     beat = math.sqrt(com_height / GRAVITY)
     near = min(_NEAR, com_height * math.tan(LEAN_MOST) / (0.5 * robot.stance_width))

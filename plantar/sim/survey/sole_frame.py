@@ -107,9 +107,6 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
         rotation: Rotation (3, 3) from the model's world to one with x forward, y left, z up.
         where: The file, for messages.
 
-    Returns:
-        The sole.
-
     Raises:
         RobotError: If the foot has no shape that it could stand on.
     """
@@ -150,8 +147,8 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
     if min(length, width) < _LEAST_WIDTH or max(length, width) < _LEAST_LENGTH:
         raise RobotError(
             f"{where}: foot '{name}' is a point: {1e3 * length:.0f} x {1e3 * width:.0f} mm of it are "
-            f" within {1e3 * _BAND:g} mm of the ground; allowed: {1e3 * _LEAST_LENGTH:g} x {1e3 * _LEAST_WIDTH:g} mm or "
-            "more, on which its taxels are and its ankle pushes"
+            f"within {1e3 * _BAND:g} mm of the ground; allowed: {1e3 * _LEAST_LENGTH:g} x {1e3 * _LEAST_WIDTH:g} mm "
+            "or more, on which its taxels are and its ankle pushes"
         )
     return Sole(
         origin=body_origin,

@@ -66,13 +66,6 @@ class Survey:
 def survey_model(file: Path, folder: Path) -> Survey:
     """Find legs, soles, IMU and limits of a robot.
 
-    Args:
-        file: MJCF or URDF file.
-        folder: A folder for meshes that have to be converted.
-
-    Returns:
-        What was found.
-
     Raises:
         RobotError: If the file cannot be read, or holds no robot on two legs.
     """

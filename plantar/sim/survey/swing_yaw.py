@@ -30,15 +30,7 @@ _PEAK = 10.0 / math.sqrt(3.0)
 
 
 def swinging_mass(robot: Robot, legs: LegModel) -> float:
-    """Mass in kg that goes as far forward as the foot: each part of a leg by how far below the hip it is.
-
-    Args:
-        robot: The robot, in its posture.
-        legs: Its kinematics.
-
-    Returns:
-        The mass.
-    """
+    """Mass in kg that goes as far forward as the foot: each part of a leg by how far below the hip it is."""
     model, data = legs.model, stood(robot, legs.model)
     hip = int(model.joint(robot.legs["left"].joints[0]).bodyid[0])
     parts = hanging_on(model, hip)
@@ -55,9 +47,6 @@ def least_single_support(robot: Robot, legs: LegModel, body: BodyScale, step: fl
         legs: Its kinematics.
         body: Its mass and leg.
         step: Length of a step in m; the foot goes twice as far.
-
-    Returns:
-        The time, in hundredths of a second.
     """
     length, width = np.ptp(robot.layouts["left"].outline, axis=0)
     holds = _FRICTION * body.mass * GRAVITY * _ARM * math.hypot(length, width)

@@ -13,8 +13,9 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.commands.robot import _refuse_other
 from plantar.commands.robot import robot as robot_command
-from plantar.errors import PlantarError, RobotError
+from plantar.errors import InputError, PlantarError, RobotError
 from plantar.recordings.recording import read_mcap
 from plantar.robots import load_robot
 from plantar.shoes.found_foot import shoe_for_surface, taxel_area
@@ -22,6 +23,7 @@ from plantar.sim.run.runner import run_scene
 from plantar.sim.run.scene import load_scene
 from plantar.sim.survey.check import check_robot
 from plantar.sim.survey.introduce import Introduced, introduce
+from plantar.sim.survey.survey import survey_model
 
 from .random_biped import Truth, random_biped
 
@@ -127,8 +129,8 @@ def test_a_soles_taxels_are_as_many_as_the_papers() -> None:
 @pytest.mark.parametrize(
     ("body", "words"),
     [
-        ("", "no chain of 5 hinges"),
-        ("<body><joint type='hinge'/><geom size='.1' mass='1'/></body>", "no chain of 5 hinges"),
+        ("", "no chain of 4 hinges"),
+        ("<body><joint type='hinge'/><geom size='.1' mass='1'/></body>", "no chain of 4 hinges"),
     ],
 )
 def test_what_is_no_biped_is_refused_in_one_line(tmp_path: Path, body: str, words: str) -> None:
@@ -140,7 +142,7 @@ def test_what_is_no_biped_is_refused_in_one_line(tmp_path: Path, body: str, word
     assert "\n" not in str(caught.value)
 
 
-def test_legs_that_are_closed_chains_are_refused(tmp_path: Path) -> None:
+def test_legs_that_are_closed_chains_are_found_by_their_tree(tmp_path: Path) -> None:
     truth = random_biped(SEED, tmp_path)
     spec = mujoco.MjSpec.from_file(str(truth.file))
     foot, trunk = truth.feet["left"], "trunk"
@@ -149,8 +151,9 @@ def test_legs_that_are_closed_chains_are_refused(tmp_path: Path) -> None:
     )
     spec.compile()
     truth.file.write_text(spec.to_xml())
-    with pytest.raises(RobotError, match="closed chain"):
-        introduce(truth.file, tmp_path, shoe_for_surface)
+    found = survey_model(truth.file, tmp_path)
+    assert found.joint_names("left") == truth.joints["left"]
+    assert any("closed chain" in note and f"'{foot}'" in note for note in found.notes)
 
 
 def test_legs_without_ankle_roll_rock_and_walk_in_their_own_time(tmp_path: Path) -> None:
@@ -183,6 +186,14 @@ def test_the_example_introduces_a_robot_draws_it_and_lets_it_walk(tmp_path: Path
     )
     assert done.returncode == 0, done.stderr
     assert "4 of 4 steps" in done.stdout
+
+
+def test_another_robots_folder_is_refused(made: tuple[Truth, Introduced, Path], tmp_path: Path) -> None:
+    _, found, folder = made
+    _refuse_other(folder, found.robot.description)
+    with pytest.raises(InputError, match="holds another robot"):
+        _refuse_other(folder, "another: 3 kg, 6 joints a leg")
+    _refuse_other(tmp_path, "the first")
     assert (tmp_path / "out" / "robot.png").stat().st_size > 10_000
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import mujoco
 import pytest
 
 from plantar import RobotError
+from plantar.sim.survey.body_surface import shapes_of
 from plantar.sim.survey.model_source import read_model
 from plantar.sim.survey.survey import survey_model
 
@@ -47,7 +49,7 @@ def test_a_joint_whose_limits_leave_no_range_is_held_and_told(tmp_path: Path, li
     source = read_model(file, tmp_path)
     assert source.model.njnt == 0
     assert any(note.startswith("held, as their limits leave no range") for note in source.notes)
-    with pytest.raises(RobotError, match=r"no chain of 5 hinges.*; held, as their limits leave no range.*: elbow"):
+    with pytest.raises(RobotError, match=r"no chain of 4 hinges.*; held, as their limits leave no range.*: elbow"):
         survey_model(file, tmp_path)
 
 
@@ -66,3 +68,31 @@ def test_limits_that_contradict_each_other_are_refused(tmp_path: Path, limit: st
     file.write_text(urdf(limit))
     with pytest.raises(RobotError, match=r"joint 'elbow' has limits from .*; allowed: lower below upper, or"):
         read_model(file, tmp_path)
+
+
+MARKED = """
+<body name="marked" pos="0 0 1"><joint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+<geom type="box" size=".1 .05 .02" contype="0" conaffinity="0"/>
+<geom size="0.02" pos="0 0 -0.1" contype="0" conaffinity="0"/><geom size="0" pos="0 0 -0.2"/>
+<geom type="mesh" mesh="open" contype="0" conaffinity="0"/></body>
+"""
+
+
+def test_markers_shapes_without_a_size_and_the_authors_inertia_are_no_obstacles(tmp_path: Path) -> None:
+    file = tmp_path / "marked.xml"
+    open_box = 'name="open" inertia="shell" vertex="0 0 0 .1 0 0 0 .1 0 0 0 .1" face="0 1 2 0 1 3"'
+    file.write_text(f"<mujoco><asset><mesh {open_box}/></asset><worldbody>{MARKED}</worldbody></mujoco>")
+    source = read_model(file, tmp_path)
+    assert any("1 shapes without a size" in note for note in source.notes)
+    body = source.model.body("marked").id
+    drawn, colliding = shapes_of(source.model, (body,))
+    assert [int(source.model.geom_type[g]) for g in drawn] == [mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_MESH]
+    assert not colliding
+
+
+def test_gains_of_position_servos_are_read(tmp_path: Path) -> None:
+    file = tmp_path / "servo.xml"
+    body = "<body><joint name='a'/><geom size='.1'/></body>"
+    motor = "<position joint='a' kp='30' kv='2' gear='2'/>"
+    file.write_text(f"<mujoco><worldbody>{body}</worldbody><actuator>{motor}</actuator></mujoco>")
+    assert read_model(file, tmp_path).gains == {"a": (120.0, 8.0)}

@@ -12,10 +12,6 @@ __all__ = ["chain"]
 def chain(model: mujoco.MjModel, body: int) -> NDArray[np.intp]:
     """Velocities of a model that move a body.
 
-    Args:
-        model: The model.
-        body: Number of the body.
-
     Returns:
         Their numbers (c,), from the body to the root; none for one that stands still.
     """

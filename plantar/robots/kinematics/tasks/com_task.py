@@ -18,11 +18,6 @@ class ComTask(Task):
 
     Attributes:
         target: The point (3,) in m, copied where it is set.
-
-    Args:
-        model: The model.
-        data: Its data.
-        body: The root body's id.
     """
 
     rows = 3
@@ -48,9 +43,6 @@ class ComTask(Task):
         Args:
             error: Receives the error (rows,).
             jacobian: Receives the Jacobian (rows, nv).
-
-        Returns:
-            The kernel.
         """
         model, data, first = self._model, self._data, self._body
         last = first + 1  # the bodies of a tree follow each other

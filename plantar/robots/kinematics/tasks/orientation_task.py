@@ -20,11 +20,6 @@ class OrientationTask(Task):
 
     Attributes:
         target: Rotation (3, 3) from the body to the world frame, copied where it is set.
-
-    Args:
-        model: The model.
-        data: Its data.
-        body: The body's id.
     """
 
     rows = 3
@@ -50,9 +45,6 @@ class OrientationTask(Task):
         Args:
             error: Receives the error (rows,).
             jacobian: Receives the Jacobian (rows, nv).
-
-        Returns:
-            The kernel.
         """
         return TurnRows(
             *(chain(self._model, self._body), self._data.cdof, self.target, self._rotation, error, jacobian)

@@ -21,11 +21,6 @@ class PoseTask(Task):
     Attributes:
         position: Its origin (3,) in m, copied where it is set.
         rotation: Rotation (3, 3) from the site to the world frame, likewise.
-
-    Args:
-        model: The model.
-        data: Its data.
-        site: The site's id.
     """
 
     rows = 6
@@ -53,9 +48,6 @@ class PoseTask(Task):
         Args:
             error: Receives the error (rows,).
             jacobian: Receives the Jacobian (rows, nv).
-
-        Returns:
-            The kernel.
         """
         model, data = self._model, self._data
         body = int(model.site_bodyid[self._site])

@@ -18,11 +18,6 @@ class PostureTask(Task):
 
     Attributes:
         target: Their positions (k,) in rad or m.
-
-    Args:
-        model: The model.
-        data: Its data.
-        joints: Ids of the joints, k of them.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[int]) -> None:

@@ -36,9 +36,4 @@ class RollingPoseTask(PoseTask):
         out[3:] = self._rotation.T[1:] @ self._turns
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> None:
-        """None: this task has no kernel.
-
-        Args:
-            error: As of `Task.rows_for`.
-            jacobian: Likewise.
-        """
+        """None: this task has no kernel."""
