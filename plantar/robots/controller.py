@@ -99,7 +99,7 @@ class RobotController:
 
         Returns:
             The targets. They stay within the joints' limits; where a command is out of reach, the foot that carries
-            nothing misses its target first.
+            no load misses its target first.
         """
         follow_command(self.legs, command)
         carry_command(self.legs, command)

@@ -1,7 +1,7 @@
 """Shapes by which one leg collides with the other: the model's own where it has them, else capsules along the links.
 
-They touch nothing but the other leg's shapes: neither the ground, which meets the soles' boxes only, nor their own leg.
-They weigh nothing, so a robot whose legs keep apart moves as it would without them.
+They touch the other leg's shapes only: neither the ground, which meets the soles' boxes only, nor their own leg.
+Their mass is zero, so a robot whose legs keep apart moves as it would without them.
 """
 
 from __future__ import annotations

@@ -65,7 +65,7 @@ def _parsed(robot: Robot) -> Any:
 
 
 def forget_own_simulation(spec: Any) -> None:
-    """Take out what the file's author simulated with: without gravity or contacts nothing would walk."""
+    """Take out what the file's author simulated with: without gravity or contacts no robot would walk."""
     for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
         for element in list(getattr(spec, part)):
             spec.delete(element)
@@ -170,7 +170,7 @@ def _joints_above(body: Any) -> list[str]:
 
 
 def _upwards(body: Any) -> list[Any]:
-    """A body and all that it hangs on, without the world; nothing for None."""
+    """A body and all that it hangs on, without the world; none for None."""
     chain = []
     while body is not None and body.parent is not None:
         chain.append(body)

@@ -1,4 +1,4 @@
-"""A robot as data: what its TOML file says, checked. `plantar.robots.robot_file` reads it."""
+"""A robot as data: what its TOML file states, checked. `plantar.robots.robot_file` reads it."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ class Robot:
         approach_support: Least t_ss in s of a walk whose swing comes down slowly (`walk.approach_height`) and so has to
             reach its place in three fifths of it: for motors that are weak; 0 for those that are not.
         ankle_reach: How far in m from the sole frame's origin, which is below the ankle, along the sole, the ankle's
-            motor bears the robot; nothing farther off is loaded.
+            motor bears the robot; no point farther off is loaded.
         rocks: Whether it takes its steps in its own time and without a slow approach, regardless of what a scene asks
             for: legs without ankle roll rock from foot to foot and cannot wait on one of them.
         pace: Beats of the leg that a pace lasts, the unit of time of scenes that ask for quick steps

@@ -201,7 +201,7 @@ class _RobotFile(RobotTables):
         return tuple(math.radians(v) for v in degrees)
 
     def _shoe(self, kind: str) -> dict[str, Any]:
-        """Layouts, and the shoe's mass, thickness and place: what `plantar shoe` wrote, or what the file says."""
+        """Layouts, and the shoe's mass, thickness and place: what `plantar shoe` wrote, or what the file states."""
         exported = _exported_shoe(self._layout_file("left"))
         places = self._sole_frames(kind)
         return {
@@ -263,7 +263,7 @@ class _RobotFile(RobotTables):
         return {"torso_body": self.text("body", "torso"), "imu_site": imu_site}
 
     def _arms(self) -> Arms:
-        """Arms that it may wear: of a built-in machine, or of one whose file lies beside the robot's."""
+        """Arms that it may wear: of a built-in machine, or of one whose file lies next to the robot's."""
         machine = self.text("machine", "arms")
         if machine.endswith(".toml"):
             path = self.path.parent / machine

@@ -37,7 +37,7 @@ class RobotTables:
         Args:
             field: Its name.
             tables: Names of the table that holds it, and of those around it; none for the file itself.
-            default: What counts where it is left out; None lets nothing be left out.
+            default: What counts where it is left out; None: it may not be left out.
         """
         value = self.table(*tables).get(field, default)
         if not isinstance(value, str) or not value:
@@ -59,7 +59,7 @@ class RobotTables:
             table: Name of the table that holds it.
             low: Smallest allowed value.
             high: Largest allowed value.
-            default: What counts where it is left out; None lets nothing be left out.
+            default: What counts where it is left out; None: it may not be left out.
         """
         return _checked_number(self.table(table).get(field, default), field, self.place(table), low, high)
 

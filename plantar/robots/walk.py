@@ -20,7 +20,7 @@ from plantar.settings.schema import Settings, choice, number, share, switch, tab
 __all__ = ["CONTROL_PERIOD", "Control", "Walk", "walk_timing"]
 
 _SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
-"""Beats that the phases of a step last where neither scene nor robot says: 0.9 and 0.3 s on a leg of 0.6 m."""
+"""Beats that the phases of a step last where neither scene nor robot states them: 0.9 and 0.3 s on a leg of 0.6 m."""
 
 _QUICK_SINGLE, _QUICK_DOUBLE = 2.02, 0.404
 """Paces that they last where a velocity is commanded, which quick steps follow soon: 0.5 and 0.1 s on h1."""
@@ -189,7 +189,7 @@ class Control(Settings):
 
 
 CONTROL_PERIOD = Control().period
-"""Control period in s of a scene that does not say."""
+"""Control period in s of a scene that does not state one."""
 
 
 def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:

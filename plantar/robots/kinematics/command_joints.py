@@ -15,7 +15,7 @@ _YIELDING: dict[tuple[bool, bool], tuple[Side, ...]] = {
     (False, True): ("right",),
     (True, True): ("left", "right"),
 }
-"""Feet that miss their targets first, by whether the left and the right one carry nothing."""
+"""Feet that miss their targets first, by whether the left and the right one carry no load."""
 
 
 def follow_command(legs: LegModel, command: Command) -> float:

@@ -1,1 +1,1 @@
-"""What a robot's model says of how it stands and walks: found, written into a robot file, and checked."""
+"""How a robot stands and walks: found in its model, written into a robot file, and checked."""

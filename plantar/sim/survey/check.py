@@ -81,7 +81,7 @@ class RobotCheck:
 
     @property
     def holds(self) -> bool:
-        """Whether nothing would go wrong."""
+        """Whether all is within its limits."""
         return all(f.holds for f in self.findings)
 
     @property
@@ -173,20 +173,22 @@ class _Checked:
         spare = min(float(reach.spare.min()), math.pi)
         joint = self.names[int(reach.spare.argmin())]
         held = spare >= _SPARE or not holds
-        told = f"{joint} comes within {math.degrees(spare):.1f} degrees of its limit"
+        range_text = f"{joint} comes within {math.degrees(spare):.1f} degrees of its limit"
         if not held:
-            told += (
+            range_text += (
                 f"; allowed: {math.degrees(_SPARE):.1f} or more: another com_height or stance_width, or a wider range"
             )
         most = self._roll_most()
         roll, level = math.degrees(reach.roll), reach.roll <= most or not holds
-        said = f"a sole that carries alone is off level by {roll:.1f} degrees"
+        roll_text = f"a sole that carries alone is off level by {roll:.1f} degrees"
         if not level:
-            said += f"; allowed: {math.degrees(most):.3g}; legs with an ankle that rolls work, or a scene that stands"
+            roll_text += (
+                f"; allowed: {math.degrees(most):.3g}; legs with an ankle that rolls work, or a scene that stands"
+            )
         return [
-            Finding("level soles", round(roll, 2), round(math.degrees(most), 2), "degrees", level, said),
+            Finding("level soles", round(roll, 2), round(math.degrees(most), 2), "degrees", level, roll_text),
             Finding("reach", round(bend, 2), math.degrees(_BENT), "degrees", holds, text),
-            Finding("joint range", round(math.degrees(spare), 2), math.degrees(_SPARE), "degrees", held, told),
+            Finding("joint range", round(math.degrees(spare), 2), math.degrees(_SPARE), "degrees", held, range_text),
         ]
 
     def _roll_most(self) -> float:
@@ -252,25 +254,25 @@ class _Checked:
         least = LEAST_STIFFNESS * body.weight * robot.com_height
         k = int(stiffness.argmin())
         held = bool(stiffness[k] >= 0.95 * least)
-        told = f"{self.names[k]} has {stiffness[k]:g} N m/rad"
+        soft_text = f"{self.names[k]} has {stiffness[k]:g} N m/rad"
         if not held:
-            told += (
+            soft_text += (
                 f": too soft to stand on; allowed: {LEAST_STIFFNESS:g} m g h = {least:.3g} or more; {works[k]:g} works"
             )
         ratio = (damping + inertia.damping) / (2.0 * np.sqrt(stiffness * inertia.swing))
         d = int(ratio.argmin())
         calm = bool(ratio[d] >= _DAMPED)
-        said = f"{self.names[d]} is damped by {ratio[d]:.2f} of critical while it swings"
+        damping_text = f"{self.names[d]} is damped by {ratio[d]:.2f} of critical while it swings"
         if not calm:
-            said += f"; allowed: {_DAMPED:g} or more; damping = {damped[d]:g} works"
+            damping_text += f"; allowed: {_DAMPED:g} or more; damping = {damped[d]:g} works"
         return [
             Finding("stiff servos", round(float(swing[j]), 3), _CHATTERS, "rad", holds, text),
-            Finding("soft servos", float(stiffness[k]), round(least, 2), "N m/rad", held, told),
-            Finding("damping", round(float(ratio[d]), 3), _DAMPED, "1", calm, said),
+            Finding("soft servos", float(stiffness[k]), round(least, 2), "N m/rad", held, soft_text),
+            Finding("damping", round(float(ratio[d]), 3), _DAMPED, "1", calm, damping_text),
         ]
 
     def _soles(self, model: Any) -> list[Finding]:
-        """Whether each sole lies flat under its foot, and nothing of the foot is below the shoe's inner face."""
+        """Whether each sole lies flat under its foot, and no part of the foot is below the shoe's inner face."""
         if self.robot.kind == "biped":
             return []
         data = mujoco.MjData(model)
@@ -298,18 +300,20 @@ class _Checked:
             place = float((to_sole @ data.site_xpos[site])[2])
             inner = place + self.robot.shoe_thickness
             below = inner - (lowest if tilt <= _TILT else float(foot.surface[..., 2].min()))
-            told = f"the foot reaches {1e3 * below:.1f} mm below the shoe's inner face"
+            below_text = f"the foot reaches {1e3 * below:.1f} mm below the shoe's inner face"
             if below > _BELOW:
                 z = float(self.robot.sole_origins[side][2]) - below
-                told += (
+                below_text += (
                     f"; allowed: {1e3 * _BELOW:g}; origin with z = {z:.4f} works"
                     if tilt <= _TILT
                     else "; turn it first"
                 )
             elif below < -0.25 * self.body.sole_width:
-                told = f"the shoe hangs {-1e3 * below:.0f} mm below the foot"
+                below_text = f"the shoe hangs {-1e3 * below:.0f} mm below the foot"
             holds = -0.25 * self.body.sole_width <= below <= _BELOW
-            found.append(Finding(f"under the {side} foot", round(1e3 * below, 2), 1e3 * _BELOW, "mm", holds, told))
+            found.append(
+                Finding(f"under the {side} foot", round(1e3 * below, 2), 1e3 * _BELOW, "mm", holds, below_text)
+            )
         return found
 
     def _torques(self, reach: PlanReach) -> list[Finding]:

@@ -315,7 +315,7 @@ def _stepping(
 
 @dataclass(frozen=True)
 class _Tried:
-    """A walk that the legs reach, and what it costs beside the best there could be."""
+    """A walk that the legs reach, and what it costs against the best there could be."""
 
     cost: float
     paid: float

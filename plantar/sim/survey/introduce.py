@@ -140,17 +140,17 @@ def introduce(
         RobotError: If the file holds no robot that can walk on two legs; the message explains why.
         FootError: If a foot cannot carry taxels.
     """
-    tell = progress or (lambda fraction, text: None)
+    report = progress or (lambda fraction, text: None)
     path = Path(file)
     with TemporaryDirectory() as scratch:
-        tell(0.0, "reading the model")
+        report(0.0, "reading the model")
         survey = survey_model(path, Path(scratch))
         name = _NO_NAME.sub("_", survey.source.name).strip("_") or "robot"
         imu = None if survey.imu is None else (*survey.imu, "imu")
         upright = write_model_copy(survey.source.model, survey.legs, folder, name, survey.held, imu)
-    tell(0.1, "building the shoes")
+    report(0.1, "building the shoes")
     shoes = make_shoes(name, survey.soles["left"].triangles, folder, survey.mass)
-    tell(0.6, "fitting the walk")
+    report(0.6, "fitting the walk")
     draft = _draft(survey, shoes, folder, name, upright)
     fitted = _fitted(draft, survey.gains)
     write_text(folder / "robot.toml", robot_text(survey, fitted, shoes.notes, shoes.mass is not None))
@@ -159,7 +159,7 @@ def introduce(
     checked = check_robot(folder / "robot.toml", "flat")
     if not checked.holds:
         raise RobotError(f"{path}: no walk was found that the check allows; the best fails by {checked.failures[0]}")
-    tell(0.9, "drawing the robot")
+    report(0.9, "drawing the robot")
     draw_robot(robot, folder / "robot.png")
     files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
     return Introduced(robot, survey, fitted, shoes, tuple(files))

@@ -258,21 +258,21 @@ def _facing(tree: _Tree, up: Array, legs: list[Leg], where: str) -> tuple[Array,
     size = float(np.linalg.norm(apart))
     best = int(np.abs(apart).argmax())
     if size < 1e-6 or abs(apart[best]) < _AXES_APART * size:
-        raise RobotError(f"{where}: the feet stand neither along x nor along y beside each other; turn the model")
+        raise RobotError(f"{where}: the feet stand neither along x nor along y next to each other; turn the model")
     across = np.eye(3)[best]
     forward = np.cross(across, up)
-    votes, told = _forward_votes(tree, legs, forward, up)
+    votes, reason = _forward_votes(tree, legs, forward, up)
     if votes == 0.0 and abs(forward[0]) > 0.5:
         votes = float(forward[0])
     forward = forward if votes >= 0.0 else -forward
     rotation = np.stack([forward, np.cross(up, forward), up])
     if np.allclose(rotation, np.eye(3)):
         return np.eye(3), ()
-    return rotation, (f"the robot looks along the model's {_axis_name(forward)} axis ({told})",)
+    return rotation, (f"the robot looks along the model's {_axis_name(forward)} axis ({reason})",)
 
 
 def _forward_votes(tree: _Tree, legs: list[Leg], forward: Array, up: Array) -> tuple[float, str]:
-    """Above 0 where toes and knees say that a direction is forward, below 0 where they say the opposite."""
+    """Above 0 where toes and knees show that a direction is forward, below 0 for the opposite."""
     toes = knees = 0.0
     for leg in legs:
         foot = np.concatenate([tree.points[i] for i in tree.below(leg.foot) if i in tree.points]) @ forward

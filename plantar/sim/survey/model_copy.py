@@ -24,7 +24,7 @@ from plantar.sim.survey.surface_file import simplified, stl_bytes
 __all__ = ["MESH_FOLDER", "UPRIGHT", "add_rotors", "write_model_copy"]
 
 MESH_FOLDER = "meshes"
-"""Folder beside the copy that holds its meshes."""
+"""Folder of its meshes, next to the copy."""
 
 UPRIGHT = "upright"
 """Body that is put above one whose own axes are turned: x forward, y left, z up in the robot's posture."""
@@ -170,39 +170,42 @@ class _Copy:
     def _joint(self, element: Element, joint: int) -> None:
         model = self.model
         dof = int(model.jnt_dofadr[joint])
-        told = {"pos": _text(model.jnt_pos[joint]), "axis": _text(model.jnt_axis[joint])}
+        attributes = {"pos": _text(model.jnt_pos[joint]), "axis": _text(model.jnt_axis[joint])}
         if model.jnt_limited[joint]:
-            told["range"] = _text(model.jnt_range[joint])
+            attributes["range"] = _text(model.jnt_range[joint])
         if model.qpos0[model.jnt_qposadr[joint]]:
-            told["ref"] = f"{model.qpos0[model.jnt_qposadr[joint]]:.9g}"
+            attributes["ref"] = f"{model.qpos0[model.jnt_qposadr[joint]]:.9g}"
         for key, values in (
             ("damping", model.dof_damping),
             ("armature", model.dof_armature),
             ("frictionloss", model.dof_frictionloss),
         ):
             if values[dof]:
-                told[key] = f"{values[dof]:.9g}"
-        SubElement(element, "joint", {"name": model.joint(joint).name, **told})
+                attributes[key] = f"{values[dof]:.9g}"
+        SubElement(element, "joint", {"name": model.joint(joint).name, **attributes})
 
     def _geom(self, element: Element, geom: int) -> None:
         model = self.model
         kind, body = int(model.geom_type[geom]), int(model.geom_bodyid[geom])
-        told = {"pos": _text(model.geom_pos[geom]), "quat": _text(model.geom_quat[geom])}
+        attributes = {"pos": _text(model.geom_pos[geom]), "quat": _text(model.geom_quat[geom])}
         if kind == mujoco.mjtGeom.mjGEOM_MESH:
-            told |= {"type": "mesh", "mesh": Path(self._mesh(int(model.geom_dataid[geom]), body in self.feet)).stem}
+            attributes |= {
+                "type": "mesh",
+                "mesh": Path(self._mesh(int(model.geom_dataid[geom]), body in self.feet)).stem,
+            }
         elif kind in _TYPES:
             name, sizes = _TYPES[mujoco.mjtGeom(kind)]
-            told |= {"type": name, "size": _text(model.geom_size[geom][:sizes])}
+            attributes |= {"type": name, "size": _text(model.geom_size[geom][:sizes])}
         else:
             return
         collides = bool(model.geom_contype[geom] or model.geom_conaffinity[geom])
         drawn = (model.geom_contype == 0) & (model.geom_conaffinity == 0) & (model.geom_bodyid == body)
         if not collides or kind == mujoco.mjtGeom.mjGEOM_MESH:  # legs collide by simple shapes, soles by their boxes
-            told |= {"contype": "0", "conaffinity": "0"}
-        told["group"] = "3" if collides and drawn.any() else "1"
+            attributes |= {"contype": "0", "conaffinity": "0"}
+        attributes["group"] = "3" if collides and drawn.any() else "1"
         material = int(model.geom_matid[geom])
-        told["rgba"] = _text(model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom])
-        SubElement(element, "geom", told)
+        attributes["rgba"] = _text(model.mat_rgba[material] if material >= 0 else model.geom_rgba[geom])
+        SubElement(element, "geom", attributes)
 
     def _mesh(self, mesh: int, whole: bool) -> str:
         """File of a mesh as MuJoCo has it; one that is not of a foot loses what is not seen from afar."""

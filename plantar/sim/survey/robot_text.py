@@ -45,16 +45,16 @@ def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], we
     """
     robot = fitted.robot
     lines = [
-        *_told(
+        *_comment(
             f"Written by plantar robot from {survey.source.file.name}. SI units, angles in degrees. Change what you "
         ),
-        *_told("know better: plantar robot check ROBOT.toml measures what would go wrong."),
+        *_comment("know better: plantar robot check ROBOT.toml measures what would go wrong."),
         f"name = {json.dumps(robot.name)}",
         f"description = {json.dumps(robot.description)}",
         "",
         "[model]",
-        *_told("A copy of the model: one floating base, the legs' joints, all others held."),
-        *(line for note in (*survey.notes, *fitted.notes) for line in _told(f"Note: {note}.")),
+        *_comment("A copy of the model: one floating base, the legs' joints, all others held."),
+        *(line for note in (*survey.notes, *fitted.notes) for line in _comment(f"Note: {note}.")),
         'kind = "mjcf"',
         'file = "model.xml"',
         "",
@@ -75,7 +75,7 @@ def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], we
     return "\n".join(lines) + "\n"
 
 
-def _told(text: str) -> list[str]:
+def _comment(text: str) -> list[str]:
     """Comment lines of a text."""
     lines = [""]
     for word in text.split():
@@ -99,20 +99,22 @@ def _shoe(survey: Survey, robot: Robot, notes: Sequence[str], weighed: bool) -> 
     """Where the soles are."""
     left, right = (robot.sole_origins[s] for s in SIDES)
     turns = {s: roll_pitch_yaw(robot.sole_rotations[s]) for s in SIDES}
-    lines = ["[shoe]", *_told("; ".join((*survey.soles["left"].notes, *notes)) + ".")]
+    lines = ["[shoe]", *_comment("; ".join((*survey.soles["left"].notes, *notes)) + ".")]
     lines += [
         'layout = "layout_{side}.json"',
-        *_told("Sole frame in the left foot's body: below the ankle, at the shoe's outer face."),
+        *_comment("Sole frame in the left foot's body: below the ankle, at the shoe's outer face."),
         f"origin = {_places(left, 6)}",
     ]
     angle = math.degrees(float(np.linalg.norm(vector_from_rotation(robot.sole_rotations["left"]))))
     if angle > 1e-3:
-        lines += _told(f"The body's frame is turned by {angle:.1f} degrees against the sole: its roll, pitch and yaw.")
+        lines += _comment(
+            f"The body's frame is turned by {angle:.1f} degrees against the sole: its roll, pitch and yaw."
+        )
         lines.append(f"rotation = {_places(turns['left'], 4)}")
     unlike = not np.allclose(left * (1.0, -1.0, 1.0), right, atol=1e-4)
     twisted = not np.allclose(np.array(turns["left"]) * (-1.0, 1.0, -1.0), turns["right"], atol=1e-2)
     if unlike or twisted:
-        lines += _told("The right foot's body does not mirror the left one's.")
+        lines += _comment("The right foot's body does not mirror the left one's.")
     if unlike:
         lines.append(f"origin_right = {_places(right, 6)}")
     if twisted:
@@ -120,7 +122,7 @@ def _shoe(survey: Survey, robot: Robot, notes: Sequence[str], weighed: bool) -> 
     how = "of the shoe that was built" if weighed else "15.5 kg/m^2 of contact face, as built shoes have"
     lines.append(f"thickness = {robot.shoe_thickness:g}  # m, of the planned shoe")
     lines.append(f"mass = {robot.shoe_mass:.3g}  # kg, {how}")
-    lines += _told(
+    lines += _comment(
         "Damping ratio of the sole on the ground. A contact is as stiff as suits the foot, but carries the robot: with "
         "1 light feet rattle between the edges of what they stand on, at some 60 Hz."
     )
@@ -132,7 +134,7 @@ def _leg(robot: Robot, side: Side) -> list[str]:
     names = ", ".join(json.dumps(n) for n in robot.legs[side].joints)
     return [
         f"[legs.{side}]",
-        *_told("The hinges between the body and what stands lowest on this side, from hip to ankle."),
+        *_comment("The hinges between the body and what stands lowest on this side, from hip to ankle."),
         f"joints = [{names}]",
         f"foot_body = {json.dumps(robot.legs[side].foot_body)}",
     ]
@@ -148,7 +150,7 @@ def _torso(survey: Survey, robot: Robot) -> list[str]:
         imu = f"the IMU is where the model has its {survey.imu[0]} '{survey.imu[1]}'"
     return [
         "[torso]",
-        *_told(f"{upright}; {imu}."),
+        *_comment(f"{upright}; {imu}."),
         f"body = {json.dumps(robot.torso_body)}",
         f"imu_site = {json.dumps(robot.imu_site)}",
     ]
@@ -157,7 +159,7 @@ def _torso(survey: Survey, robot: Robot) -> list[str]:
 def _posture(robot: Robot) -> list[str]:
     return [
         "[posture]",
-        *_told("Standing with com_height and stance_width, by inverse kinematics."),
+        *_comment("Standing with com_height and stance_width, by inverse kinematics."),
         *(f"{s} = {_places([math.degrees(v) for v in robot.posture[s]], 2)}" for s in SIDES),
     ]
 
@@ -168,7 +170,7 @@ def _gait(fitted: FittedGait) -> list[str]:
     pace = robot.single_support / math.sqrt(robot.com_height / GRAVITY)
     return [
         "[gait]",
-        *_told(
+        *_comment(
             f"The greatest height at which motors hold and no knee bends by less than {math.degrees(KNEE_LEAST):.0f} "
             f"degrees over steps of {STEP_SHARE * body.leg:.3f} m, a third of the leg; the straightest has "
             f"{math.degrees(reach.knee):.0f}."
@@ -176,12 +178,12 @@ def _gait(fitted: FittedGait) -> list[str]:
         f"com_height = {robot.com_height:g}  # m",
         f"stance_width = {robot.stance_width:g}  # m, of the ankles: as in the model, or wider to keep the soles apart",
         f"leg_length = {body.leg:g}  # m, {leg}",
-        *_told("How much lower all joints keep their range and three quarters of their torque."),
+        *_comment("How much lower all joints keep their range and three quarters of their torque."),
         f"largest_crouch = {robot.largest_crouch:g}  # m",
         f"largest_crouch_partial = {robot.largest_crouch_partial:g}  # m",
         f"trunk_lean = {robot.trunk_lean:g}  # rad/m, 0.48 in leg lengths as h1",
         *_loaded(robot),
-        *_told(
+        *_comment(
             f"This pace is {pace:.2f} sqrt(com_height / g)"
             + (
                 "."
@@ -192,7 +194,7 @@ def _gait(fitted: FittedGait) -> list[str]:
         f"single_support = {robot.single_support:g}  # s",
         f"double_support = {robot.double_support:g}  # s, {robot.double_support / robot.single_support:.2f} of it",
         *_approaching(robot),
-        *_told(
+        *_comment(
             "Beats of a pace, so that quick steps take "
             + ("its own time." if robot.rocks else f"{100.0 * QUICK_HELD:.0f} % of the motors' torque at most.")
         ),
@@ -204,21 +206,21 @@ def _approaching(robot: Robot) -> list[str]:
     """The time of a swing that comes down slowly, where the motors need more than the usual one."""
     if not robot.approach_support:
         return []
-    told = _told(
+    lines = _comment(
         "A swing that comes down slowly onto unknown ground has to be there in three fifths of its time; with so much "
         f"of it that takes {100.0 * QUICK_HELD:.0f} % of the motors' torque at most."
     )
-    return [*told, f"approach_support = {robot.approach_support:g}  # s"]
+    return [*lines, f"approach_support = {robot.approach_support:g}  # s"]
 
 
 def _loaded(robot: Robot) -> list[str]:
     """Where soles are loaded, and whether the robot rocks, where that is not as usual."""
     lines = []
     if robot.ankle_reach < 1.0:
-        lines += _told("The ankles cannot bear the weight on the toes; no farther from them is the sole loaded:")
+        lines += _comment("The ankles cannot bear the weight on the toes; no farther from them is the sole loaded:")
         lines.append(f"ankle_reach = {robot.ankle_reach:g}  # m")
     if robot.rocks:
-        lines += _told(
+        lines += _comment(
             f"Without ankle roll it rocks from foot to foot, whatever a scene asks for, so quickly that its legs lean "
             f"by {math.degrees(LEAN_MOST):g} degrees."
         )
@@ -232,22 +234,22 @@ def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
     hertz = np.sqrt(np.array(robot.stiffness) / inertia.swing) / (2.0 * math.pi)
     lines = [
         "[servo]",
-        *_told(
+        *_comment(
             f"A value a joint. Stiffness: {STIFFNESS:g} m g h = {wanted:.3g} N m/rad, less for light joints, which "
-            f"shall swing by {SAMPLED:g} rad at most in a control period of {1e3 * CONTROL_PERIOD:g} ms. Inertia about "
+            f"must swing by {SAMPLED:g} rad at most in a control period of {1e3 * CONTROL_PERIOD:g} ms. Inertia about "
             f"each joint while it swings: {_numbers(inertia.swing, 2)} kg m^2, while it carries: "
             f"{_numbers(inertia.stance, 2)}; bandwidth while it swings: {_numbers(hertz, 2)} Hz. Damping: critical for "
             "what swings or more, with the model's own."
         ),
     ]
     if fitted.rotors.any():
-        lines += _told(
+        lines += _comment(
             f"The model states no rotor inertia (armature). Assumed in model.xml: {_numbers(fitted.rotors, 2)} kg m^2, "
             f"without which the least stiffness to stand on would swing a joint by more than {SAMPLED:g} rad in that "
             "time, and it would chatter on the ground. Put there what the motors have, times the gear ratio squared."
         )
     elif not inertia.armature.any():
-        lines += _told(
+        lines += _comment(
             "The model states no rotor inertia (armature): what swings is lighter than the robot's joints are."
         )
     lines += [
@@ -257,22 +259,22 @@ def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
     if robot.effort_limits:
         missing = [n for n, e in zip(survey.joint_names("left"), survey.efforts, strict=True) if e is None]
         how = f" but for {', '.join(missing)}: 1e5 stands for none" if missing else ""
-        lines += _told(f"Of motors or joints, as the model states them{how}.")
+        lines += _comment(f"Of motors or joints, as the model states them{how}.")
         lines.append(f"effort_limits = {_numbers(robot.effort_limits, 4)}  # N m")
     else:
         needed = _numbers(fitted.reach.torque, 2)
-        lines += _told(f"The model states no torque limits, so there are none; level steps need {needed} N m.")
+        lines += _comment(f"The model states no torque limits, so there are none; level steps need {needed} N m.")
     if robot.velocity_limits:
         lines.append(f"velocity_limits = {_numbers(robot.velocity_limits, 4)}  # rad/s, as the model states them")
     else:
-        lines += _told("The model states no usable speed limits, so there are none.")
+        lines += _comment("The model states no usable speed limits, so there are none.")
     return lines
 
 
 def _balance(fitted: FittedGait) -> list[str]:
     return [
         "[balance]",
-        *_told(f"The law and gains of h1, in the beat sqrt(leg / g) = {fitted.body.beat:.3f} s of these legs."),
+        *_comment(f"The law and gains of h1, in the beat sqrt(leg / g) = {fitted.body.beat:.3f} s of these legs."),
         *(f"{key} = {json.dumps(value)}" for key, value in fitted.robot.balance.items()),
     ]
 
@@ -281,11 +283,11 @@ def _rocking() -> list[str]:
     """How the attitude of a robot that rocks is estimated; see `plantar.gait.estimate.estimator`."""
     return [
         "[estimator]",
-        *_told("Feet that come down on an edge turn, which only the gyro shows: they correct the heading slowly."),
+        *_comment("Feet that come down on an edge turn, which only the gyro shows: they correct the heading slowly."),
         "yaw = 0.1  # 1/s",
         "",
         "[identification]",
-        *_told("Soles that carry turn as the robot rocks: no bias and no offset is to be told from that."),
+        *_comment("Soles that carry turn as the robot rocks: that shows no bias and no offset."),
         "gyro = false",
         "encoders = false",
         "com = false",
@@ -296,16 +298,16 @@ def _landing() -> list[str]:
     """How a foot lands; see `plantar.gait.feet.foot_motion`."""
     return [
         "[landing]",
-        *_told(
+        *_comment(
             "Less than the 0.237 that h1 presses a landed foot with: what the press lowers the foot by stays in legs "
             "whose servos give, and the robot ends leaning by it (G1 by 0.67 degrees, with this by 0.4)."
         ),
         'press_force = "0.15 weight"',
-        *_told(
+        *_comment(
             "A swing is ahead of its command where its servos brake it, so each foothold is found a little higher than "
             "the one before. Expected where the last one was, and not at their average, the ground is not hit hard."
         ),
         "ground_share = 1.0",
-        *_told("What a foot was pressed too far, or not far enough, is given back once the robot stands."),
+        *_comment("What a foot was pressed too far, or not far enough, is given back once the robot stands."),
         'relax_time = "2 beat"',
     ]

@@ -1,4 +1,4 @@
-"""What a robot's model says of its legs, feet, torso and motors, before anything is decided."""
+"""What a robot's model states of its legs, feet, torso and motors, before anything is decided."""
 
 from __future__ import annotations
 
@@ -80,13 +80,13 @@ def survey_model(file: Path, folder: Path) -> Survey:
         raise RobotError("; ".join([str(error), *(n for n in source.notes if n.startswith("held, "))])) from None
     _refuse_odd_legs(source, legs)
     soles = {s: find_sole(model, data, legs.by_side[s], legs.rotation, str(file)) for s in SIDES}
-    held, told = _held(source, legs)
+    held, held_notes = _held(source, legs)
     imu = next((i for i in source.imus if _on_body(model, legs, i)), None)
     names = {s: [model.joint(j).name for j in legs.by_side[s].joints] for s in SIDES}
     efforts = tuple(_lesser(source.efforts, pair) for pair in zip(names["left"], names["right"], strict=True))
     speeds = [_lesser(source.speeds, pair) for pair in zip(names["left"], names["right"], strict=True)]
     kept = [v for v in speeds if v is not None and _SPEEDS[0] <= v <= _SPEEDS[1]]
-    notes = [*source.notes, *legs.notes, *told, *_coupled_notes(source, names), *_loop_notes(source, legs)]
+    notes = [*source.notes, *legs.notes, *held_notes, *_coupled_notes(source, names), *_loop_notes(source, legs)]
     for side in SIDES:
         if legs.by_side[side].toes:
             notes.append(f"{', '.join(legs.by_side[side].toes)}: below the {side} foot, held (toes)")
@@ -117,7 +117,7 @@ def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
         return body > 0 and (body in moved or on_leg(int(model.body_parentid[body])))
 
     return [
-        f"a leg is a closed chain: '{a}' and '{b}' are tied together beside its joints; here each joint of the leg has "
+        f"a leg is a closed chain: '{a}' and '{b}' are tied together apart from its joints; here each joint has "
         "a motor of its own, and what closes the loop is rigid"
         for a, b in source.loops
         if on_leg(model.body(a).id) or on_leg(model.body(b).id)
@@ -175,7 +175,7 @@ def _coupled_notes(source: ModelSource, names: Mapping[Side, list[str]]) -> list
 
 
 def _unlike(soles: Mapping[Side, Sole]) -> list[str]:
-    """What is to be said of feet that do not mirror each other."""
+    """What a user should know of feet that do not mirror each other."""
     left, right = soles["left"], soles["right"]
     mirrored = np.array([[right.low[0], -right.high[1]], [right.high[0], -right.low[1]]])
     gap: NDArray[np.float64] = np.abs(mirrored - [left.low, left.high])
