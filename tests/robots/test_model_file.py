@@ -113,7 +113,7 @@ def test_it_walks(own: Path) -> None:
         ('foot_body = "left_foot"', 'foot_body = "left_hoof"', ("left_hoof", "left_foot")),
         ('body = "base"', 'body = "trunk"', ("trunk", "base")),
         ("origin = [0.0, 0.0, -0.129]\n", "", ("origin", "3")),
-        ('"left_hip_pitch", "left_knee", ', "", ("[legs.left]", "names 4", "5 or more")),
+        ('"left_hip_roll", "left_hip_pitch", "left_knee", ', "", ("[legs.left]", "names 3", "4 or more")),
         ('"left_knee", ', "", ("[legs]", "the left leg has 5 joints")),
         ('"left_knee"', '"left_hip_yaw"', ("[legs.left]", "left_hip_yaw", "more than once")),
         ('"right_knee"', '"left_knee"', ("both legs", "left_knee")),

@@ -90,6 +90,7 @@ _OTHER_PACES = (0.8, 1.25, 0.64, 1.6)
 _TRIED_LEANS = (1.0, 1.6)
 _TRIED_STANCES = (0.3, 0.24)  # of the leg
 _HIGHEST, _LOWEST, _LOWER = 0.15, 0.45, 0.04  # of the leg, above and below the posture with knees of 40 degrees
+_WORSE = 3  # heights in a row that cost more, below which no others are looked at
 _LEAST_KNEE = math.radians(10.0)
 _GOOD = 0.3
 """Cost of a walk from which no other one is looked for: level steps at h1's pace with 75 % of the torque have 0.15."""
@@ -346,10 +347,17 @@ def _least(
     best: _Tried | None, robot: Robot, legs: LegModel, body: BodyScale, heights: Array, paid: float
 ) -> _Tried | None:
     """The walk that costs least: the one that was found, or one at another height in m."""
+    own, worse = math.inf, 0
     for height in heights.tolist():
         tried = _tried(robot, legs, body, height, paid)
-        if tried is not None and (best is None or tried.cost < best.cost):
+        if tried is None:
+            continue
+        worse = worse + 1 if tried.cost > own else 0
+        own = min(own, tried.cost)
+        if best is None or tried.cost < best.cost:
             best = tried
+        if worse == _WORSE:
+            break
     return best
 
 

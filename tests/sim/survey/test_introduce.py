@@ -186,6 +186,7 @@ def test_the_example_introduces_a_robot_draws_it_and_lets_it_walk(tmp_path: Path
     )
     assert done.returncode == 0, done.stderr
     assert "4 of 4 steps" in done.stdout
+    assert (tmp_path / "out" / "robot.png").stat().st_size > 10_000
 
 
 def test_another_robots_folder_is_refused(made: tuple[Truth, Introduced, Path], tmp_path: Path) -> None:
@@ -194,7 +195,6 @@ def test_another_robots_folder_is_refused(made: tuple[Truth, Introduced, Path], 
     with pytest.raises(InputError, match="holds another robot"):
         _refuse_other(folder, "another: 3 kg, 6 joints a leg")
     _refuse_other(tmp_path, "the first")
-    assert (tmp_path / "out" / "robot.png").stat().st_size > 10_000
 
 
 def test_the_command_chooses_opengl_without_a_display(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
