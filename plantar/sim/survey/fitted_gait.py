@@ -72,6 +72,7 @@ all ticks and hit the ground with 6 body weights; at 0.85 of it that was 1 %."""
 
 _OWN_STIFFNESS = 6.0  # over m g h, from which the model's own servos are kept: half of what h1 has
 _SEED_BEND = math.radians(40.0)
+_TURNING = 5  # joints of a leg from which it turns its foot
 _SPARE = math.radians(1.0)  # of a joint's range that a walk leaves unused
 _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
 _MISSED_CROUCHING = 0.01  # m
@@ -168,6 +169,8 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
             f"without ankle roll soles come off level by up to {math.degrees(reach.roll):.0f} degrees: the robot rocks "
             "from foot to foot in short quick steps, and cannot wait on one of them"
         )
+    if len(robot.posture["left"]) < _TURNING:
+        notes.append("legs of four joints do not turn the feet: the robot walks straight ahead")
     settled(robot, legs, standing_feet(robot.stance_width), height)
     configuration = legs.configuration
     robot = replace(robot, posture=_angles(robot, legs, configuration))

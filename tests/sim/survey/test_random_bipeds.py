@@ -9,7 +9,7 @@ import pytest
 
 from plantar.sim.survey.survey import survey_model
 
-from .random_biped import random_biped
+from .random_biped import X, Y, random_biped
 
 SEEDS = range(60)
 
@@ -35,6 +35,14 @@ def test_a_biped_that_nobody_has_seen_is_found(seed: int, tmp_path: Path) -> Non
         np.testing.assert_allclose(0.5 * (sole.low + sole.high), local[:2], atol=2e-3)
         assert (sole.high - sole.low)[0] == pytest.approx(truth.size[0], abs=0.12 * truth.size[0])
         assert (sole.high - sole.low)[1] == pytest.approx(truth.size[1], abs=0.3 * truth.size[1])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_legs_of_four_joints_are_found(seed: int, tmp_path: Path) -> None:
+    truth = random_biped(seed, tmp_path, (X, Y, Y, Y))
+    found = survey_model(truth.file, tmp_path)
+    assert {s: found.joint_names(s) for s in ("left", "right")} == truth.joints
+    assert len(truth.joints["left"]) == 4
 
 
 def _origin(model, body: int) -> np.ndarray:
