@@ -292,11 +292,8 @@ def _stepping(
         for other, changed in _others(robot, body):
             if best is None or paid + changed < best.cost > _GOOD:
                 best = _least(best, other, legs, shorter, heights, paid + changed)
-        for pace in () if robot.rocks or best is None else _OTHER_PACES:
-            paid = best.paid + _OTHER_SPEED * abs(math.log2(pace / best.robot.pace))
-            if paid < best.cost > _GOOD:
-                best = _least(best, replace(best.robot, pace=pace), legs, shorter, heights, paid)
-        best = best and _refined(best, legs)
+        if best is not None and best.body.leg == shorter.leg:
+            best = _refined(best if robot.rocks else _other_paces(best, legs, heights), legs)
     if best is None:
         raise RobotError(
             f"robot '{robot.name}': no height of its CoM, pace or stance lets it take steps of "
@@ -315,6 +312,16 @@ def _stepping(
             "balance with"
         )
     return replace(best.robot, leg_length=best.body.leg if best.body.leg < body.leg else 0.0), best.body, best.reach
+
+
+def _other_paces(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
+    """The walk at another pace that costs less, if there is one."""
+    best = found
+    for pace in _OTHER_PACES:
+        paid = found.paid + _OTHER_SPEED * abs(math.log2(pace))
+        if paid < best.cost > _GOOD:
+            best = _least(best, replace(found.robot, pace=pace), legs, found.body, heights, paid) or best
+    return best
 
 
 @dataclass(frozen=True)

@@ -211,7 +211,8 @@ def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
     up = _above_sole(tree.points[chain[-1]], up)
     floor = float((tree.points[chain[-1]] @ up).min())
     last = len(chain) - 1
-    while last > 0 and len(tree.hinges(chain[:last])) >= LEAST_JOINTS and chain[last - 1] in tree.points:
+    # Of a leg of five hinges the last one is its ankle, and a shank that reaches far down is no foot.
+    while last > 0 and len(tree.hinges(chain[:last])) > LEAST_JOINTS and chain[last - 1] in tree.points:
         anchor = float(data.xanchor[tree.joints(chain[last - 1])[-1]] @ up)
         if float((tree.points[chain[last - 1]] @ up).min()) - floor > _NEAR_FLOOR * (anchor - floor):
             break
