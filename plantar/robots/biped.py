@@ -71,6 +71,8 @@ class BipedParameters:
     def from_table(cls, table: Mapping[str, Any], where: str) -> BipedParameters:
         """Read the `[biped]` table of a robot file.
 
+        Takes `where`; returns the checked dimensions.
+
         Raises:
             RobotError: If a value is missing, unknown or of the wrong length.
         """

@@ -114,6 +114,8 @@ def load_controller(
 ) -> RobotController:
     """Load the walking controller of a robot.
 
+    Returns the controller, before its first tick.
+
     Args:
         robot: A built-in name (`plantar list robots`) or the path of a robot TOML.
         tables: Settings as the tables of a scene file: "walk" (steps or velocity), "control" (which parts run) and

@@ -35,7 +35,10 @@ _KINDS = tuple(
 
 
 def add_leg_shapes(spec: Any, robot: Robot, own: Collection[str] = ()) -> None:
-    """Give both legs shapes that collide with the other leg's."""
+    """Give both legs shapes that collide with the other leg's.
+
+    Takes `spec`, `robot` and `own`.
+    """
     for side in SIDES:
         chain = _links(spec, robot, side)
         for body, child in zip(chain, [*chain[1:], None], strict=True):
@@ -92,6 +95,8 @@ def keep_apart(model: Any, robot: Robot) -> None:
     """Shrink the legs' shapes until both legs are clear of each other in the robot's posture.
 
     Feet stay as they are: how far apart they stand is the scene's. A shape that does not come clear collides no more.
+
+    Takes `model`.
     """
     data = mujoco.MjData(model)
     for side in SIDES:

@@ -34,6 +34,8 @@ class RobotTables:
     def text(self, field: str, *tables: str, default: str | None = None) -> str:
         """A text that is not empty.
 
+        Returns the text.
+
         Args:
             field: Its name.
             tables: Names of the table that holds it, and of those around it; none for the file itself.
@@ -45,7 +47,10 @@ class RobotTables:
         return value
 
     def switch(self, field: str, table: str) -> bool:
-        """A value of a table that is true or false, and false where it is left out."""
+        """A value of a table that is true or false, and false where it is left out.
+
+        Takes `field`; returns the value.
+        """
         value = self.table(table).get(field, False)
         if not isinstance(value, bool):
             raise RobotError(f"{self.place(table)}: '{field}' is {value!r}; allowed: true, false")
@@ -53,6 +58,8 @@ class RobotTables:
 
     def number(self, field: str, table: str, low: float, high: float, default: float | None = None) -> float:
         """A number of a table within limits.
+
+        Returns the number.
 
         Args:
             field: Its name.
@@ -64,14 +71,20 @@ class RobotTables:
         return _checked_number(self.table(table).get(field, default), field, self.place(table), low, high)
 
     def numbers(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:
-        """So many numbers of a table within limits."""
+        """So many numbers of a table within limits.
+
+        Takes `field`, `count`, `low` and `high`; returns the numbers.
+        """
         value = self.table(table).get(field)
         if not isinstance(value, list) or len(value) != count:
             raise RobotError(f"{self.place(table)}: '{field}' is {value!r}; allowed: a list of {count} numbers")
         return tuple(_checked_number(v, field, self.place(table), low, high) for v in value)
 
     def number_each(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:
-        """So many numbers of a table within limits, or one that counts for all of them."""
+        """So many numbers of a table within limits, or one that counts for all of them.
+
+        Takes `field`, `count`, `low` and `high`; returns the numbers.
+        """
         if isinstance(self.table(table).get(field), list):
             return self.numbers(field, table, count, low, high)
         return (self.number(field, table, low, high),) * count

@@ -19,6 +19,8 @@ def start_of_walk(
 ) -> Start:
     """The start of a walk, for its controller.
 
+    Returns the start.
+
     Args:
         walk: The gait, for the same body (`Walk.for_body`).
         robot: The robot.

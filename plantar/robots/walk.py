@@ -196,6 +196,8 @@ def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
     """Durations of a walk's phases: the scene's, else the robot's, else the same number of beats for every robot.
 
     A robot that rocks from foot to foot has its own, and begins and ends as quickly.
+
+    Takes `body`; returns the durations.
     """
     stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
     if walk.commanded and not robot.rocks:

@@ -14,7 +14,10 @@ __all__ = ["ankle_sensors"]
 
 
 def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
-    """Where each ankle's force-torque sensor sits and what hangs below it."""
+    """Where each ankle's force-torque sensor sits and what hangs below it.
+
+    Takes `model` and `robot`; returns the sensors, for the controller.
+    """
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)

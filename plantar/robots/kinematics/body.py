@@ -53,7 +53,10 @@ def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
 
 
 def hanging_on(model: Any, body: int) -> list[int]:
-    """A body and all that hang on it, in the model's order, in which none comes before what it hangs on."""
+    """A body and all that hang on it, in the model's order, in which none comes before what it hangs on.
+
+    Returns numbers of the bodies.
+    """
     found = [body]
     for part in range(body + 1, model.nbody):
         if int(model.body_parentid[part]) in found:
@@ -62,7 +65,10 @@ def hanging_on(model: Any, body: int) -> list[int]:
 
 
 def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:
-    """State of a model whose legs are in the robot's posture, with kinematics."""
+    """State of a model whose legs are in the robot's posture, with kinematics.
+
+    Returns the state.
+    """
     data = mujoco.MjData(model)
     for side in SIDES:
         for name, angle in zip(robot.legs[side].joints, robot.posture[side], strict=True):
@@ -72,12 +78,18 @@ def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:
 
 
 def pitching_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
-    """Joints of a leg that turn about the torso's y axis more than about another: hip, knee and ankle."""
+    """Joints of a leg that turn about the torso's y axis more than about another: hip, knee and ankle.
+
+    Takes `robot`, `side`, `model` and `data`; returns their ids from hip to ankle.
+    """
     return _turning_joints(robot, side, model, data, 1)
 
 
 def rolling_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
-    """Joints of a leg that turn about the torso's x axis more than about another: hip and, if there is one, ankle."""
+    """Joints of a leg that turn about the torso's x axis more than about another: hip and, if there is one, ankle.
+
+    Takes `robot`, `side`, `model` and `data`; returns their ids from hip to ankle.
+    """
     return _turning_joints(robot, side, model, data, 0)
 
 

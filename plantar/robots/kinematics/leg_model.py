@@ -192,6 +192,8 @@ class LegModel:
     ) -> float:
         """What `solve` does, for a caller who reads `joints` at once.
 
+        Takes `com`, `rotation_torso`, `positions`, `rotations`, `iterations`, `yielding` and `largest_step`.
+
         Returns:
             The largest task error before the last step, as of `solve`.
         """
@@ -224,7 +226,10 @@ class LegModel:
         return self.torques.copy()
 
     def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
-        """What `static_torques` does, for a caller who reads `torques` at once."""
+        """What `static_torques` does, for a caller who reads `torques` at once.
+
+        Takes `forces` and `points`.
+        """
         self.inverse.place()
         load = self._load
         load.weigh()

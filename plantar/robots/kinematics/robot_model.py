@@ -58,6 +58,8 @@ def robot_spec(robot: Robot) -> Any:
 def compiled_model(spec: Any, robot: Robot) -> Any:
     """Compile a model.
 
+    Takes `spec` and `robot`; returns the `mujoco.MjModel`.
+
     Raises:
         RobotError: If MuJoCo refuses it.
     """
@@ -70,6 +72,8 @@ def compiled_model(spec: Any, robot: Robot) -> Any:
 
 def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
     """Kinematic model of the robot alone, which its controller uses.
+
+    Returns the model.
 
     Args:
         robot: The robot.

@@ -26,6 +26,8 @@ Triangles = NDArray[np.float64]
 def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]]:
     """Geoms of some bodies.
 
+    Takes `model`.
+
     Returns:
         Ids of those that are only drawn, without markers, and of those that collide; planes are neither.
     """
@@ -40,7 +42,10 @@ def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]
 
 
 def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
-    """Triangles (n, 3, 3) of a geom in the world in m."""
+    """Triangles (n, 3, 3) of a geom in the world in m.
+
+    Takes `model` and `data`; returns the triangles; round shapes are faceted.
+    """
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
         mesh = int(model.geom_dataid[geom])

@@ -104,6 +104,9 @@ class RobotCheck:
 def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
     """Measure what would go wrong with a robot.
 
+    Takes a robot `file`, or the name of a built-in robot, and the `scene` whose plan it has to walk; returns what was
+    measured.
+
     Raises:
         RobotError: If the robot cannot be read or simulated.
         SceneError: If the scene cannot be read.

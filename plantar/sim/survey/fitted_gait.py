@@ -129,6 +129,8 @@ class FittedGait:
 def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int = 6) -> Walked:
     """Level steps of a third of a leg at the robot's own pace.
 
+    Returns the walk.
+
     Args:
         robot: The robot, which leans its trunk as scenes ask for it.
         body: How large it is.
@@ -142,6 +144,8 @@ def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int =
 
 def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Array | None = None) -> FittedGait:
     """Fit a walk's numbers to a robot whose names, soles and limits are known.
+
+    Returns the robot with them.
 
     Args:
         draft: The robot; its posture, gait and gains are replaced.
@@ -247,6 +251,8 @@ def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
 
 def stance_width(robot: Robot, legs: LegModel) -> float:
     """Distance in m of the feet side by side: as the model has them, or so far that the soles keep a gap.
+
+    Takes `robot` and `legs`.
 
     Returns:
         The distance of the sole frames' origins.

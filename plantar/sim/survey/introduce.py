@@ -136,6 +136,9 @@ def introduce(
 ) -> Introduced:
     """Write a robot file, a copy of the model, shoes and a picture for a robot.
 
+    Takes the model's `file` (MJCF or URDF), an existing `folder`, what builds its shoes (`make_shoes`), and `progress`,
+    which receives fraction and text; returns the robot, and what it rests on.
+
     Raises:
         RobotError: If the file holds no robot that can walk on two legs; the message explains why.
         FootError: If a foot cannot carry taxels.

@@ -36,6 +36,8 @@ class JointInertia:
 def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) -> JointInertia:
     """Measure the inertia about the joints of the legs.
 
+    Returns the inertia about each joint.
+
     Args:
         robot: The robot.
         model: The robot alone as it is simulated, with its shoes.

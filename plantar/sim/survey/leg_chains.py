@@ -67,6 +67,8 @@ class Legs:
 def find_legs(model: Any, data: Any, where: str) -> Legs:
     """Find the legs.
 
+    Takes `model`, `data` and `where`; returns the legs.
+
     Raises:
         RobotError: If there are not just two legs of four hinges or more; the message shows what there is.
     """

@@ -49,6 +49,8 @@ def write_model_copy(
 ) -> str:
     """Write the copy and its meshes.
 
+    Returns name of the body that is kept upright.
+
     Args:
         model: The compiled model with all of its joints.
         legs: Its legs.

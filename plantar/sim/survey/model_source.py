@@ -88,6 +88,8 @@ class _Stated:
 def read_model(file: Path, folder: Path) -> ModelSource:
     """Read a robot's model.
 
+    Returns the model.
+
     Args:
         file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file, or a scene that includes the robot.
         folder: A folder for meshes that have to be converted.

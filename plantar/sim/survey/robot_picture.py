@@ -27,6 +27,8 @@ _COLOURS = ((0.85, 0.2, 0.2, 1.0), (0.2, 0.65, 0.25, 1.0), (0.2, 0.35, 0.85, 1.0
 def draw_robot(robot: Robot, path: Path) -> Path:
     """Draw the robot in its posture; red, green and blue lines are x, y and z of each sole's frame.
 
+    Takes `path`; returns the path.
+
     Raises:
         InputError: If nothing can be rendered here; the message names the cause.
     """

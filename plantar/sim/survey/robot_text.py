@@ -40,6 +40,8 @@ def roll_pitch_yaw(rotation: NDArray[np.float64]) -> list[float]:
 def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], weighed: bool) -> str:
     """Text of a robot file.
 
+    Takes `survey`, `fitted`, `shoe_notes` and `weighed`.
+
     Returns:
         TOML that `plantar.robots.load_robot` reads.
     """

@@ -36,12 +36,17 @@ _SHORTEST = 0.2  # s: the least that the timing of a walk allows
 
 
 def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
-    """Whether a leg has two joints that roll, in hip and ankle, so that it leans while its sole stays level."""
+    """Whether a leg has two joints that roll, in hip and ankle, so that it leans while its sole stays level.
+
+    Takes `robot`, `legs` and `side`; returns whether it has.
+    """
     return len(rolling_joints(robot, side, legs.model, stood(robot, legs.model))) >= 2
 
 
 def rocking(robot: Robot, com_height: float) -> Robot:
     """The robot with the time of a step in which its legs lean little.
+
+    Returns the robot.
 
     Args:
         robot: The robot.

@@ -100,6 +100,8 @@ def rested(model: Any, data: Any, parts: Collection[int], rotation: Array) -> Re
 def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> Sole:
     """Find the sole of a foot.
 
+    Returns the sole.
+
     Args:
         model: The model.
         data: Its state in the posture of the file.

@@ -28,6 +28,8 @@ Triangles = NDArray[np.float64]
 def mesh_for_mujoco(path: Path, folder: Path) -> Path | None:
     """A mesh file that MuJoCo reads.
 
+    Takes `path` and `folder`.
+
     Returns:
         The file itself, a converted one, or None where it is missing or of no kind that can be read.
     """
@@ -66,6 +68,8 @@ def stl_bytes(triangles: Triangles) -> bytes:
 
 def simplified(triangles: Triangles, cells: int) -> Triangles:
     """Triangles (n, 3, 3) with corners drawn together on a lattice, as fine as so many cells along the longest side.
+
+    Takes `triangles`; returns fewer triangles that look alike.
 
     Example:
         >>> fine = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1e-3, 0, 0], [0, 1e-3, 0]]], dtype=float)

@@ -66,6 +66,8 @@ class Survey:
 def survey_model(file: Path, folder: Path) -> Survey:
     """Find legs, soles, IMU and limits of a robot.
 
+    Takes `folder`; returns what was found.
+
     Raises:
         RobotError: If the file cannot be read, or holds no robot on two legs.
     """

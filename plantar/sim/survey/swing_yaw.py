@@ -30,7 +30,10 @@ _PEAK = 10.0 / math.sqrt(3.0)
 
 
 def swinging_mass(robot: Robot, legs: LegModel) -> float:
-    """Mass in kg that goes as far forward as the foot: each part of a leg by how far below the hip it is."""
+    """Mass in kg that goes as far forward as the foot: each part of a leg by how far below the hip it is.
+
+    Takes `robot` and `legs`; returns the mass.
+    """
     model, data = legs.model, stood(robot, legs.model)
     hip = int(model.joint(robot.legs["left"].joints[0]).bodyid[0])
     parts = hanging_on(model, hip)
@@ -41,6 +44,8 @@ def swinging_mass(robot: Robot, legs: LegModel) -> float:
 
 def least_single_support(robot: Robot, legs: LegModel, body: BodyScale, step: float) -> float:
     """The least t_ss in s at which friction holds the standing sole with plenty to spare.
+
+    Returns the time, in hundredths of a second.
 
     Args:
         robot: The robot, with its stance and layouts.

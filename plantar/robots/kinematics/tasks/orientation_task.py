@@ -42,6 +42,8 @@ class OrientationTask(Task):
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
         """A kernel that writes both at once (see `Task.rows_for`).
 
+        Returns the kernel.
+
         Args:
             error: Receives the error (rows,).
             jacobian: Receives the Jacobian (rows, nv).

@@ -45,6 +45,8 @@ class PoseTask(Task):
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
         """A kernel that writes both at once (see `Task.rows_for`).
 
+        Returns the kernel.
+
         Args:
             error: Receives the error (rows,).
             jacobian: Receives the Jacobian (rows, nv).

@@ -36,4 +36,7 @@ class RollingPoseTask(PoseTask):
         out[3:] = self._rotation.T[1:] @ self._turns
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> None:
-        """None: this task has no kernel."""
+        """None: this task has no kernel.
+
+        Takes `error` and `jacobian`.
+        """
