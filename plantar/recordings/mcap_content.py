@@ -92,9 +92,7 @@ class McapContent:
         topics: The topics of float64 fields, by their channel's number.
         warnings: What was missing, damaged or skipped, one line each.
 
-    Args:
-        sinks: To read piece by piece: the receiver of each message of a topic. Other topics are skipped and `topics`
-            stays empty. None gathers all topics.
+    With `sinks`, the receivers of some topics' messages, other topics are skipped and `topics` stays empty.
     """
 
     def __init__(self, sinks: Mapping[str, Sink] | None = None) -> None:

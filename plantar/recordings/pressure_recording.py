@@ -51,11 +51,10 @@ class FootRecording:
     """What the cells under one foot measured, n frames of k cells.
 
     Attributes:
-        side: "left" or "right".
         force: Normal force (n, k) of each cell in N, NaN where not measured; counts where the recording is raw.
-        layout: Where the cells are, in the order of `force`'s columns; None where unknown.
-        total: Vertical force (n,) in N that the device reports itself, NaN where not measured; None to sum the cells.
-        cop: Centre of pressure (n, 2) in m that the device reports, NaN without load; None to compute it.
+        layout: Where the cells are; None where unknown.
+        total: Vertical force (n,) in N by the device, NaN where not measured; None to sum the cells.
+        cop: Centre of pressure (n, 2) in m by the device, NaN without load; None to compute it.
         wrench: Wrench (n, 6) on the foot in N and N m about the frame's origin, where measured.
         placement: Pose (n, 3) of the sole frame on the ground, x and y in m and the turn about z in rad, where known.
 
@@ -154,15 +153,13 @@ class PressureRecording:
     """A recording of one or two feet on one time base.
 
     Attributes:
-        path: The file it was read from.
+        path: The file.
         format: Name of its format.
         rate_hz: Frames a second.
         time: Times (n,) in s.
-        feet: The measured feet by side. A platform is one entry until `plantar.gait.analysis.prints.platform` has
-            separated its footprints.
+        feet: The measured feet. A platform is one entry until `plantar.gait.analysis.prints.platform` separates it.
         metadata: The file's other entries.
         warnings: What was assumed, repaired or left out, one line each.
-        kind: The device.
         raw: Whether the values are uncalibrated counts, which give no force or pressure.
         grid: Rows and columns of the sensor's matrix, where it is one.
         events: Heel strikes and toe offs of each foot that the file lists.

@@ -39,7 +39,6 @@ class Recording:
     """What a recording file holds.
 
     Attributes:
-        path: The file.
         metadata: What was stored with the data.
         layouts: Sole layout of each side that has one.
         topics: Table of each topic.

@@ -61,20 +61,16 @@ class Count:
 class StepCount:
     """Follows both feet through a walk.
 
-    A step is taken when the foot of its side, after all steps before it, stands at its place: where it was last before
-    the other foot touched down, so that taps and probes do not count as steps. Its place is relative to the foothold
-    before it, so that a long walk is not judged by the drift of dead reckoning; the sum of the differences is limited
-    by the way.
+    A step is taken when the foot of its side, after all steps before it, stands at its place where it was last before
+    the other foot touched down, so that taps and probes do not count. Its place is relative to the foothold before it,
+    so that dead reckoning's drift does not count; the sum of the differences is limited by the way.
 
     Args:
         goal: The footsteps.
         weight: Weight of the robot in N.
         time_of: Time in s of a physics step by its number.
-        justified: Whether ground or a push justify that a step is moved, by the stand, the planned way of the step, and
-            the true foothold before.
-
-    Attributes:
-        watch: Takes in feet and their loads after each physics step.
+        justified: Whether ground or a push justify a moved step, by the stand, its planned way, and the true foothold
+            before.
     """
 
     def __init__(

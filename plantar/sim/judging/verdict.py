@@ -31,15 +31,14 @@ class Ending:
 
     Attributes:
         fall: The fall as (criterion's value, limit, text); None for no fall.
-        stopped: The controller's final safe state (`WalkingController.safe_state`); None while it walks.
+        stopped: The controller's final safe state; None while it walks.
         steps: Steps taken and planned.
         missed: Why the first missing step did not count.
         position: Distance in m of the CoM from the walk's end; None for a walk without a fixed end.
-        heading: Heading error in degrees; None for a walk without a fixed end.
+        heading: Heading error in degrees; None likewise.
         tilt: Tilt of the torso in degrees.
-        body: The robot's size.
         pushes: Pushes that the robot recovered from, and all of them.
-        overrun: Time in s at which a run that did not end was cut off, and its first planned end in s; None otherwise.
+        overrun: Time in s at which a run was cut off, and its first planned end in s; None otherwise.
     """
 
     fall: tuple[float, float, str] | None
@@ -55,16 +54,8 @@ class Ending:
 
 
 def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[str, Any]]:
-    """Why a run is not completed; empty for one that is.
-
-    Args:
-        ending: How it ended.
-        legs: Whether the legs touched.
-        joints: How fast the joints were.
-
-    Returns:
-        For each failed criterion its name "criterion", "value", "limit" and a "text".
-    """
+    """Returns the criteria that failed of an `ending`, contacts of `legs` and speeds of `joints`: name "criterion",
+    "value", "limit" and a "text" each."""
     found: list[dict[str, Any]] = []
 
     def add(criterion: str, value: float, limit: float, text: str) -> None:

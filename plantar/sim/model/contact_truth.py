@@ -41,9 +41,9 @@ class ContactSet(NamedTuple):
         other_geoms: Geom id (k,) on the other side; -1 for a flex.
         positions: Contact point (k, 3) in the world in m.
         forces: Force (k, 3) on the foot in the world in N.
-        torques: Torque (k, 3) on the foot in the world in N m (torsional and rolling friction).
+        torques: Torque (k, 3) on it in N m (torsional and rolling friction).
         distances: Gap (k,) in m, negative in penetration.
-        carries: Mask (k,): MuJoCo's solver may put a force there; False for a contact within `gap` only.
+        carries: Mask (k,): the solver may put a force there; False for a contact within `gap` only.
     """
 
     own_geoms: NDArray[np.int32]
@@ -90,10 +90,10 @@ class GroundTruth(NamedTuple):
 
     Attributes:
         wrench: Wrench (6,) about the world's origin.
-        zmp: True zero moment point (2,) in m; None below the minimum force.
+        zmp: True ZMP (2,) in m; None below the minimum force.
         ring: Corners (x, y) in m of the true support polygon, counter-clockwise; empty in the air.
-        margin: Signed distance in m of the ZMP to the polygon's edge, positive inside; None without ZMP.
-        points: Points (x, y) in m of each foot that carry a force or could.
+        margin: Signed distance in m of the ZMP to its edge, positive inside; None without ZMP.
+        points: Points (x, y) in m of each foot that carry or could.
     """
 
     wrench: NDArray[np.float64]

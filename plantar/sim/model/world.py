@@ -135,14 +135,11 @@ def _add_leg_contact(spec: Any, robot: Robot) -> None:
 
 @dataclass(frozen=True)
 class World:
-    """A compiled world and the addresses of what is read and written in it.
+    """A compiled world and the addresses of what is read and written in it; legs' arrays are the left one's, then the
+    right's.
 
     Attributes:
-        model: The MuJoCo model.
-        data: Its state.
-        robot: The robot in it.
-        joint_qpos: Addresses of the leg joints in qpos.
-        joint_qvel: Addresses of the leg joints in qvel.
+        joint_qpos: Addresses of the leg joints in qpos; `joint_qvel` in qvel.
         servos: Indices of the legs' actuators in ctrl.
         sole_geoms: Geom ids of each sole.
         sole_sites: Site id of each sole frame.
@@ -151,12 +148,8 @@ class World:
         damping: Servo velocity gains (k,) in N m s/rad, of the robot's file.
         joint_damping: Damping (k,) in N m s/rad of the joints in the robot's model.
         joint_friction: Dry friction (k,) in N m of the joints in the robot's model.
-        gyro: Address of the gyro in sensordata.
-        accelerometer: Address of the accelerometer in sensordata.
-        ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
-        touch: Address in sensordata of the normal force on each sole; for benches.
-        leg_contact: Address in sensordata of whether one leg touches the other: above 0.
-        body: The robot's size, by its file.
+        gyro: Address in sensordata, like `accelerometer`, force and torque in `ankle_wrench`, the normal force on each
+            sole in `touch` (for benches), and `leg_contact`, above 0 where one leg touches the other.
         period: Time step of the physics in s.
         moving_ground: Moving pieces of ground with their number among the mocap bodies.
         ground_top: Height in m that no ground ever exceeds.

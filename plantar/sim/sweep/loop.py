@@ -53,8 +53,7 @@ def run_sweep(
         The plan's `found` for all rows, and "runs", "resumed", "files".
 
     Raises:
-        InputError: If the folder cannot be written, holds another sweep or is in use; if no scheduler answers; if a
-            file that runs depend on has changed since the sweep began, here or at a worker.
+        InputError: If the folder cannot be used, no scheduler answers, or a file that runs depend on has changed.
         WorkerError: If the workers cannot go on; the text names the kept rows.
         SweepStopped: A KeyboardInterrupt after Ctrl-C or SIGTERM that names the kept rows.
     """
