@@ -74,7 +74,6 @@ class Benchmark:
         name: Name of its .csv and .md file; the CSV's first columns are case, robot, plant, seed, completed, failed and
             commit.
         columns: Its columns after those.
-        cases: What to run.
         shown: Cells of a case's line after the counts, by their heads.
         note: Sentence under the table.
         recorded: Whether the run's recording is wanted, whose path is then the summary's "recording".

@@ -27,7 +27,6 @@ class SweepCase(NamedTuple):
 
     Attributes:
         what: What is different; empty for the scene itself.
-        seeds: How many seeds.
     """
 
     scene: str

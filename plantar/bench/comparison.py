@@ -41,7 +41,6 @@ class Result:
     """Time and error of one route.
 
     Attributes:
-        kernel: What is computed.
         size: Active taxels, or what else the size is.
         route: Name of the route.
         ours: Whether it is of this package.

@@ -33,11 +33,7 @@ Array = NDArray[np.float64]
 
 
 class Corners:
-    """Corners of the active cells of a sole, by a table that is made once.
-
-    Args:
-        layout: The sole, n taxels.
-    """
+    """Corners of the active cells of a sole, by a table that is made once."""
 
     def __init__(self, layout: SoleLayout) -> None:
         most = max(len(c) for c in layout.corners)

@@ -26,7 +26,6 @@ class Contact:
     """A sole with some taxels active.
 
     Args:
-        layout: The sole, n taxels.
         active: Mask (n,).
         force: Normal forces (n,) in N, 0 where not active.
     """

@@ -77,11 +77,7 @@ def write_page(
 
 
 def view_text(written: Mapping[str, Any]) -> str:
-    """What was written, for people.
-
-    Args:
-        written: As `write_page` returns it.
-    """
+    """What was written, for people."""
     walks = "\n".join(f"  {walk['name']}: {walk['duration_s']:.1f} s" for walk in written["walks"])
     return f"{walks}\n  {written['file']} ({written['bytes'] / 1e6:.1f} MB)"
 

@@ -73,7 +73,6 @@ class FramePoses:
     """Poses of frames at wanted times, from foxglove.FrameTransforms messages; a frame missing in one stays.
 
     Args:
-        names: Names of the frames.
         times: The wanted times (n,) in s.
 
     Attributes:

@@ -99,9 +99,6 @@ def read_walk(path: str | os.PathLike[str]) -> Walk:
 
     The file is read twice: first for the times to show and what is drawn once, then for what holds at those times.
 
-    Args:
-        path: MCAP file with taxel forces.
-
     Raises:
         FormatError: If it cannot be read, or holds no taxel forces with layouts.
     """

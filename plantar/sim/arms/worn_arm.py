@@ -82,9 +82,6 @@ class WornArm:
     def surface(self, patch: str) -> tuple[str, NDArray[np.float64], float]:
         """The part of a link that a patch of skin is wrapped around the link's z axis on.
 
-        Args:
-            patch: Name of the patch.
-
         Returns:
             The link, the middle (3,) of the patch in the link's frame in m, and its largest radius in m.
 

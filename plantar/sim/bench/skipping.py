@@ -50,7 +50,6 @@ class SkipRow:
         factor: Everything but the physics over the physics, in the run.
         saved: Everything but the physics with all computed, over that of the run.
         same_motion: Whether both runs and the physics alone had the same motion, to the last bit.
-        motion: Hash of it.
         shares: Share of each room in the time of the run.
         skipped: How many of what were left out in the run.
         computed: How many of the same were computed.

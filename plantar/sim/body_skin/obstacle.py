@@ -22,9 +22,6 @@ _PIECES = (_KINDS["cylinder"], _KINDS["sphere"], _KINDS["sphere"])
 class Obstacle:
     """A geom that skin measures. Its velocity comes from its motion, since a mocap body has none.
 
-    Args:
-        geom: Index of the geom.
-
     Attributes:
         name: Name of the geom.
         geom: Index of the geom.

@@ -22,9 +22,6 @@ class MujocoDynamics:
     A stage of MuJoCo's forward dynamics runs when its result is read. The angular velocity of a free base is in the
     base's frame, as MuJoCo has it, and so are all Jacobians.
 
-    Args:
-        model: The MjModel of the robot.
-
     Attributes:
         time: Time of the last update in s.
         joints: Indices (k,) of the coordinates that have an actuator, ascending; those of all hinges and slides where

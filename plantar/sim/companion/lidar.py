@@ -37,12 +37,7 @@ class LidarSettings(Settings):
 
 
 class Lidar:
-    """Scans the world around a base, which it does not see itself.
-
-    Args:
-        model: The MjModel of the world.
-        base: Name of the base's link.
-    """
+    """Scans the world around a base, which it does not see itself."""
 
     def __init__(self, model: Any, base: str, settings: LidarSettings, seed: int) -> None:
         self.settings = settings

@@ -37,7 +37,6 @@ class Companion(Run):
         seed: Seed of sensor noise and of what the experiment leaves to chance.
 
     Attributes:
-        world: The simulated world.
         skin: The machine's skin sensor.
 
     Raises:

@@ -64,9 +64,6 @@ class CompanionScene:
 def companion_tables(kind: str) -> dict[str, type[Settings]]:
     """Settings class of each table of a scene with some experiment.
 
-    Args:
-        kind: Name of the experiment.
-
     Returns:
         The classes by the tables' names.
 

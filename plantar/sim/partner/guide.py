@@ -51,8 +51,6 @@ class Guide(Partner):
 
     Args:
         settings: Its settings, for the same body.
-        grip: Where it takes the arm.
-        body: How large the robot is.
         seed: Chooses when it sets out, and the direction where the settings leave it open.
 
     Attributes:
@@ -84,11 +82,7 @@ class Guide(Partner):
         return self.settings.way / self.settings.hand_speed
 
     def add_to(self, spec: Any) -> None:
-        """Add it to a world.
-
-        Args:
-            spec: The world's editable `mujoco.MjSpec`.
-        """
+        """Add it to a world."""
         leg, apart = self._body.leg, self._apart
         body = spec.worldbody.add_body(name="guide", gravcomp=1.0)
         for name, axis in (("x", [1, 0, 0]), ("y", [0, 1, 0]), ("z", [0, 0, 1])):
@@ -106,11 +100,7 @@ class Guide(Partner):
             geom.rgba = _COLOUR
 
     def bind(self, world: World) -> tuple[int, ...]:
-        """Find it in the compiled world.
-
-        Returns:
-            Ids of its fingers.
-        """
+        """Find it in the compiled world."""
         first = world.model.joint("guide_x")
         self._places = int(first.qposadr[0]) + np.arange(3)
         self._axes = int(first.dofadr[0]) + np.arange(3)

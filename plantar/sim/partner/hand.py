@@ -47,7 +47,6 @@ class Hand:
 
     Args:
         face: Name of the face (`plantar.sim.body_skin.upper_body.FACES`).
-        body: How large the robot is.
 
     Attributes:
         face: Name of the face.
@@ -68,11 +67,7 @@ class Hand:
         self.geom = -1
 
     def add_to(self, spec: Any) -> None:
-        """Add it to a world.
-
-        Args:
-            spec: The world's editable `mujoco.MjSpec`.
-        """
+        """Add it to a world."""
         body = spec.worldbody.add_body(name=self.name, gravcomp=1.0)
         for name, axis in (("x", [1, 0, 0]), ("y", [0, 1, 0]), ("z", [0, 0, 1])):
             body.add_joint(name=f"{self.name}_{name}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)

@@ -87,7 +87,6 @@ class HandPushes:
     Args:
         pushes: The pushes in the order of time.
         skin: Skin of the upper body, in the base frame.
-        body: How large the robot is.
         height: States at which height above the base's origin in m the robot is pushed, once it stands; hands keep to
             that point of it.
 
@@ -111,11 +110,7 @@ class HandPushes:
         self._base = 0
 
     def add_to(self, spec: Any) -> None:
-        """Add the hands to a world.
-
-        Args:
-            spec: The world's editable `mujoco.MjSpec`.
-        """
+        """Add the hands to a world."""
         for hand in self.hands.values():
             hand.add_to(spec)
 

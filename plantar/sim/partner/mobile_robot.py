@@ -37,9 +37,7 @@ class MobileRobot(Partner):
     Args:
         settings: Its settings, for the same body.
         skin: Skin of the robot's upper body, in the base frame.
-        body: How large the robot is.
         height: Height in m of its hand in the world.
-        seed: Of its sensor's noise.
 
     Attributes:
         law: Its impedance controller, whose axis points at the robot.
@@ -59,11 +57,7 @@ class MobileRobot(Partner):
         self._forces: list[float] = []
 
     def add_to(self, spec: Any) -> None:
-        """Add it to a world.
-
-        Args:
-            spec: The world's editable `mujoco.MjSpec`.
-        """
+        """Add it to a world."""
         leg, height = self._body.leg, self._height
         body = spec.worldbody.add_body(name="partner")
         body.add_joint(name="partner_x", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[1, 0, 0])

@@ -25,11 +25,7 @@ class Partner(Protocol):
     """A moving body that touches the robot."""
 
     def add_to(self, spec: Any) -> None:
-        """Add it to a world.
-
-        Args:
-            spec: The world's editable `mujoco.MjSpec`.
-        """
+        """Add it to a world."""
 
     def bind(self, world: World) -> tuple[int, ...]:
         """Find it in the compiled world.
@@ -68,9 +64,6 @@ class Partner(Protocol):
 def skin_material(body: BodyScale) -> SkinSensing:
     """Skin for a robot of some size: what the companion's is on H1, by dynamic similarity.
 
-    Args:
-        body: How large the robot is.
-
     Returns:
         Stiffness as a share of weight / leg^3, damping of weight beat / leg^3, the force at half a taxel's signal of
         the weight, the distance at half of it of the leg. Friction sets in over a higher speed, for partners with mass.
@@ -92,10 +85,6 @@ class Touch:
     Args:
         world: The world, with the partners in it.
         skin: The skin, on the base and what it carries.
-        seed: Of the skin's noise.
-
-    Attributes:
-        partners: Who touches it.
     """
 
     def __init__(self, world: World, skin: BodySkin, partners: Sequence[Partner], seed: int) -> None:

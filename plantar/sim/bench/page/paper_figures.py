@@ -22,14 +22,12 @@ class Experiment:
     """A run of a scene, and what a paper states of the same on a real robot.
 
     Attributes:
-        what: What is done.
         scene: Name of the scene.
         robot: Name of the robot.
         settings: What is changed of it.
         printed: Figures that the paper prints, by name: "mean impact", "largest impact" and "impact on the slab" in N,
             "largest difference" of two ZMPs in mm, "steps" done.
         fell: Whether the paper's robot fell.
-        source: Where it stands.
         long: Whether a quick run leaves it out.
     """
 

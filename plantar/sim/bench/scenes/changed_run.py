@@ -65,9 +65,6 @@ class ChangedRun(Simulation):
     """A scene, run as a setting has it.
 
     Args:
-        scene: Name of the scene.
-        robot: Name of the robot.
-        seed: Seed of the run.
         walk: Settings of the scene that hold in every run, such as a number of steps.
         noisy: Whether sensors have the scene's noise; without, two runs differ by nothing but the setting.
     """

@@ -27,7 +27,6 @@ class SceneRow:
         robot: Name of the robot.
         walk: Settings of the scene in all runs.
         setting: Name of the setting.
-        knob: What it changes.
         against: Name of the setting that it is compared with.
         machine: Whether it is another robot, not another way to compute the same one.
         cpu: CPU time in s of a simulated second.
@@ -39,7 +38,6 @@ class SceneRow:
         together: Share of the walk until the runs part; 1 where they never do.
         walked: Whether the run without noise was completed.
         completed: Of the runs with noise, how many were.
-        seeds: Of how many.
         impact_N: Impact of a landing in N: median of a run's landings, and of the runs.
         margin_mm: Smallest distance in mm of ZMP and edge of support in a run.
     """

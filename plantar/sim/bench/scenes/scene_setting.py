@@ -15,7 +15,6 @@ class SceneSetting:
     """One way to run a scene.
 
     Attributes:
-        knob: What is changed.
         value: What it is set to, in words.
         settings: Settings of the scene, as `key=value`.
         contact_time: Time constant in s that contacts keep; None for the world's own.
@@ -125,9 +124,6 @@ SETTINGS: tuple[SceneSetting, ...] = (
 
 def setting_named(name: str) -> SceneSetting:
     """The setting of a name.
-
-    Args:
-        name: As `SceneSetting.name` shows it.
 
     Raises:
         KeyError: If there is none.

@@ -20,7 +20,6 @@ class CommandCheck:
     """Looks at each command of a run.
 
     Args:
-        body: How large the robot is.
         period: Control period in s.
     """
 

@@ -80,14 +80,7 @@ class FaultySensors:
         self._named: Fault | None = FAULTS[faults.named]() if faults.named else None
 
     def passed(self, sensors: Sensors) -> Sensors:
-        """What arrives of the readings of one tick.
-
-        Args:
-            sensors: What the sensors stated.
-
-        Returns:
-            What the controller gets.
-        """
+        """What arrives of the readings of one tick."""
         f, rng = self.faults, self._rng
         readings = {side: self._sole(side, sensors.readings[side]) for side in SIDES}
         changed: dict[str, Any] = {"readings": readings}

@@ -74,11 +74,7 @@ class Push:
 
 
 class Fist:
-    """A person's hand, which pushes with a force and follows what it pushes.
-
-    Args:
-        pushes: One after the other.
-    """
+    """A person's hand, which pushes with a force and follows what it pushes."""
 
     def __init__(self, pushes: list[Push]) -> None:
         self.pushes = pushes
@@ -144,11 +140,7 @@ class Visit:
 
 
 class Visitor:
-    """A person who walks up to the base, stops there and leaves: an upright cylinder that the distance sensors see.
-
-    Args:
-        visits: One after the other.
-    """
+    """A person who walks up to the base, stops there and leaves: an upright cylinder that the distance sensors see."""
 
     def __init__(self, visits: list[Visit]) -> None:
         self.visits = visits

@@ -63,9 +63,7 @@ class Layout:
     """A goal and what is in its way.
 
     Attributes:
-        kind: One of `KINDS`.
         goal: The goal (2,) in m.
-        posts: What stands around.
     """
 
     kind: str

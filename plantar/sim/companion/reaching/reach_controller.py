@@ -81,7 +81,6 @@ class ReachController:
 
     Attributes:
         goal: The task of the tip's position.
-        policy: Which arrangement counts.
         signs: What it was chosen by.
     """
 

@@ -50,7 +50,6 @@ class HotPlate:
 
     Args:
         middle: Middle (3,) of its upper face in the world in m.
-        count: How many taxels it warms.
 
     Attributes:
         temperature: Temperature (count,) of the taxels in degC.

@@ -26,7 +26,6 @@ class Pad:
 
     Args:
         name: Its name; body and geom are called "pad " and it.
-        patch: Patch on which it presses.
         taxel: Index in the patch of the taxel in the middle of its face.
         face: Radius of its face in m.
         stiffness: Stiffness in N/m of the skin under its face, about.

@@ -66,12 +66,7 @@ class PressedSettings(Settings):
 
 
 class PressedExperiment(StandingExperiment):
-    """Pads press on the instances of a skin task.
-
-    Attributes:
-        skin: The machine's skin.
-        contacts: What presses when.
-    """
+    """Pads press on the instances of a skin task."""
 
     settings_type: ClassVar = PressedSettings
     columns: ClassVar = (

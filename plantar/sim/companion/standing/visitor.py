@@ -18,7 +18,6 @@ class Visitor:
 
     Args:
         name: Name of its body and geom.
-        kind: MuJoCo's kind of its geom.
         size: Size (3,) of its geom in m.
         face: Distance in m from its middle to what of it comes first.
     """
