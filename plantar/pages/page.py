@@ -48,7 +48,7 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "", 
         about: HTML of what stands under the title: a line, or a list of facts.
         sections: Its parts, which the menu lists.
         script: HTML put at the end.
-        style: What its style sheet has beside that of all pages.
+        style: Its own style sheet, after that of all pages.
 
     Returns:
         HTML.
@@ -193,7 +193,7 @@ def scaled(value: float | None, factor: float) -> float | None:
 
     Args:
         value: The value; None stays None.
-        factor: How many of the other unit one of its own is.
+        factor: Size of its unit in the other unit.
 
     Returns:
         Their product.

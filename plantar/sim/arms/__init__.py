@@ -1,1 +1,1 @@
-"""Arms of a robot that walks: how it wears one that moves, and how that gives way to whoever takes it."""
+"""Arms of a robot that walks: how it wears one that moves, and how that yields to contact."""

@@ -77,7 +77,7 @@ class CompliantArm:
 
     @property
     def torque(self) -> NDArray[np.float64]:
-        """Torque (k,) in N m that the motors are told to give."""
+        """Torque (k,) in N m commanded to the motors."""
         return np.array(self._world.data.ctrl[self._motors])
 
     @property

@@ -1,4 +1,4 @@
-"""Settings of the arm that a walking robot moves, as a scene's `[arm]` table says them."""
+"""Settings of the arm that a walking robot moves: a scene's table `[arm]`."""
 
 from __future__ import annotations
 

@@ -142,7 +142,7 @@ _TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
 
 
 def _kernels(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    """Kernels beside libraries."""
+    """Kernels compared with libraries."""
     need_libraries("sim", "scipy", "cv2")
     from plantar.bench.report import kernel_text, measure_kernels
 
@@ -151,7 +151,7 @@ def _kernels(folder: Path, options: BenchOptions, progress: Progress) -> Measure
 
 
 def _contact(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    """Contact models beside MuJoCo's exact wrench."""
+    """Contact models compared with MuJoCo's exact wrench."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.contact_models.report import contact_text, measure_contact
 

@@ -65,7 +65,7 @@ class WatchedSimulation(Simulation):
 
     @property
     def replays(self) -> bool:
-        """Whether the controls alone make the motion again: nobody pushes, and no ground moves."""
+        """Whether the controls alone repeat the motion: without pushes and moving ground."""
         return self.touch is None and not self.pusher.shoves and not self.world.moving_ground
 
 

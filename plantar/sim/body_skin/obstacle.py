@@ -1,4 +1,4 @@
-"""One obstacle as skin feels it: how far rays go until they meet it, and how fast its points move."""
+"""One obstacle as skin measures it: how far rays go until they meet it, and how fast its points move."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the machine knows of its own motion: encoders of its joints, and the state of a floating base."""
+"""Measured motion of the machine: encoders of its joints, and the state of a floating base."""
 
 from __future__ import annotations
 

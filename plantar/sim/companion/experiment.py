@@ -181,7 +181,7 @@ class Experiment:
         self.rng = np.random.default_rng([seed, 0xE])
 
     def add_to(self, spec: Any) -> None:
-        """Add obstacles and probes to the machine's `mujoco.MjSpec`; what skin shall feel is of `OBSTACLE_GROUP`."""
+        """Add obstacles and probes to the machine's `mujoco.MjSpec`; what skin measures is of `OBSTACLE_GROUP`."""
 
     def start(self, world: World) -> None:
         """Put everything where it is at first. The machine stands in its posture already."""

@@ -236,7 +236,7 @@ def _parsed(file: Path, where: str) -> Any:
 
 
 def _compiled(machine: Machine, where: str) -> None:
-    """Compile a machine once, so that what is wrong with it is said when it is loaded."""
+    """Compile a machine once, so that errors are reported when it is loaded."""
     try:
         machine.spec().compile()
     except ValueError as error:

@@ -179,7 +179,7 @@ class HandPushes:
             self._next += 1
 
     def _wanted(self, push: HandPush | None, face: str, time: float) -> tuple[float, float | None]:
-        """Distance from its face in leg lengths at which a hand shall be, and the force in N with which it presses."""
+        """Distance from its face in leg lengths at which a hand should be, and the force in N with which it presses."""
         if push is None or face not in push.shares():
             return _APART, None
         if push.start < math.inf:
@@ -233,7 +233,7 @@ class HandPushes:
         return all(self._force(push, face, time) is None for face in push.shares())
 
     def _target(self, frame: _Frame, face: str, distance: float, force: float | None = None) -> HandTarget:
-        """Where a hand shall be: over the middle of its face, some distance in m away from it."""
+        """Wanted place of a hand: over the middle of its face, some distance in m away from it."""
         point, velocity = frame.point(np.array([*self._middles[face], self.height]))
         inward = frame.inward(face)
         return HandTarget(point - distance * inward, velocity, frame.yaw, inward, force)

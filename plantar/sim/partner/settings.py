@@ -1,4 +1,4 @@
-"""Settings of who walks with a robot, as a scene's tables `[partner]` and `[guide]` say them."""
+"""Settings of a robot's partner: a scene's tables `[partner]` and `[guide]`."""
 
 from __future__ import annotations
 

@@ -118,7 +118,7 @@ class Touch:
         return np.asarray(found)
 
     def step(self) -> None:
-        """One physics step, with what the skin feels and who presses on it."""
+        """One physics step, with the forces on the skin and the partners that press on it."""
         world = self._world
         mujoco.mj_step1(world.model, world.data)
         near = any(partner.near(float(world.data.time)) for partner in self.partners)

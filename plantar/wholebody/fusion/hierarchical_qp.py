@@ -131,7 +131,7 @@ def _sublevels(
 def _descend(
     factor: NDArray[np.float64], box: Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> NDArray[np.float64]:
-    """Meet level after level, the support as if there were no limits; what nobody asks for moves least."""
+    """Meet level after level, the support as if there were no limits; the rest moves least."""
     y, left = np.zeros(len(factor)), np.eye(len(factor))  # and an orthonormal basis of what is left
     limited = support is None
     for jacobian, wanted, force in _sublevels(levels, support):

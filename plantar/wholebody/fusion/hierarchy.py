@@ -177,7 +177,7 @@ def _stacked(demands: Sequence[Demand], size: int) -> NDArray[np.float64]:
 
 
 def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float64]) -> None:
-    """Own rows and meet in them what is wanted; directions below `DAMPED` are filtered as this module's head says."""
+    """Own rows and meet in them what is wanted; directions below `DAMPED` are damped (see the module's docstring)."""
     if wanted.shape != (len(rows),):
         raise InputError(f"a task asks for an acceleration of shape {wanted.shape}; expected one a row, ({len(rows)},)")
     rank, bound = space.own(rows, np.ascontiguousarray(wanted), True, RANK)

@@ -1,1 +1,1 @@
-"""What a robot shall do, one task a file: each says its Jacobian and the force or acceleration that it asks for."""
+"""Tasks, one a file: each gives its Jacobian and the force or acceleration along it."""

@@ -91,7 +91,7 @@ def _tiles(result: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 class _Headline(NamedTuple):
-    """A kernel beside the fastest route of others, at the size where that does best; times in us."""
+    """A kernel and the fastest other route, at the size where that does best; times in us."""
 
     kernel: str
     size: str

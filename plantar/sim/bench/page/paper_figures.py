@@ -1,4 +1,4 @@
-"""Experiments of the papers, done once in simulation, beside the figures that the papers print."""
+"""Experiments of the papers, done once in simulation, and the figures that the papers print."""
 
 from __future__ import annotations
 

@@ -165,7 +165,7 @@ def _of_seed(settings: Sequence[SceneSetting], first: bool) -> list[SceneSetting
 
 
 def _costs(run: ChangedRun) -> dict[str, Any]:
-    """Run, and tell what it cost, without the building of its world and what keeps its motion, and how it ended."""
+    """Run, and return its cost without building the world and keeping its motion, and how it ended."""
     start = time.process_time()
     summary = run.run()
     used = time.process_time() - start - (run.keeping_s if isinstance(run, TracedRun) else 0.0)

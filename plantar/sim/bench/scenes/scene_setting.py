@@ -1,4 +1,4 @@
-"""What `plantar bench scenes` changes of a scene: one thing at a time, each beside its reference."""
+"""What `plantar bench scenes` changes of a scene: one thing at a time, each with its reference."""
 
 from __future__ import annotations
 

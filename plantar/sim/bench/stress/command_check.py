@@ -1,4 +1,4 @@
-"""What a command may never be, whatever the sensors say."""
+"""What a command must never be, for any reading of the sensors."""
 
 from __future__ import annotations
 

@@ -106,7 +106,7 @@ def _check_pair(name: str, value: Any, empty: bool = True) -> None:
 
 
 class ForceTracking(Experiment):
-    """A hand on an object; which of the four experiments it is, the scene's settings say."""
+    """A hand on an object: one of the four experiments, by the scene's settings."""
 
     settings_type = ForceTrackingSettings
     control_type = HandControl
@@ -204,7 +204,7 @@ class ForceTracking(Experiment):
         self._visitor.act(world, time)
 
     def _command_base(self, time: float) -> None:
-        """Where the base shall be: on the circle, or at the swing."""
+        """Wanted place of the base: on the circle, or at the swing."""
         s, rate = self.settings, 2.0 * math.pi / self.settings.base_period
         target, speed = self._posture.copy(), np.zeros(len(self._posture))
         for window, sizes in ((s.circle, (s.circle_radius, s.circle_radius)), (s.swing, (0.0, s.swing_amplitude))):

@@ -132,7 +132,7 @@ class Stove(StandingExperiment):
         self._silent = silent
 
     def _target(self, time: float) -> Any:
-        """Where the palm (3,) shall be at a time in s: on its way to the plate, then on a circle above it."""
+        """Wanted place (3,) of the palm at a time in s: on its way to the plate, then on a circle above it."""
         share = min(1.0, max(0.0, (time - _BEGIN) / _WAY))
         angle = self._phase + 2.0 * math.pi * time / _CIRCLE
         circle = np.array([self._radius * math.cos(angle), self._radius * math.sin(angle), self.height])

@@ -187,7 +187,7 @@ class HandController:
         return self._change.blend(torque, robot.time)
 
     def _known(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64] | None:
-        """Generalized force (n,) that is known to act: the wanted one on the hand, and what the arm's skin feels."""
+        """Generalized force (n,) that is known to act: the wanted one on the hand, and what the arm's skin measures."""
         if not self._feeds_forward:
             return None
         step = self.settings.period / _TAKEN_OVER

@@ -81,7 +81,7 @@ def random_layout(
     """A layout that can be solved: what is fixed leaves room for the tip along the straight way to the goal.
 
     Three posts stand in a bow that is open to the tip, too close for it to pass between: a pocket in which a potential
-    field has its minimum. In "beside" an outer one is fixed.
+    field has its minimum. An outer one is fixed in the second kind.
 
     Args:
         rng: Random numbers.

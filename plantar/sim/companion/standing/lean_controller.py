@@ -159,7 +159,7 @@ class LeanController:
     def _split(
         self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-        """Share what is to be done among the joints, the feet and the forearm, which presses as its skin says."""
+        """Share what is to be done among the joints, the feet and the forearm, which presses by what its skin measures."""
         torque, carried = self._planned(robot, force, self._all.demand(robot, None))
         assert self._planned.last is not None
         self.wanted = float(self._planned.last.wrenches[ARM][2])
@@ -251,7 +251,7 @@ class LeanController:
 
 
 def _foremost(polygon: NDArray[np.float64], y: float) -> float:
-    """Largest x of a convex polygon (m, 2) at some y; of all where y is beside it."""
+    """Largest x of a convex polygon (m, 2) at some y; of all where y is outside its range."""
     found = []
     for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
         if min(a[1], b[1]) <= y <= max(a[1], b[1]) and a[1] != b[1]:
