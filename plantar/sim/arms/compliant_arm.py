@@ -122,7 +122,7 @@ class CompliantArm:
         self._world.data.ctrl[self._motors] = np.clip(torque, -self._efforts, self._efforts)
 
     def _external(self, skin: BodySkin, measured: SkinReading) -> NDArray[np.float64] | None:
-        """Generalized force (k,) of what the arm's skin feels; None for nothing."""
+        """Generalized force (k,) of what the arm's skin measures; None for nothing."""
         total: NDArray[np.float64] | None = None
         for link, wrench, _ in link_wrenches(skin, measured.force, self._own & (measured.force >= skin.thresholds)):
             turned = (wrench.reshape(2, 3) @ self._robot.pose(link)[1].T).ravel()

@@ -159,7 +159,7 @@ class LeanController:
     def _split(
         self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-        """Share what is to be done among the joints, the feet and the forearm, which presses by what its skin measures."""
+        """Share the task among joints, feet and forearm, which presses by what its skin measures."""
         torque, carried = self._planned(robot, force, self._all.demand(robot, None))
         assert self._planned.last is not None
         self.wanted = float(self._planned.last.wrenches[ARM][2])
