@@ -1,0 +1,71 @@
+"""One walk or stand on flat ground in a control loop of one's own, with a fault."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from plantar.record import Record
+from plantar.sim.bench.stress.named_faults import FAULTS
+from plantar.sim.run.runner import Simulation
+from plantar.sim.run.scene import load_scene
+
+__all__ = ["FaultRun", "run_with_fault"]
+
+_USUAL = {"h1": (4.65e-3, 1.84e-3), "hrp2kai": (3.02e-3, 1.64e-3)}
+"""m that a foot's target and the CoM move in a tick of an undisturbed walk, at most."""
+
+_BEGIN, _LASTS = 4.0, 1.4  # s at which the fault begins, and for which it is watched
+
+
+class FaultRun(Record, frozen=True):
+    """Outcome of a run.
+
+    Attributes:
+        jump: Largest move of a target in a tick, as a multiple of that of an undisturbed walk.
+        state: The named state that it came to; None if it went on.
+        after: Time in s from the fault to that state.
+        upright: Whether the robot is on its feet at the end.
+    """
+
+    jump: float
+    state: str | None
+    after: float
+    upright: bool
+
+
+def run_with_fault(robot: str, walking: bool, fault: str, *, shell: bool = True) -> FaultRun:
+    """Returns what a fault does.
+
+    Args:
+        robot: "h1" or "hrp2kai".
+        walking: Whether the robot walks when it begins, or stands.
+        fault: Name of one of `named_faults.FAULTS`.
+        shell: Whether the safety shell guards the controller.
+    """
+    settings = ["steps=6", "settle=0.5"] if walking else ["steps=1", "settle=4"]
+    parts, change = Simulation(load_scene("flat", settings, robot)), FAULTS[fault]()
+    world, sensors, controller, servos = parts.world, parts.sensors, parts.controller, parts.servos
+    if not shell:
+        controller.shell = None
+    every = round(parts.settings.period / world.period)
+    last, jump, state, after = None, 0.0, None, 0.0
+    usual_foot, usual_com = _USUAL[robot]
+    for k in range(round((_BEGIN + _LASTS) / world.period)):
+        if k % sensors.skin_every == 0:
+            sensors.read_skins(controller.proximity_sides, False)
+        if k % every == 0:
+            now = float(world.data.time)
+            reading = sensors.read_body()
+            command = controller.step(reading if now < _BEGIN else change(reading, now - _BEGIN))
+            if last is not None:
+                feet = [np.linalg.norm(command.feet[s].position - last.feet[s].position) for s in command.feet]
+                com = float(np.linalg.norm(command.com - last.com))
+                jump = max(jump, com / usual_com, *(float(foot) / usual_foot for foot in feet))
+            last = command
+            if state is None and controller.safe_state is not None:
+                state, after = controller.safe_state, now - _BEGIN
+            servos.command(command)
+        servos.drive()
+        mujoco.mj_step(world.model, world.data)
+    return FaultRun(jump, state, after, bool(world.data.subtree_com[world.torso, 2] > 0.6))
