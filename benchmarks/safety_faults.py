@@ -1,7 +1,7 @@
-"""What faults of time, sensors and ticks do to a robot, with the safety shell and without: `safety_faults.py [ROWS.json]`.
+"""What faults of time, sensors and ticks do, with the safety shell and without: `safety_faults.py [ROWS.json]`.
 
-Each fault begins after 4 s on flat ground, in a control loop of one's own, and is watched for 1.4 s. Writes the table of
-safety_faults.md beside this file; ROWS.json keeps the runs, and what was stopped goes on there.
+Each fault begins after 4 s on flat ground, in a control loop of one's own, and is watched for 1.4 s. Writes the table
+of safety_faults.md beside this file; ROWS.json keeps the runs, so that a stopped benchmark continues.
 """
 
 from __future__ import annotations

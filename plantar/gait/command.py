@@ -24,7 +24,7 @@ __all__ = ["Command", "FootTarget", "Sensors"]
 
 
 class Sensors(Record, frozen=True):
-    """All that a controller gets to see.
+    """Input of a controller.
 
     Attributes:
         time: Time in s.
@@ -33,10 +33,10 @@ class Sensors(Record, frozen=True):
         accelerometer: Specific force (3,) of the base in its own frame in m/s^2.
         readings: Latest reading of each sole.
         ankles: Wrench (6,) that each foot exerts on its leg, in the frame of its force-torque sensor in N and N m;
-            empty for a robot that has none.
-        skin: Latest reading of the skin on its upper body (`ControllerSettings.skin`); None for a robot without.
+            empty without such sensors.
+        skin: Latest reading of the skin on the upper body (`ControllerSettings.skin`), or None.
         links: Origin (3,) in m and rotation (3, 3) in the base frame of each link with skin that moves against the
-            base, as those of an arm, by its joints' encoders.
+            base.
     """
 
     time: float

@@ -8,15 +8,7 @@ __all__ = ["are_plane_points", "pair_of", "points_within", "values_within"]
 
 
 def are_plane_points(value, limit):
-    """Whether this is a contiguous array (k, 2) of float64 with no coordinate beyond a limit; NaN is.
-
-    Args:
-        value: Anything.
-        limit: Largest absolute value.
-
-    Returns:
-        False for anything else, which may be points in another way.
-    """
+    """Returns whether `value` is a contiguous array (k, 2) of float64 with no coordinate beyond `limit`; NaN is."""
     k = memory.rows(value, 2)
     if k < 0:
         return False
@@ -28,14 +20,7 @@ def are_plane_points(value, limit):
 
 
 def pair_of(value):
-    """The two numbers of an array (2,) of float64.
-
-    Args:
-        value: Anything.
-
-    Returns:
-        The numbers; None for anything else, which may be a pair in another way.
-    """
+    """The two numbers of an array (2,) of float64; None for anything else."""
     if memory.size(value) != 2:
         return None
     p = memory.values(value)
@@ -43,15 +28,7 @@ def pair_of(value):
 
 
 def points_within(points, limit):
-    """Whether no coordinate is beyond a limit; NaN is.
-
-    Args:
-        points: Points (k, m).
-        limit: Largest absolute value.
-
-    Returns:
-        False where one is NaN, inf or larger.
-    """
+    """Returns whether no coordinate of points (k, m) is beyond a limit; NaN is."""
     for i in range(points.shape[0]):
         for j in range(points.shape[1]):
             if not abs(points[i, j]) <= limit:
@@ -60,15 +37,7 @@ def points_within(points, limit):
 
 
 def values_within(values, limit):
-    """Whether no value is beyond a limit; NaN is.
-
-    Args:
-        values: Values (n,).
-        limit: Largest absolute value.
-
-    Returns:
-        False where one is NaN, inf or larger.
-    """
+    """Returns whether no value of (n,) is beyond a limit; NaN is."""
     for i in range(values.shape[0]):  # noqa: SIM110  compiled, a loop is what is quick
         if not abs(values[i]) <= limit:
             return False

@@ -1,7 +1,4 @@
-"""A member that is computed once: what `plantar.lazy` is made of, since every member of a percept goes through it.
-
-Plain Python that also compiles ahead of time (`member.pxd` gives the C types).
-"""
+"""A member that is computed once: what `plantar.lazy` is made of, since every member of a percept goes through it."""
 
 from __future__ import annotations
 

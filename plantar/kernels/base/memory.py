@@ -12,16 +12,10 @@ __all__ += ["room", "rows", "size", "values"]
 
 
 def values(array):
-    """The numbers of an array, row after row, to read.
-
-    Args:
-        array: Contiguous array of float64.
-
-    Returns:
-        Its numbers in place: for a compiled kernel a pointer, so that nothing checks an index.
+    """The numbers of a contiguous array of float64 to read, in place: for a compiled kernel a pointer, without checks.
 
     Raises:
-        ValueError: If it is none.
+        ValueError: If it is another kind of array.
     """
     if type(array) is not np.ndarray or array.dtype != np.float64 or not array.flags.c_contiguous:
         raise ValueError("a kernel needs contiguous arrays of float64")
@@ -29,7 +23,7 @@ def values(array):
 
 
 def room(array):
-    """The numbers of an array, row after row, to write; as of `values`.
+    """The numbers of an array to write; as of `values`.
 
     Raises:
         ValueError: If it is no contiguous array of float64 that may be written.
@@ -41,8 +35,7 @@ def room(array):
 
 
 def size(array):
-    """Number of values of a vector that `values` takes; -1 for anything else, which says nothing of whether it may be
-    a vector in another way."""
+    """Number of values of a vector that `values` takes; -1 for anything else."""
     if type(array) is not np.ndarray or array.dtype != np.float64 or array.ndim != 1 or not array.flags.c_contiguous:
         return -1
     return array.shape[0]

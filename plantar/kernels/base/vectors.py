@@ -1,7 +1,4 @@
-"""New small arrays of numbers, in a quarter of the time that `np.array` takes: some hundred are made in a control tick.
-
-Plain Python that also compiles ahead of time (`vectors.pxd` gives the C types).
-"""
+"""New small arrays of numbers, in a quarter of the time that `np.array` takes; a tick makes some hundred."""
 
 from __future__ import annotations
 

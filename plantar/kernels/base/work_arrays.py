@@ -1,9 +1,6 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Work arrays of the kernels: arrays for the compiled form, lists for the interpreted one, which reads them faster.
-
-Plain Python that also compiles ahead of time (`work_arrays.pxd` gives the C types).
-"""
+"""Work arrays of the kernels: arrays for the compiled form, lists for the interpreted one, which reads them faster."""
 
 from __future__ import annotations
 

@@ -1,8 +1,4 @@
-"""Kernel of a configuration that moves: joints' ways, and quaternions that turn.
-
-Plain Python that also compiles ahead of time (`configuration.pxd` gives the C types). It is MuJoCo's `mj_integratePos`
-over one unit of time, with its sums in its order.
-"""
+"""Kernel of a configuration that moves: `mj_integratePos` over one unit of time, with its sums in its order."""
 
 from __future__ import annotations
 
@@ -17,10 +13,10 @@ class Configuration:
     """A configuration (nq,) and its velocity (nv,).
 
     Args:
-        ways: Where in the configuration each of the numbers stands that a velocity adds to (w,).
+        ways: Places (w,) in the configuration that a velocity adds to.
         speeds: Which velocity that is (w,).
         turns: Where each quaternion begins (t,), w first.
-        rates: Where its angular velocity begins (t,), in the body's own frame.
+        rates: Where its angular velocity begins (t,), in the body's frame.
         configuration: The configuration.
         velocity: The velocity.
     """

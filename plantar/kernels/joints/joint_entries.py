@@ -1,7 +1,4 @@
-"""Kernel of the entries of a model's vector that belong to its joints, in the order of joint vectors.
-
-Plain Python that also compiles ahead of time (`joint_entries.pxd` gives the C types).
-"""
+"""Kernel of the entries (k,) of a model's vector (n,) that belong to its joints."""
 
 from __future__ import annotations
 

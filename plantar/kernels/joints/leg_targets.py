@@ -1,7 +1,4 @@
-"""Kernel of what legs are asked for: the targets of CoM, torso and both soles, written where their tasks read them.
-
-Plain Python that also compiles ahead of time (`leg_targets.pxd` gives the C types).
-"""
+"""Kernel of the legs' targets: CoM, torso and both soles, written where their tasks read them."""
 
 from __future__ import annotations
 

@@ -1,9 +1,4 @@
-"""The kernel of inverse kinematics: a Newton step by the normal equations, and whether it may stay as it is.
-
-Plain Python that also compiles ahead of time (`newton_step.pxd` gives the C types).
-`plantar.robots.kinematics.inverse_kinematics` is the public face, with
-the reasons.
-"""
+"""Kernel of `plantar.robots.kinematics.inverse_kinematics`: a Newton step by the normal equations."""
 
 from __future__ import annotations
 
@@ -15,21 +10,20 @@ __all__ = ["NewtonStep"]
 
 
 class NewtonStep:
-    """Solves J^T J dq = J^T e, with something on the diagonal, for some of a model's velocities.
+    """Solves J^T J dq = J^T e, with a term on the diagonal, for some of a model's velocities.
 
     Args:
         columns: Velocities (n,) that a step may use.
         row_units: Factor (m,) of each row of error and Jacobian.
-        column_units: Factor (nv,) of each column of the Jacobian, and of each velocity of the step.
-        movable: Which of a step's entries (k,) move a joint.
-        places: Where these joints are in the configuration (k,).
-        middle: Middle of the range of each joint (k,).
-        half: Half of that range (k,); inf where there is none.
-        diagonal: What is added to the diagonal.
-        least_pivot: Pivot of the Cholesky factor down to which a step stays.
-        given: Jacobian (m, nv) in m and rad, error (m,) in m and rad, and configuration (nq,): the arrays in which the
-            caller writes them for each step.
-        jacobian: Receives the Jacobian (m, n) of each step, in units.
+        column_units: Factor (nv,) of each column of the Jacobian and velocity of the step.
+        movable: Entries (k,) of a step that move a joint.
+        places: Places (k,) of these joints in the configuration.
+        middle: Middle of each joint's range (k,).
+        half: Half of that range (k,); inf without one.
+        diagonal: Term on the diagonal.
+        least_pivot: Least pivot of the Cholesky factor of a valid step.
+        given: Jacobian (m, nv) in m and rad, error (m,) in m and rad, and configuration (nq,), written by the caller.
+        jacobian: Receives the Jacobian (m, n) in units.
         step: Receives the step (n,) in units.
         velocity: Receives the step (nv,) in m and rad.
     """
@@ -47,14 +41,9 @@ class NewtonStep:
         self.column = np.zeros(len(columns))
 
     def solve(self, largest):
-        """Find the step; afterwards the error is in units.
+        """Whether a step of at most `largest` in units is valid: finite, no small pivot, within the joints' limits.
 
-        Args:
-            largest: Largest entry of a step in units.
-
-        Returns:
-            Whether the step may stay: no pivot is small, no entry too large and no joint beyond its limits. One that
-            holds what is no number may not.
+        Afterwards the error is in units.
         """
         normal, step, used, columns = self.normal, self.step, self.jacobian, self.columns
         jacobian, error = self.given, self.error

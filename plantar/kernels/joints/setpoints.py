@@ -14,21 +14,20 @@ _NONE = float("nan")
 class Setpoints:
     """The set-points of k joints, which move on between control ticks without a jump.
 
-    A control tick replaces the goal of the set-points at once; what is written follows that goal by a low pass of
-    second order, critically damped. (One that moved at the goal's own speed meanwhile, without lag, would have to be
-    faster than the goal to make up for its late lead: 1.2 times a joint's speed limit.)
+    A tick replaces their goal at once; what is written follows it by a critically damped low pass of second order.
+    Without lag it would have to move at 1.2 times a joint's speed limit to catch up.
 
     Args:
         controls: Set-points (n,) of all servos, where the simulator reads them.
-        servos: Where each joint's servo stands there (k,).
+        servos: Place (k,) of each joint's servo there.
         stiffness: Position gains (k,) in N m/rad.
-        damping: Gains (k,) in N m s/rad of what slows a joint down: its servo's, and its own.
+        damping: Gains (k,) in N m s/rad of servo and joint.
         per_way: One over the largest way (k,) of a set-point in a control period in 1/rad; empty without limits.
         period: Control period in s.
         step: Period in s in which `advance` is called.
-        share: Share of its way that each of the low pass's two stages goes in a step, above 0 to 1.
-        joints: Joint angles (k,) in rad to go to, where the caller writes them.
-        torques: Torques (k,) in N m that it takes to hold them, likewise.
+        share: Share of its way that each stage of the low pass goes in a step, above 0 to 1.
+        joints: Joint angles (k,) in rad to go to, written by the caller.
+        torques: Torques (k,) in N m that hold them, likewise.
 
     Attributes:
         reference: Desired joint angles (k,) in rad; NaN before the first ones.
@@ -68,8 +67,7 @@ class Setpoints:
             self.goal[i] = self.between[i] = self.setpoint[i] = joints[i] + torques[i] / self.stiffness[i]
 
     def go_to(self):
-        """Set the reference for the next control tick: the joints' goal, or as far on the way to it as the fastest one
-        may go."""
+        """Set the reference for the next tick: the joints' goal, or as far on the way as the fastest joint may go."""
         joints = self.joints
         count = self.servos.shape[0]
         fastest = total = 0.0
@@ -91,11 +89,11 @@ class Setpoints:
             self.rate[i] = self.velocity[i] * self.step
 
     def load(self, friction=None, offsets=None):
-        """Set the goal of the set-points: servos there follow the reference without lag, and hold a load without error.
+        """Set the goal of the set-points, with which servos follow the reference without lag or error.
 
         Args:
-            friction: Torques (k,) in N m that the joints take besides; None for none.
-            offsets: Angles (k,) in rad that are added to the set-points, a contiguous array of float64; None for none.
+            friction: Torques (k,) in N m that the joints take besides, or None.
+            offsets: Angles (k,) in rad that are added, a contiguous array of float64, or None.
         """
         for i in range(self.servos.shape[0]):
             torque = self.torques[i]

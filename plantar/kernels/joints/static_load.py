@@ -16,13 +16,12 @@ class StaticLoad:
     """Loads of a model, and those of its joints.
 
     Args:
-        parents: Parent of each body (b,), which comes before it; the first is the world, which holds everything.
+        parents: Parent of each body (b,), which comes before it; the first is the world.
         bodies: Body of each velocity (nv,).
-        inertias: Inertia about the center of its tree of each body (b, 10), as MuJoCo's `cinert`: of its entries the
-            last four are mass times way from the center, and mass.
+        inertias: Each body's `cinert` (b, 10) about the center of its tree; the last four are mass times way, and mass.
         motions: Unit motion (nv, 6) of each velocity: w, then v.
         gravity: Acceleration (3,) of a falling body.
-        places: Which velocities are those of the joints (k,).
+        places: Velocities (k,) of the joints.
         torques: Receives their loads (k,).
     """
 

@@ -55,9 +55,9 @@ class TurnRows(Rows):
     Args:
         chain: Velocities (c,) that move the body.
         motions: Unit motion (nv, 6) of each velocity: w, then v.
-        wanted: Rotation (3, 3) from the body to the world frame that it shall have.
-        actual: The one that it has.
-        error: Receives the turn (3,) that is missing, in the world frame.
+        wanted: Wanted rotation (3, 3) from the body to the world frame.
+        actual: Its rotation.
+        error: Receives the missing turn (3,) in the world frame.
         jacobian: Receives the angular velocity (3, nv) in the world frame.
     """
 
@@ -82,12 +82,12 @@ class PoseRows(Rows):
         chain: Velocities (c,) that move the body.
         motions: Unit motion (nv, 6) of each velocity: w, then v.
         center: Center (3,) of the body's tree.
-        position: Where the frame's origin (3,) shall be.
-        rotation: Rotation (3, 3) from the frame to the world frame that it shall have.
-        at: Where the origin is (3,).
-        turned: The rotation that the frame has (3, 3).
-        error: Receives the way (3,) and the turn (3,) that are missing, in the world frame.
-        jacobian: Receives the velocity (3, nv) of the origin and the angular velocity (3, nv), in the world frame.
+        position: Wanted origin (3,).
+        rotation: Wanted rotation (3, 3) from the frame to the world frame.
+        at: The origin (3,).
+        turned: The rotation (3, 3).
+        error: Receives the missing way (3,) and turn (3,) in the world frame.
+        jacobian: Receives the velocity (3, nv) of the origin and the angular velocity (3, nv) in the world frame.
     """
 
     def __init__(self, chain, motions, center, position, rotation, at, turned, error, jacobian):
@@ -109,16 +109,16 @@ class ComRows(Rows):
 
     Args:
         chains: Velocities that move each of b bodies, one after the other.
-        ends: Where each body's end there (b,).
+        ends: End (b,) of each body's velocities there.
         masses: Mass (b,) of each body.
         share: One over their sum.
         motions: Unit motion (nv, 6) of each velocity: w, then v.
         centers: Centers (t, 3) of trees.
-        trees: Which of them is that of each body's tree (b,).
+        trees: Tree (b,) of each body.
         places: CoM (b, 3) of each body.
-        target: Where the CoM (3,) of all shall be.
-        com: Where it is (3,).
-        error: Receives the way (3,) that is missing.
+        target: Wanted CoM (3,) of all.
+        com: Their CoM (3,).
+        error: Receives the missing way (3,).
         jacobian: Receives the velocity (3, nv) of the CoM.
     """
 

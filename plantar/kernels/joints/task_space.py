@@ -17,18 +17,18 @@ __all__ = ["TaskSpace"]
 
 
 class TaskSpace:
-    """What is owned, and y; made once for a number of coordinates, and begun anew at each tick.
+    """Owned directions and y; made once for n coordinates, and begun again at each tick.
 
     Args:
         size: Number n of generalized coordinates.
 
     Attributes:
-        used: Number of directions that are owned.
+        used: Number of owned directions.
         y: Mass-weighted acceleration (n,) in the basis of the owned directions, these first.
         columns: Rows of the last level in that basis as columns (n, m), in the order in which they were owned.
-        sizes: Size (m,) of each of them before anything was owned.
-        full: Size (m,) that each would have if its row of the Jacobian were as long as the longest of the level.
-        missing: What each of them (m,) lacks of what is wanted of it; one that was met lacks nothing.
+        sizes: Size (m,) of each before any was owned.
+        full: Size (m,) that each would have with a row of the Jacobian as long as the level's longest.
+        missing: What each (m,) lacks of what is wanted of it; 0 where it was met.
         order: Place (m,) of each in the level.
     """
 
@@ -92,12 +92,11 @@ class TaskSpace:
             jacobian: Rows (m, n).
             wanted: Acceleration (m,) along each; counts where it is to be met.
             meet: Whether it is.
-            least: Share of a row's size below which what is left of it is no direction of its own.
+            least: Share of a row's size below which the rest of it is no direction of its own.
 
         Returns:
-            Number of directions, and a bound that no singular value of these rows is below, each divided by its full
-            size. Where that is small, or rows have no direction of their own, the caller meets what is wanted by `rows`
-            and `missing`.
+            Number of directions, and a lower bound on the singular values of these rows, each divided by its full
+            size. Where that is small, or rows have no direction of their own, the caller uses `rows` and `missing`.
         """
         n, count, first = self.size, jacobian.shape[0], self.used
         if count > self.room:
@@ -158,16 +157,15 @@ class TaskSpace:
             y[first + j] += missing[j]
 
     def fit(self, rank, count, least):
-        """Meet what the rows of the last level lack as well as their directions let them: least squares.
+        """Meet what the rows of the last level lack by least squares; the rows are overwritten.
 
-        With L the rows that have a direction of their own and X L the others, what is met along the former solves
-        (I + X^T X) w = missing_L + X^T missing_X. As the longest rows were taken first, X is small. The rows are
-        written over.
+        With L the rows that have a direction of their own and X L the others, w along the former solves
+        (I + X^T X) w = missing_L + X^T missing_X. The longest rows were taken first, so X is small.
 
         Args:
-            rank: How many have a direction of their own.
-            count: How many there are.
-            least: Share of the largest row's size below which a row counts for nothing.
+            rank: Number of rows with a direction of their own.
+            count: Number of rows.
+            least: Share of the largest row's size below which a row does not count.
         """
         first, columns, missing, normal = self.used - rank, self.columns, self.missing, self.normal
         largest = 0.0

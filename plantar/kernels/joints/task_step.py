@@ -1,7 +1,4 @@
-"""Kernel of a step of inverse kinematics: the rows of all tasks, Newton's step, and the configuration that it moves.
-
-Plain Python that also compiles ahead of time (`task_step.pxd` gives the C types).
-"""
+"""Kernel of a step of inverse kinematics: rows of all tasks, Newton's step, and the configuration that it moves."""
 
 from __future__ import annotations
 

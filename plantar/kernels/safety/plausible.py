@@ -1,6 +1,6 @@
 """Kernel of the safety shell: whether what a robot's sensors report can be, and how far commands move in a tick.
 
-Plain Python that also compiles ahead of time (`plausible.pxd` gives the C types). `plantar.gait.safety` is the public
+`plantar.gait.safety` is the public
 face.
 """
 
