@@ -360,7 +360,8 @@ class _Checked:
             found = plan_reach(self.robot, self.legs, replace(self.walked, com_height=height))
             if found.missed <= _MISSED and found.knee >= _BENT and found.carrying[joint] <= limits[joint]:
                 return f"com_height = {self.robot.com_height + higher * self.body.leg:.3f} works"
-        return f"no height or lean does; a motor of {other.carrying[joint] / HELD:.3g} N m works"
+        needed = other.carrying[joint] / HELD
+        return "no height or lean does" + (f"; a motor of {needed:.3g} N m works" if math.isfinite(needed) else "")
 
 
 def _foot_parts(model: Any, name: str, site: str) -> set[int]:
