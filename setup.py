@@ -17,8 +17,8 @@ KERNELS = sorted(p for p in KERNEL_FOLDER.glob("*/*.pxd") if p.with_suffix(".py"
 # Cython's own code for views of arrays, compiled once: 17,000 lines that each extension held.
 SHARED = KERNEL_FOLDER / "base" / "memoryviews"
 BUILD = "build/cython"
-# Shapes and text gain nothing by -O3, which takes a third longer to compile; ticks take 8 % less.
-LEVEL = dict.fromkeys(("geometry", "formats"), "-O2")
+# Shapes, text and small vectors gain nothing by -O3, which takes a third longer to compile; ticks take 8 % less.
+LEVEL = dict.fromkeys(("base", "geometry", "formats"), "-O2")
 # Neither -ffast-math nor contraction to fused multiply-adds: error-free sums and NaN must mean what the source says.
 # What a builder asks for in CFLAGS comes last and counts.
 FLAGS = [] if os.name == "nt" else ["-g0", "-ffp-contract=off", *os.environ.get("CFLAGS", "").split()]
