@@ -138,32 +138,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     edge = region.buffer(-cell.play - 0.5 * rib, join_style="mitre")
     sheet = tidy(edge) if not edge.is_empty else edge
     inside = sheet.buffer(-cell.edge, join_style="mitre")
-    half = 0.5 * cell.line_width
-    low_x, low_y, high_x, high_y = region.bounds
-    most = (high_x - low_x) / cell.pitch_x + (high_y - low_y) / cell.pitch_y
-    if most > LINES_MOST + 2:
-        raise FootError(
-            f"cell {cell.label}: a sheet of {most:.0f} rows and columns; allowed: {LINES_MOST} together, "
-            "with a larger pitch_x and pitch_y"
-        )
-    best: tuple[tuple[float, ...], Array] | None = None
-    shapely.prepare(inside)
-    centre = np.array([region.centroid.x, region.centroid.y])
-    for u in np.arange(_SAMPLES) / _SAMPLES:
-        for v in np.arange(_SAMPLES) / _SAMPLES:
-            x = np.arange(low_x - u * cell.pitch_x, high_x, cell.pitch_x)
-            y = np.arange(low_y - v * cell.pitch_y, high_y, cell.pitch_y)
-            at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2).round(4)
-            boxes = shapely.box(at[:, 0] - half, at[:, 1] - half, at[:, 0] + half, at[:, 1] + half)
-            kept = at[shapely.covers(inside, boxes)] if not inside.is_empty else at[:0]
-            if len(kept):
-                score = (float(len(kept)), -round(float(np.hypot(*(kept.mean(axis=0) - centre))), 3))
-                best = (score, kept) if best is None or score > best[0] else best
-    if best is None:
-        raise FootError(
-            f"no crossing of electrodes of {cell.line_width:g} mm lies inside the sole; use thinner lines or edge"
-        )
-    at = best[1]
+    at = _crossings(region, inside, cell)
     px, py = 0.5 * cell.pitch_x, 0.5 * cell.pitch_y
     lines = np.column_stack([_ranks(at[:, 1]), _ranks(at[:, 0])])
     cells, kept_lines, crossings = [], [], []
@@ -206,6 +181,36 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
         lines=np.array(kept_lines, dtype=np.int64),
         crossings=np.array(crossings),
     )
+
+
+def _crossings(region: Any, inside: Any, cell: Cell) -> Array:
+    """Crossings (n, 2) of the lines that have most of their electrodes inside."""
+    half = 0.5 * cell.line_width
+    low_x, low_y, high_x, high_y = region.bounds
+    most = (high_x - low_x) / cell.pitch_x + (high_y - low_y) / cell.pitch_y
+    if most > LINES_MOST + 2:
+        raise FootError(
+            f"cell {cell.label}: a sheet of {most:.0f} rows and columns; allowed: {LINES_MOST} together, "
+            "with a larger pitch_x and pitch_y"
+        )
+    best: tuple[tuple[float, ...], Array] | None = None
+    shapely.prepare(inside)
+    centre = np.array([region.centroid.x, region.centroid.y])
+    for u in np.arange(_SAMPLES) / _SAMPLES:
+        for v in np.arange(_SAMPLES) / _SAMPLES:
+            x = np.arange(low_x - u * cell.pitch_x, high_x, cell.pitch_x)
+            y = np.arange(low_y - v * cell.pitch_y, high_y, cell.pitch_y)
+            at = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2).round(4)
+            boxes = shapely.box(at[:, 0] - half, at[:, 1] - half, at[:, 0] + half, at[:, 1] + half)
+            kept = at[shapely.covers(inside, boxes)] if not inside.is_empty else at[:0]
+            if len(kept):
+                score = (float(len(kept)), -round(float(np.hypot(*(kept.mean(axis=0) - centre))), 3))
+                best = (score, kept) if best is None or score > best[0] else best
+    if best is None:
+        raise FootError(
+            f"no crossing of electrodes of {cell.line_width:g} mm lies inside the sole; use thinner lines or edge"
+        )
+    return best[1]
 
 
 def _ranks(values: Array) -> NDArray[np.int64]:
