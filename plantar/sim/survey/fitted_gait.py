@@ -179,21 +179,7 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
     configuration = legs.configuration
     robot = replace(robot, posture=_angles(robot, legs, configuration))
     inertia = joint_inertia(robot, legs.model, configuration)
-    stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
-    if gains:
-        own, unit = np.array(gains), body.weight * height
-        kept = bool((own[:, 0] >= _OWN_STIFFNESS * unit).all())
-        least, most = own[:, 0].min(), own[:, 0].max()
-        notes.append(
-            f"the model's own servos have {least:.3g} to {most:.3g} N m/rad; "
-            + (
-                "they are kept"
-                if kept
-                else f"they are replaced, as position servos that hold the robot need {_OWN_STIFFNESS:g} m g h = "
-                f"{_OWN_STIFFNESS * unit:.3g}"
-            )
-        )
-        stiffness, damping = own.T if kept else (stiffness, damping)
+    stiffness, damping = _gains(inertia, legs, body, height, gains, notes)
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     crouch = _crouch(robot, legs, body, float((reach.torque / limits).max()))
     pace = _pace(robot, legs, body)
@@ -217,6 +203,34 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
             f"{assumed.max():.2g} kg m^2 is assumed as armature in model.xml, put the motors' there"
         )
     return FittedGait(robot, body, inertia, reach, notes, assumed)
+
+
+def _gains(
+    inertia: JointInertia,
+    legs: LegModel,
+    body: BodyScale,
+    height: float,
+    gains: Sequence[tuple[float, float]],
+    notes: list[str],
+) -> tuple[Array, Array]:
+    """Stiffness and damping of each joint of a leg: the model's own where they hold the robot, else fitted ones."""
+    stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
+    if gains:
+        own, unit = np.array(gains), body.weight * height
+        kept = bool((own[:, 0] >= _OWN_STIFFNESS * unit).all())
+        least, most = own[:, 0].min(), own[:, 0].max()
+        notes.append(
+            f"the model's own servos have {least:.3g} to {most:.3g} N m/rad; "
+            + (
+                "they are kept"
+                if kept
+                else f"they are replaced, as position servos that hold the robot need {_OWN_STIFFNESS:g} m g h = "
+                f"{_OWN_STIFFNESS * unit:.3g}"
+            )
+        )
+        if kept:
+            return own[:, 0], own[:, 1]
+    return stiffness, damping
 
 
 def _balance(body: BodyScale) -> dict[str, Any]:
