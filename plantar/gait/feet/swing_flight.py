@@ -23,7 +23,7 @@ __all__ = ["PolynomialSwing", "SwingFlight"]
 _EARLY = {"lift_share": 0.28, "lateral_end": 0.25, "spare": 0.12}  # of a swing that should be near to the ground early
 _RAMP = 0.2  # share of the time left in which the clock comes to its new rate
 _STEP = 1e-4  # s of the differences that velocity and acceleration are taken from
-_LATE = 0.6  # of the time left in which a foot that is above its old place already goes to the new one
+_LATE = 0.85  # of the time left in which a foot that is above its old place already goes to the new one
 
 
 @dataclass(frozen=True)
