@@ -15,13 +15,14 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from importlib import import_module
 from importlib.machinery import EXTENSION_SUFFIXES, FileFinder, ModuleSpec, SourceFileLoader
 from pathlib import Path
 from types import ModuleType
 
-__all__ = ["KERNELS", "compiled", "is_compiled", "python_form"]
+__all__ = ["KERNELS", "compiled", "is_compiled", "outdated", "python_form"]
 
 _FOLDER = Path(__file__).resolve().parent
 
@@ -80,9 +81,33 @@ def is_compiled(name: str) -> bool:
     return not _PYTHON and any((_FOLDER / room / f"{kernel}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES)
 
 
+def outdated(folder: Path) -> list[str]:
+    """Kernels that were compiled before their source changed last, and may compute something else.
+
+    Args:
+        folder: The folder of the rooms.
+
+    Returns:
+        Their names, such as "geometry.convex".
+
+    Example:
+        >>> outdated(Path("no such folder"))
+        []
+    """
+    found = []
+    for source in sorted(folder.glob("*/*.py")):
+        made = [p.stat().st_mtime for suffix in EXTENSION_SUFFIXES if (p := source.with_suffix(suffix)).is_file()]
+        written = [p.stat().st_mtime for p in (source, source.with_suffix(".pxd")) if p.is_file()]
+        if made and max(written) > max(made):
+            found.append(f"{source.parent.name}.{source.stem}")
+    return found
+
+
 _PYTHON = os.environ.get("PLANTAR_KERNELS", "") == "python"
 if _PYTHON:
     sys.meta_path.insert(0, _SourceFinder(__name__))
+elif (_FOLDER.parents[1] / "setup.py").is_file() and (_outdated := outdated(_FOLDER)):  # a checkout, not an install
+    warnings.warn(f"kernels compiled from older sources ({', '.join(_outdated[:3])}): run `make setup`", stacklevel=2)
 
 compiled: bool = all(is_compiled(name) for name in KERNELS)
 """Whether every kernel runs compiled."""

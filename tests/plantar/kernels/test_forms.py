@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import warnings
+from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
 import numpy as np
@@ -153,8 +154,16 @@ def test_an_environment_variable_runs_the_sources():
 
 @pytest.mark.skipif(not Path(kernels.__file__).is_relative_to(ROOT), reason="not those of the checkout")
 def test_no_extension_is_older_than_its_source():
-    old = []
-    for name in kernels.KERNELS:
-        source = Path(kernels.__file__).parent.joinpath(*name.split(".")).with_suffix(".py")
-        old += [p.name for p in source.parent.glob(f"{source.stem}.*.so") if p.stat().st_mtime < source.stat().st_mtime]
-    assert old == [], "compile them again: make setup"
+    assert kernels.outdated(Path(kernels.__file__).parent) == [], "compile them again: make setup"
+
+
+@pytest.mark.parametrize("changed", [".py", ".pxd", None])
+def test_a_kernel_compiled_before_its_last_change_is_found(tmp_path: Path, changed: str | None) -> None:
+    room = tmp_path / "room"
+    room.mkdir()
+    for name in ("one.py", "one.pxd", "plain.py", f"one{EXTENSION_SUFFIXES[0]}"):
+        (room / name).touch()
+        os.utime(room / name, (1000, 1000))
+    if changed:
+        os.utime(room / f"one{changed}", (1001, 1001))
+    assert kernels.outdated(tmp_path) == (["room.one"] if changed else [])
