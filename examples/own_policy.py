@@ -1,9 +1,9 @@
 """A policy of your own for the benchmark of footholds: what `plantar bench footholds --policy FILE` needs.
 
+    python examples/own_policy.py
     plantar bench footholds --policy examples/own_policy.py --seeds 10
 
-It holds the standing posture and leans against what the soles report, so it keeps standing when pushed and takes no
-step: the row that every policy has to beat.
+While a sole carries, it turns the ankles against the trunk's pitch rate; it takes no step: every policy has to beat it.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ from plantar.sim.bench.footholds.policy import Action
 
 
 class Standing:
-    """Moves the ankles by where the soles' center of pressure is."""
+    """Holds the standing posture."""
 
     def __init__(self, task):
         self.task = task

@@ -16,6 +16,9 @@ def constructed_by_kernel(cls: type[_Class]) -> type[_Class]:
     Args:
         cls: The class; its `__init__` has parameters with types, and no body.
 
+    Returns:
+        The class.
+
     Example:
         >>> class Fields:
         ...     def __init__(self, time):

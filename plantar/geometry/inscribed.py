@@ -36,6 +36,7 @@ __all__ = [
 _QUARTER = 0.5 * math.pi
 _FIRST = 32  # intervals of a quarter turn that a scan begins with
 _LOOKS = 300  # angles that a scan measures
+_STARTS = 3  # local maxima of a scan that are refined
 _FEW_LOOKS = 64  # of a convex polygon, whose rectangle changes smoothly between its edges' directions
 _PROVEN = 1e-6  # share of the area that is not looked for
 
@@ -233,7 +234,7 @@ def _scan(
     if not len(points):
         return BoundedRectangle(np.empty((0, 2)), 0.0)
     found = [(_area(corners), angle, corners) for angle in (0.0, *seeds.tolist()) for corners in [largest(angle)]]
-    best, angle, corners = max(found, key=lambda f: f[0])
+    best = max(size for size, _, _ in found)
     reach2 = float((np.ptp(points, axis=0) ** 2).sum())  # no diagonal is longer
     half = 0.5 * _QUARTER / _FIRST
     waiting = [(-math.inf, (2 * k + 1) * half, half) for k in range(_FIRST)]
@@ -243,14 +244,36 @@ def _scan(
             break
         trial = largest(middle)
         size = _area(trial)
-        if size > best:
-            best, angle, corners = size, middle, trial
+        found.append((size, middle, trial))
+        best = max(best, size)
         # Half of the interval to either side, each with the bound of its farther end.
         bound = max(bound, -(size + 0.5 * reach2 * math.sin(2.0 * half)))
         heapq.heapreplace(waiting, (bound, middle - 0.5 * half, 0.5 * half))
         heapq.heappush(waiting, (bound, middle + 0.5 * half, 0.5 * half))
-    width, least = _QUARTER / _FIRST, 1e-7 * min(1.0, best / reach2) if reach2 else math.inf
-    while width > least:  # refine
+    least = 1e-7 * min(1.0, best / reach2) if reach2 else math.inf
+    # The area has several local maxima, of which the highest one may be narrow: each of the best is refined.
+    found.sort(key=lambda f: f[1] % _QUARTER)
+    sizes = [size for size, _, _ in found]
+    peaks = [
+        f
+        for f, one, other in zip(found, sizes[-1:] + sizes, [*sizes[1:], sizes[0]], strict=False)
+        if f[0] >= max(one, other)
+    ]
+    starts = sorted(peaks, key=lambda f: -f[0])[:_STARTS]
+    best, corners = max((_climb(largest, *start, least) for start in starts), key=lambda f: f[0])
+    return BoundedRectangle(corners, max(_PROVEN, -waiting[0][0] / best - 1.0) if best > 0.0 else 0.0)
+
+
+def _climb(
+    largest: Callable[[float], NDArray[np.float64]],
+    best: float,
+    angle: float,
+    corners: NDArray[np.float64],
+    least: float,
+) -> tuple[float, NDArray[np.float64]]:
+    """Area and corners at the local maximum near an angle, found by ever smaller turns."""
+    width = 0.25 * _QUARTER / _FIRST
+    while width > least:
         for turned in (angle - width, angle + width):
             trial = largest(turned)
             if _area(trial) > best:
@@ -258,7 +281,7 @@ def _scan(
                 break
         else:
             width *= 0.5
-    return BoundedRectangle(corners, max(_PROVEN, -waiting[0][0] / best - 1.0) if best > 0.0 else 0.0)
+    return best, corners
 
 
 def _area(corners: NDArray[np.float64]) -> float:

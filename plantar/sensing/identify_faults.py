@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arrays import array, numbers
+from plantar.arrays import LARGEST, array
 from plantar.errors import ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.taxel_faults import WARMING, TaxelFaults, WornFaults
@@ -68,12 +68,11 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
         (1.2, 0.5, True)
     """
     times = array(time, "times", ("t",), ReadingError, finite=True)
-    truth = array(force, "forces", (len(times), len(layout)), ReadingError, finite=True)
-    seen = numbers(read, "readings", ReadingError)
-    if seen.shape != truth.shape:
-        raise ReadingError(f"readings have shape {seen.shape}; expected {truth.shape}, that of the forces")
     if len(times) < 20 or not (np.diff(times) > 0.0).all():
         raise ReadingError("faults are identified from 20 frames or more, at times that increase")
+    truth = array(force, "forces", (len(times), len(layout)), ReadingError, finite=True)
+    seen = array(read, "readings", truth.shape, ReadingError)
+    seen = np.where(np.abs(seen) > LARGEST, np.nan, seen)
     loaded = np.ptp(truth, axis=0) > 0.0
     if not loaded.any():
         raise ReadingError("no taxel's load changes; press each with loads that come on and go off")

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number
-from plantar.arrays import numbers
+from plantar.arrays import array
 from plantar.errors import InputError, ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.same_time import SAME_TIME
@@ -151,16 +151,15 @@ class WornFaults:
             Readings (..., n) in N; NaN for dead taxels.
 
         Raises:
-            ReadingError: If there are other taxels, or shear and no vectors.
+            ReadingError: If there are other taxels, a force is not finite, or there is shear and no vectors.
         """
         faults = self.faults
-        pressed = numbers(force, "forces", ReadingError)
-        if pressed.shape != self.gains.shape:
-            raise ReadingError(f"forces have shape {pressed.shape}; expected {self.gains.shape}")
+        pressed = array(force, "forces", self.gains.shape, ReadingError, finite=True)
         if faults.shear:
             if vectors is None:
                 raise ReadingError("taxels that read shear need the force vectors (..., n, 3)")
-            pressed = pressed + faults.shear * np.linalg.norm(np.asarray(vectors)[..., :2], axis=-1)
+            pulled = array(vectors, "force vectors", (*pressed.shape, 3), ReadingError, finite=True)
+            pressed = pressed + faults.shear * np.linalg.norm(pulled[..., :2], axis=-1)
         pressed = self.rubbed(pressed)
         if faults.delay:
             pressed = self._delayed(time, pressed)

@@ -57,7 +57,7 @@ def build_insole(
         >>> foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
         >>> build = build_insole(foot, 6.0, layout_only=True)
         >>> build.kind, build.parameters.thickness, round(build.fit.covered_area_ratio, 2)
-        ('insole', 6.0, 0.94)
+        ('insole', 6.0, 0.95)
     """
     sides = sides_of(side, rim)
     foot = insole_foot(foot)

@@ -120,7 +120,7 @@ def test_report_reads_back(rows: dict[str, ContactRow], tmp_path: Path) -> None:
 def test_command_refuses_what_it_does_not_know(tmp_path: Path) -> None:
     result = CliRunner().invoke(cli.app, ["bench", "speed", "-o", str(tmp_path / "out")])
     assert isinstance(result.exception, InputError)
-    assert "allowed: kernels, contact, skip, scenes, stress, all" in str(result.exception)
+    assert "allowed: kernels, contact, skip, scenes, stress, footholds, all" in str(result.exception)
     assert not (tmp_path / "out").exists()
 
 

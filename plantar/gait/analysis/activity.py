@@ -230,15 +230,16 @@ def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dic
 
     Returns:
         sway_ellipse_m2 (area of the 95 % prediction ellipse of a normal distribution with the points' covariance, pi
-        times 5.99 times the root of its determinant; Schubert & Kirchner 2014, Gait Posture 39:518), sway_path_m,
-        sway_velocity_m_s (path over time), sway_ap_m and sway_ml_m (standard deviations). Empty for less than 5 s.
+        times 5.99 times the root of its determinant; Schubert & Kirchner 2014, Gait Posture 39:518), sway_path_m (in
+        chords, see `chords`), sway_velocity_m_s (path over time), sway_ap_m and sway_ml_m (standard deviations). Empty
+        for less than 5 s.
 
     Example:
         >>> t = np.linspace(0.0, 10.0, 1001)
         >>> circle = 0.01 * np.column_stack([np.cos(2.0 * np.pi * t), np.sin(2.0 * np.pi * t)])
         >>> found = sway_measures(t, circle)
         >>> round(found["sway_path_m"], 3), round(found["sway_ap_m"], 4)
-        (0.628, 0.0071)
+        (0.626, 0.0071)
     """
     known = np.asarray(np.isfinite(points).all(axis=1))
     if known.sum() < 10 or float(np.ptp(time[known])) < _SHORTEST:

@@ -316,7 +316,9 @@ class FootMotion:
         yaw = target.yaw - frame.turn if moves else self._swing.yaw_end
         self._swing = self._swing.aimed(time - self._start, place, yaw, phase.touchdown - self._start)
 
-    def _begin(self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame) -> None:
+    def _begin(
+        self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame, again: bool = False
+    ) -> None:
         """Begin the swing of a step, from and until some times in s."""
         side = target.side
         if self._swing is not None:
@@ -335,8 +337,8 @@ class FootMotion:
             duration=times[1] - times[0],
             period=self._period,
             least_time=_LEAST_TIME * self._landing.body.beat,
-            sees_ground=sees,
-            approach_height=self._landing.approach_height if self._wary > 0 and not sees else 0.0,
+            sees_ground=sees and not again,
+            approach_height=self._landing.approach_height if self._wary > 0 and (again or not sees) else 0.0,
             approach_speed=self._landing.approach_speed,
             rises_first=side in self._rises_first,
         )
@@ -356,9 +358,10 @@ class FootMotion:
     def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
         """Lift the foot that has landed again and take its step once more, to another place."""
         expected, height = self._expected, self._height
+        self._wary = _WARY
         # It has to clear only what it has just met, in what is left of the step.
         self._height = min(height, _RETAKE_HEIGHT * self._leg)
-        self._begin(self._step, (time, touchdown), target, frame)
+        self._begin(self._step, (time, touchdown), target, frame, again=True)
         self._expected, self._height = expected, height
         self._rises_first.add(self._side)  # what it has met stands beside it then
 

@@ -28,11 +28,13 @@ from plantar.sensing import (
     force,
     ground_plane,
     health,
+    identify_faults,
     link_skin,
     net_wrench,
     partial_contact,
     pressure_wrench,
     proximity,
+    taxel_faults,
     temperature,
     virtual_wrench,
 )
@@ -71,6 +73,8 @@ INNER: frozenset[str] = frozenset(
         *("foot_tick.FootTick",),
         # Its arrays go with a name, a link and thresholds; its own tests hand it wrong ones.
         "link_skin.SkinPatch",
+        # Made by `TaxelFaults.worn` and `identify_faults`.
+        *("taxel_faults.WornFaults", "taxel_faults.WornFaults.rubbed", "identify_faults.IdentifiedFaults"),
         # Hands views of what it is given to the caller, who may pass a memory map.
         "batch.blocks",
     }
@@ -432,6 +436,7 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
     free = Argument(frames.value, (..., "n"), "force value", nan=True)
     anything = Argument(frames.value, (...,), "force value mean reading", nan=True)
     times = Argument(np.arange(2.0), ("f",), "times")
+    pressed = np.outer(8.0 + 8.0 * np.sin(np.arange(32.0)), np.ones(n))
     return [
         Call("force.center_of_pressure", lambda force_: force.center_of_pressure(sole, force_, 0.0), {"force_": one}),
         Call(
@@ -462,6 +467,23 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
             "health.fill_from_neighbours",
             lambda values, faulty: health.fill_from_neighbours(sole, values, faulty),
             {"values": Argument(frames.value, (..., n), "readings", nan=True), "faulty": _mask(sole)},
+        ),
+        Call(
+            "taxel_faults.WornFaults.read",
+            lambda force_, vectors: taxel_faults.TaxelFaults(shear=0.5).worn(sole).read(0.0, force_, vectors),
+            {
+                "force_": Argument(one.value, (n,), "force"),
+                "vectors": Argument(np.ones((n, 3)), (n, 3), "vectors"),
+            },
+        ),
+        Call(
+            "identify_faults.identify_faults",
+            lambda time, force_, read: identify_faults.identify_faults(sole, time, force_, read).worn.gains,
+            {
+                "time": Argument(np.arange(32.0), ("t",), "times frames forces", least=20),
+                "force_": Argument(pressed, ("t", n), "forces frames load", least=20),
+                "read": Argument(1.25 * pressed, ("t", n), "readings frames dead", nan=True, least=20),
+            },
         ),
         Call("clipping.clipped_mean", clipping.clipped_mean, {"force": anything}, {"noise": 1.0}),
         Call("clipping.unclipped_mean", clipping.unclipped_mean, {"mean": anything}, {"noise": 1.0}),

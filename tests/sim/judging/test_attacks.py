@@ -17,6 +17,8 @@ from plantar.sim.run.run_text import run_text
 from plantar.sim.run.runner import Simulation, run_scene
 from plantar.sim.run.scene import load_scene
 
+from .test_foothold_truth import KEPT, SHORT_BEAM
+
 SHORT = ["steps=4", "settle=0.3"]
 BELIEVES = [*SHORT, "identify=false"]  # what the opening stand shows would be made up for
 
@@ -45,12 +47,13 @@ def test_an_honest_walk_has_no_reasons() -> None:
 def test_a_rule_that_can_never_hold_stops_the_robot_and_the_run_does_not_count() -> None:
     simulation = Simulation(load_scene("feasibility-1", ["settle=0.3"]))
     assert simulation.controller.footing.guard is not None
-    simulation.controller.footing.guard.rules = replace(simulation.controller.footing.guard.rules, area_ratio=1.5)
+    simulation.controller.footing.guard.rules = replace(
+        simulation.controller.footing.guard.rules, area_ratio=1.5, attempts=0
+    )
     summary = simulation.run()
     assert {"emergency_stop", "steps", "position"} <= criteria(summary)
     assert summary["emergency_stop"]
     assert summary["steps_taken"] == 5
-    assert len(summary["landings_s"]) >= 8  # which counted as 8 of 8 steps
     shown = run_text(summary)
     assert "NOT COMPLETED, 5 of 8 steps" in shown
     for reason in summary["reasons"]:
@@ -88,12 +91,19 @@ def test_a_fifth_more_mass_than_the_controller_knows_does_not_count() -> None:
     assert max(summary["torque_limit"]["joints"], key=summary["torque_limit"]["joints"].get).endswith("hip_roll")
 
 
-def test_a_fall_on_what_the_ankle_took_for_a_foothold_counts_the_steps_before_it() -> None:
-    """By the ankle's moment alone: soles that see what they are on after landing cross the block without a fall."""
+def test_landings_after_a_step_onto_the_wrong_ground_are_no_steps() -> None:
+    """By the ankle's moment alone the block is taken for a foothold: the foot comes down beside its place."""
     summary = run_scene(load_scene("feasibility-3", ["feasibility=force_torque", "footholds=off"]))
-    assert {"fall", "steps"} <= criteria(summary)
+    assert "steps" in criteria(summary)
     assert summary["steps_taken"] == 4
     assert len(summary["landings_s"]) >= 8  # which would count as 8 of 8 steps
+
+
+def test_a_fall_counts_the_steps_before_it() -> None:
+    summary = run_scene(load_scene("beam", [*SHORT_BEAM, *KEPT, "footholds=off"]), 0)
+    assert {"fall", "steps"} <= criteria(summary)
+    assert summary["steps_taken"] == 7
+    assert len(summary["landings_s"]) > 7
 
 
 class _Other(WalkingController):
@@ -177,7 +187,7 @@ def test_joints_that_are_faster_than_they_can_be_do_not_count(monkeypatch: pytes
     monkeypatch.setattr("plantar.sim.run.servos._SPEED_SHARE", 1e6)
     summary = Simulation(load_scene("obstacle", ["settle=0.3"])).run()
     assert criteria(summary) == {"joint_speed"}
-    assert summary["joint_speed"]["share_of_limit"] > 1.2
+    assert summary["joint_speed"]["share_of_limit"] > 1.0
     assert "knee was faster than its limit" in summary["reasons"][0]["text"]
 
 

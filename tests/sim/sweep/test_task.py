@@ -37,12 +37,12 @@ def test_a_defect_is_a_row_and_a_missing_library_is_none(monkeypatch: pytest.Mon
         raise DependencyError("mujoco", "sim")
 
     task = Task("flat", None, STANDING, 0)
-    monkeypatch.setattr("plantar.sim.run.runner.run_scene", defect)
+    monkeypatch.setattr("plantar.sim.sweep.task.simulation_of", defect)
     row = run_task(task)
     assert set(row) == set(COLUMNS) == set(failed(""))
     assert row["completed"] is False
     assert "KeyError" in row["error"]
     assert "test_task.py" in row["error"]
-    monkeypatch.setattr("plantar.sim.run.runner.run_scene", without_mujoco)
+    monkeypatch.setattr("plantar.sim.sweep.task.simulation_of", without_mujoco)
     with pytest.raises(DependencyError):
         run_task(task)
