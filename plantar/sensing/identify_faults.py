@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arrays import LARGEST, array
+from plantar.arguments import LARGEST
+from plantar.arrays import array
 from plantar.errors import ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.taxel_faults import WARMING, TaxelFaults, WornFaults
