@@ -1,4 +1,4 @@
-"""Loading an optional library: told apart are one that is missing, one that is broken, and a user who interrupts."""
+"""Loading an optional library; distinguishes one that is missing, one that is broken, and a user who interrupts."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def optional_library(library: str, extra: str) -> Iterator[None]:
         except ModuleNotFoundError as error:
             reason = None if error.name == library else str(error)
             raise DependencyError(library, extra, reason) from None
-        except Exception as error:  # while loading, a library that is broken raises whatever it meets
+        except Exception as error:  # while loading, a library that is broken raises any error
             raise DependencyError(library, extra, f"{type(error).__name__}: {error}") from None
 
 
@@ -95,7 +95,7 @@ def _interrupts_held_back() -> Iterator[None]:
 
 
 def unheard(text: str) -> None:
-    """What hears a library's warnings so that nobody else does.
+    """Catches a library's warnings.
 
     MuJoCo prints each, and writes MUJOCO_LOG.TXT into the working directory.
 

@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 FILES = sorted((ROOT / "plantar").rglob("*.py"))
 
-LIMITS = {"lines": 110_600, "statements": 61_200, "docstring words": 187_000, "lines of a file": 735}
+LIMITS = {"lines": 109_900, "statements": 61_150, "docstring words": 185_200, "lines of a file": 600}
 """What the source has at most; `.pxd` files count as lines. Wanted: 80,000, 48,000, 120,000 and 450."""
 
 

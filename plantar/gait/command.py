@@ -50,12 +50,12 @@ class Sensors(Record, frozen=True):
 
 
 class FootTarget(Record, frozen=True):
-    """Where a sole shall be, and what it shall carry.
+    """Desired pose and load of a sole.
 
     Attributes:
         position: Sole frame origin (3,) in the world frame in m.
         rotation: Rotation (3, 3) from the sole to the world frame.
-        force: Force (3,) in N that the ground shall exert on it.
+        force: Force (3,) in N that the ground should exert on it.
         center_of_pressure: Point (2,) in the world frame in m at which it acts.
     """
 
@@ -69,8 +69,8 @@ class Command(Record, frozen=True):
     """What the controller asks of the body, for inverse kinematics and servos.
 
     Attributes:
-        com: CoM reference (3,) in m in the frame of the commanded footholds, which joints are solved in: where the
-            model's CoM shall be.
+        com: CoM reference (3,) in m in the frame of the commanded footholds, which joints are solved in: desired CoM
+            of the model.
         rotation_torso: Rotation (3, 3) from the torso to the same frame.
         feet: Target of each sole, same frame.
         phase: Phase of the walk.
@@ -79,9 +79,9 @@ class Command(Record, frozen=True):
         state: Estimated state.
         dcm: Estimated DCM (2,) in m.
         percepts: What each sole senses.
-        ankle_loads: What each ankle's force-torque sensor says that its sole carries; empty without such sensors.
+        ankle_loads: Load of each sole by its ankle's force-torque sensor; empty without such sensors.
         footholds: What feet have been found to stand on at this tick.
-        moved_steps: Footsteps that were planned anew at another place at this tick.
+        moved_steps: Footsteps that were moved at this tick.
         joint_offsets: What joint set-points have to be higher by (k,) in rad, as encoders err; None for zero.
         stiffness: Share of the joints' stiffness and load that servos should keep; 1, but of a robot that has fallen.
     """

@@ -131,7 +131,7 @@ class WalkingController:
         """The state in which it stays because it cannot go on, None while it walks (docs/safety.md).
 
         "no way on": no footstep is left that may be stepped on, and it stands; "blind": encoders, IMU or soles cannot
-        be used, and "lost": the CoM would have to be farther beside the feet than it is high: it sits down; "late":
+        be used, and "lost": the CoM would have to be farther from the feet than it is high: it sits down; "late":
         times are not numbers: it holds its last command; "fallen": it goes limp.
         """
         if self.shell is not None and self.shell.state is not None:
@@ -178,7 +178,7 @@ class WalkingController:
         return self._last
 
     def _is_lost(self, command: Command) -> bool:
-        """Whether the CoM is to be farther beside the feet than it is high: no leg holds that."""
+        """Whether the CoM is to be farther from the feet than it is high: no leg holds that."""
         left, right = command.feet["left"].position, command.feet["right"].position
         (x, y, _), (lx, ly, _), (rx, ry, _) = command.com.tolist(), left.tolist(), right.tolist()
         away = math.hypot(x - 0.5 * (lx + rx), y - 0.5 * (ly + ry))

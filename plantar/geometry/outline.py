@@ -55,7 +55,7 @@ class Outline(Rings):
         def area(self) -> float: ...
 
     def __init__(self, points: ArrayLike, starts: Sequence[int], ring_areas: Sequence[float]) -> None:
-        # Kernels go where the offsets say.
+        # Kernels follow the offsets.
         kept = own(plane_points(points, "points of an outline"))
         offsets = tuple(integers(starts, "offsets of an outline", ("r + 1",)).tolist())
         if not offsets or offsets[0] != 0 or offsets[-1] != len(kept) or any(b - a < 3 for a, b in pairwise(offsets)):
@@ -68,7 +68,7 @@ class Outline(Rings):
         super().__init__(kept, offsets, tuple(given))  # type: ignore[no-untyped-call]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Copies and pickles are made anew: numpy forgets what is read-only.
+        # Copies and pickles are constructed: numpy forgets what is read-only.
         return type(self), (self.points, self.starts, self.ring_areas)
 
     @classmethod
@@ -89,7 +89,7 @@ class Outline(Rings):
 
     @classmethod
     def _with_area(cls, points: NDArray[np.float64], starts: Sequence[int]) -> Outline:
-        """Outline of rings one after another, in an array that nobody else holds; those without area are left out."""
+        """Outline of rings one after another, in an array of no other owner; those without area are left out."""
         areas = areas_of_rings(points, starts)
         if 0.0 in areas:
             kept = [(points[a:b], area) for (a, b), area in zip(pairwise(starts), areas, strict=True) if area != 0.0]

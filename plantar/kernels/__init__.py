@@ -3,7 +3,7 @@
 A room for what each serves: `base`, `mechanics`, `geometry` and `skin`, `gait`, then what simulates (`joints`,
 `contacts`, `sensors`, `judging`), and `formats`.
 
-`geometry/convex.py` is a module of plain Python; `convex.pxd` beside it gives the C types with which Cython compiles
+`geometry/convex.py` is a module of plain Python; `convex.pxd` next to it gives the C types with which Cython compiles
 the very same file to an extension module, which Python prefers when both are there. Nothing is compiled at run time.
 Without a compiler the source runs as it is, slower, with the same results to the last bit: it is the compiled form's
 oracle.

@@ -112,10 +112,10 @@ def _namespace(layout: SoleLayout, force: Any) -> Any:
 
 
 def _constant(xp: Any, values: Any, like: Any) -> Any:
-    """A constant of the sole beside forces: their library, type of numbers and device."""
+    """A constant of the sole with the forces' their library, type of numbers and device."""
     if not hasattr(like, "__array_namespace__"):
         return xp.as_tensor(values, dtype=like.dtype, device=like.device)
-    # Where a library has several devices, what is not on the default one has to be told; JAX moves it by itself.
+    # Where a library has several devices, what is not on the default one has to be stated; JAX moves it by itself.
     made = xp.asarray(values, dtype=like.dtype)
     there = getattr(like, "device", None)
     return made if xp.__name__.startswith("jax") or there == made.device else xp.asarray(made, device=there)

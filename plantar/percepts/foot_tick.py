@@ -66,7 +66,7 @@ def walking_tick(
         threshold: Activation threshold in N; the layout's own where None.
 
     Returns:
-        What the foot feels.
+        The foot's percept.
 
     Raises:
         ReadingError: If the forces are not numeric, or their number is not that of the taxels.

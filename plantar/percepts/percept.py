@@ -1,4 +1,4 @@
-"""Lazy percept: what a sole feels, each member computed at first use and kept."""
+"""Lazy percept of a sole: each member computed at first use and kept."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         active: Mask (n,) of taxels to take as active, of a `TaxelActivation` with hysteresis; those above the threshold
             where None.
         stuck: Mask (n,) of stuck taxels, of a `StuckMonitor`; none where None.
-        options: What else may be told; what is usual where None.
+        options: Other options; the usual ones where None.
 
     Raises:
         ReadingError: If the reading or a mask has another number of taxels than the layout.
@@ -114,8 +114,8 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         Args:
             layout: The sole, n taxels.
             reading: What its taxels measured.
-            loads: Wrench, contact area and CoP (9,) that `layout.kernel.loads_above` gives of it, an array that nobody
-                else holds; closed to writing.
+            loads: Wrench, contact area and CoP (9,) that `layout.kernel.loads_above` gives of it, an array of no
+                other owner; closed to writing.
 
         Returns:
             The percept, with vertical force, centre of pressure and wrench computed.
@@ -139,7 +139,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         return percept
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Copies and pickles compute their members anew: numpy forgets what is read-only.
+        # Copies and pickles compute their members again: numpy forgets what is read-only.
         masks: dict[str, Any] = {"active": self._given_active, "stuck": self._stuck, "options": self.options}
         return partial(type(self), **masks), (self.layout, self.reading, self.force_threshold)
 

@@ -1,4 +1,4 @@
-"""What a percept may be told beside its layout and reading."""
+"""Options of a percept in addition to its layout and reading."""
 
 from __future__ import annotations
 

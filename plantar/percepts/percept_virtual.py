@@ -19,7 +19,7 @@ __all__ = ["VirtualMembers"]
 
 
 class VirtualMembers:
-    """What a `Percept` holds beside forces. A modality that the reading lacks gives None.
+    """Members of a `Percept` other than forces. A modality that the reading lacks gives None.
 
     Example:
         >>> from plantar import Percept, hex_layout

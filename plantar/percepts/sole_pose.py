@@ -54,7 +54,7 @@ class SolePose:
         self.__dict__.update(rotation_sole_to_world=rotation, position_in_world=position)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Copies and pickles are made anew: numpy forgets what is read-only.
+        # Copies and pickles are constructed: numpy forgets what is read-only.
         return type(self), (self.rotation_sole_to_world, self.position_in_world)
 
     @classmethod

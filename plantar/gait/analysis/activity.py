@@ -72,7 +72,7 @@ class Activity:
 
 
 def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
-    """Tell walking, running and standing apart.
+    """Classify a recording as walking, running or standing.
 
     Args:
         recording: The recording.
@@ -166,7 +166,7 @@ def _by_landing(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
 
 def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activity:
-    """What steps that land in front of the heel are: up stairs where forces and times say so, too."""
+    """What steps that land in front of the heel are: up stairs where forces and times agree."""
     rows = [[s["second_peak_N"] / s["first_peak_N"], s["stance_percent"]] for g in feet.values() for s in g.used]
     known = [[v for v in column if np.isfinite(v)] for column in zip(*rows, strict=True)]
     humps, stance = (float(np.median(v)) if v else float("nan") for v in known)

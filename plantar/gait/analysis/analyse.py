@@ -1,4 +1,4 @@
-"""The door to gait analysis: `analyse` measures whatever holds a recording."""
+"""The door to gait analysis: `analyse` measures any form of a recording."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def analyse(
     unit: str | None = None,
     rate_hz: float | None = None,
 ) -> Analysis | Study:
-    """Measure a recording, whatever holds it; nothing is written.
+    """Measure a recording in any form; no file is written.
 
     Args:
         given: Path of a file; a folder of recordings (a study); a `PressureRecording`; an array (n, k) of n frames and

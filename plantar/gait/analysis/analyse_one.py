@@ -38,7 +38,7 @@ def analyse_one(
     choices: AnalysisOptions | None = None,
     subject: Subject | None = None,
 ) -> Analysis:
-    """Measure one recording, whatever holds it.
+    """Measure one recording in any form.
 
     Args:
         given: What `plantar.formats.given.recording_of` takes.

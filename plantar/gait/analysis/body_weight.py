@@ -1,4 +1,4 @@
-"""Whose weight a recording implies: over a stride the ground carries the body, whatever the gait."""
+"""Whose weight a recording implies: over a stride the ground carries the body in any gait."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def weight_doubts(recording: PressureRecording, weight: float | None) -> list[st
 
 
 def _overload(recording: PressureRecording, side: Side) -> str:
-    """What to say of a robot's foot whose taxels read more than their range; empty for nothing."""
+    """Note on a robot's foot whose taxels read more than their range; empty for nothing."""
     foot = recording.feet[side]
     if foot.layout is None or recording.raw or "force" not in foot.layout.ranges or not len(foot.force):
         return ""

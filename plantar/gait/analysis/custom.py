@@ -1,4 +1,4 @@
-"""Masks and measures of one's own: parts of the sole by polygons in foot coordinates, and functions of a step.
+"""User-defined masks and measures: parts of the sole by polygons in foot coordinates, and functions of a step.
 
 Foot coordinates are shares: u from the back of the heel (0) to the front of the toes (1), v from the lateral (0) to the
 medial edge (1) of the sole, or on a platform of the footprint. A mask is the same part of a left and of a right foot.
@@ -25,7 +25,7 @@ __all__ = ["StepView", "custom_measures", "mask_cells", "mask_measures"]
 
 @dataclass(frozen=True, eq=False)
 class StepView:
-    """What a measure of one's own may look at.
+    """Input of a user-defined measure.
 
     Attributes:
         step: The step with its measures.
@@ -43,7 +43,7 @@ class StepView:
 def custom_measures(
     analysis: Analysis, measures: Mapping[str, Callable[[StepView], float]]
 ) -> dict[Side, dict[str, NDArray[np.float64]]]:
-    """Measure each complete step by functions of one's own.
+    """Measure each complete step by user-defined functions.
 
     Args:
         analysis: An analysis.
@@ -60,7 +60,7 @@ def custom_measures(
 
 
 def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Side, list[dict[str, dict[str, float]]]]:
-    """The measures of regions, of masks of one's own.
+    """The measures of regions, of user-defined masks.
 
     Args:
         analysis: An analysis.

@@ -105,7 +105,7 @@ def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
 
 
 def _segment(segment: Segment, feet: Mapping[Side, FootGait]) -> dict[str, Any]:
-    """One segment with the means of its own steps."""
+    """One segment with the means of its steps."""
     steps = [s for side, own in segment.steps.items() for s in feet[side].steps if s.number in own]
     means = {
         key: spread([s[key] for s in steps]).mean
@@ -139,7 +139,7 @@ def _segment_notes(segments: Sequence[Segment], feet: Mapping[Side, FootGait]) -
 
 
 def _lowest(gait: FootGait) -> str:
-    """What to say of a foot whose force never comes down: it stands, or its sensor has an offset that no walk shows."""
+    """Note on a foot whose force never comes down: it stands, or its sensor has an offset that no walk shows."""
     force = gait.foot.vertical_force[np.isfinite(gait.foot.vertical_force)]
     low, high = (float(v) for v in np.percentile(force, (2.0, 95.0))) if len(force) else (0.0, 0.0)
     return f"; its force never falls below {low:.3g}" if low > 0.2 * high > 0.0 else ""

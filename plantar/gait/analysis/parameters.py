@@ -117,7 +117,7 @@ def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint]
     feet = {side: analyse_foot(recording, side, prints, stated, events) for side in recording.feet}
     places = {side: [_place(recording, gait, step, prints) for step in gait.steps] for side, gait in feet.items()}
     known = {side: [p for p in own if p is not None] for side, own in places.items()}
-    if known != places:  # a step without a place would be taken for a longer stride
+    if known != places:  # a step without a place would make a stride longer
         return feet
     geometry = step_geometry(known)
     return {side: _with_measures(gait, geometry[side]) for side, gait in feet.items()}

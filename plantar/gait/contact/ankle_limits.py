@@ -2,7 +2,7 @@
 
 A robot of weight W that stands with its ZMP at p on one foot has the torque a . ((p - c) x W e_z) on a joint of the
 ankle with axis a through c. Where that passes the joint's limit the foot turns about the joint, and the ZMP does not
-get there, whatever the ground could carry: on a stone under the toes alone that happens before it is at its middle.
+get there, on any ground: on a stone under the toes alone that happens before it is at its middle.
 
 Where a robot is to be loaded at all because its ankles are weak is another matter, which its file decides
 (`plantar.gait.contact.ankle_reach`); here is what the balance law may ask of the foot that carries alone, of any robot.

@@ -68,7 +68,7 @@ class ContactMemory:
             self._mean += self._smoothing * (np.where(np.isfinite(reading.force), reading.force, 0.0) - self._mean)
             carries = self._mean > max(self._least_force, self._least_share * float(self._mean.sum()))
             self._touches |= carries
-            # A cell that carries has not lifted off, whatever the sole did before: rises count from here.
+            # A cell that carries has not lifted off, as the sole did before or not: rises count from here.
             self._slope[carries] = slope
         # The sole turns about the point that carries: to first order a cell rises by slope times its distance from
         # there.

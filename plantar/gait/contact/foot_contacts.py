@@ -1,7 +1,7 @@
 """What both feet stand on, and what a foot that comes down will stand on: found by their soles (T 4.4.2-4.4.3).
 
-This is perception: what is to be done about a foothold that is not what was planned is for `plantar.gait.propose` to
-say.
+This is perception: what is to be done about a foothold that is not what was planned is decided by
+`plantar.gait.propose`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from plantar.sides import SIDES, Side
 __all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole"]
 
 
-_FORGETS = 4  # steps after which a foothold that carried a part of the sole says nothing of the ground ahead
+_FORGETS = 4  # steps after which a foothold that carried a part of the sole is no evidence of the ground ahead
 
 
 def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
@@ -270,7 +270,7 @@ class FootContacts:
         polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
         center = self._center(side, contact.polygon_in_sole)
         vrp, middle = ((position + rotation[:, :2] @ place)[:2] for place in (center, contact.center_in_sole))
-        # Where less was seen ahead, the plan goes by that; what is found now has to correct it.
+        # Where less was seen ahead, the plan uses that; what is found now has to correct it.
         if not contact.whole:
             self._part = foot.step
         as_planned = contact.whole and not known and self._foreseen != foot.step

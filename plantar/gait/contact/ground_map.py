@@ -211,7 +211,7 @@ class GroundMap:
         return later[1]
 
     def _mix(self, reading: NDArray[np.float64]) -> None:
-        """Take a reading (n,) in m into the map; where the ground has moved the map begins anew."""
+        """Take a reading (n,) in m into the map; where the ground has moved the map is restarted."""
         s = self.settings
         known = np.isfinite(reading) & np.isfinite(self._distance)
         news = np.subtract(reading, self._distance, out=np.zeros(len(known)), where=known)

@@ -51,7 +51,7 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     # Share of a new reading in the running mean that decides whether a taxel has carried
     smoothing: ClassVar[float] = 0.3
     forgetting: ClassVar[float] = 0.92  # Share of the old in the running sum that edges are fitted to
-    # Force in N that the ground believed in would put on a taxel, from which its silence tells
+    # Force in N that the ground believed in would put on a taxel, from which its silence counts
     least_expected: float = fixed(0.00593, "weight")
     least_share: ClassVar[float] = 0.3  # Share of that force below which a taxel is silent
     # Depth in m below the nearest ground from which a taxel has no ground to stand on
@@ -59,7 +59,7 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     deep: float = share(1 / 12, "leg", 0.002, 0.5)
     sight: ClassVar[float] = 0.3  # Share of a new reading in the running mean of what is seen
     least_seen: ClassVar[int] = 4  # Number of taxels that have to see ground
-    # Distance in m of the load from the believed polygon's edge, from which silence tells
+    # Distance in m of the load from the believed polygon's edge, from which silence counts
     least_margin: float = fixed(0.13, "sole")
     # Share of the load that silent taxels should carry, from which the belief is wrong
     least_wrong: ClassVar[float] = 0.1
@@ -70,7 +70,7 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
     full_ratio: ClassVar[float] = 0.93  # Share of the sole from which on the contact polygon counts as the whole sole
     subcell: bool = switch(True)
     fit_every: ClassVar[int] = 8  # Readings between two fits of a contact polygon that has settled
-    # Vertical force in N from which the foot stands and its loads say where the edges are
+    # Vertical force in N from which the foot stands and its loads show the edges
     standing_load: float = fixed(0.533, "weight")
     # Readings of the ground from which a foothold is planned with before the foot is on it
     foresee_readings: ClassVar[int] = 6
@@ -164,7 +164,7 @@ class StanceContact:
         # not a fault of the foothold.
         take_in(reading.force, s.forgetting, s.smoothing if self._count > 1 else 1.0, self._sum, self._mean)
         if self._count >= s.settle_readings:
-            # Ground that was seen needs no doubt of what lies beside.
+            # Ground that was seen needs no doubt of what lies next to it.
             mark_carried(self._mean, self._near, s.least_force, 0.0 if self.seen else s.least_beside, self._carried)
         if self._count < s.settle_readings or (self.settled and self._count % s.fit_every):
             return False
@@ -183,7 +183,7 @@ class StanceContact:
         """Take in what the taxels see of the ground while the foot comes down.
 
         Args:
-            reading: The sole's latest reading; without proximity it says nothing.
+            reading: The sole's latest reading; not used without proximity.
         """
         distance = reading.proximity
         if distance is None or reading.time <= self._seen_time:
@@ -246,7 +246,7 @@ class StanceContact:
                 self._believed = None  # what was seen there is not what carries
         lines = self._from_loads(mean) if self._believed is None else self._believed
         polygon = self._fit.polygon(lines)
-        # A foot that still settles presses on a corner or a line; once it stands, the loads say where the edges are.
+        # A foot that still settles presses on a corner or a line; once it stands, the loads show the edges.
         if len(lines) and s.subcell and self._believed is None and float(mean.sum()) > s.standing_load:
             largest = float(mean.max())
             # Noise shrinks with the readings summed, what the model of the sole leaves out does not.
@@ -305,7 +305,7 @@ class StanceContact:
         if load <= 0.0:
             return None
         cop = (mean @ self.layout.positions[:, :2]) / load
-        # A load near the edge lifts the rest off, whether there is ground or not: only a load well inside tells.
+        # A load near the edge lifts the rest off, whether there is ground or not: only a load well inside is evidence.
         lines = np.empty((0, 3)) if self._remembered is None else self._remembered
         if self._fit.edges is not None:
             lines = self._fit.edges.lines

@@ -1,4 +1,4 @@
-"""Encoders and IMU that say nothing: for a moment what they last said stands, for longer the robot is blind."""
+"""Encoders and IMU without readings: bridged by the last ones for a moment, then the robot is blind."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ Told: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.flo
 
 
 class BodySensors:
-    """Follows whether encoders and IMU say something.
+    """Bridges missing readings of encoders and IMU.
 
     Args:
         period: Control period in s.
-        bridged: Time in s for which what they last said may stand.
+        bridged: Time in s for which the last readings are used.
 
     Attributes:
-        blind: Whether they have said nothing for longer; it stays so.
+        blind: Whether readings were missing for longer; final.
 
     Example:
         >>> body, silent = BodySensors(0.005, 0.01), np.full(3, np.nan)
@@ -39,16 +39,16 @@ class BodySensors:
         self.blind = False
 
     def heard(self, told: Told) -> Told | None:
-        """What to go by at this tick.
+        """The readings to use at this tick.
 
         Args:
             told: Joint angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2.
 
         Returns:
-            The very same, or all three as they were last said where one of them holds what is no number; None if blind.
+            The same, or the last complete ones where a number is missing; None if blind.
 
         Raises:
-            InputError: If nothing was said since the start.
+            InputError: If no reading was complete since the start.
         """
         if self.blind:
             return None

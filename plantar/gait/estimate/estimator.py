@@ -251,8 +251,8 @@ class FloatingBaseEstimator:
         )
 
     def _anchor(self, loads: Mapping[str, float]) -> None:
-        """Return the base to the height at which its feet landed: feet whose landing heights cannot be told apart are
-        at one height, or the error of each step, a tilt of milliradians times the step, would add up.
+        """Return the base to the height at which its feet landed: feet whose landing heights cannot be distinguished
+        are at one height, or the error of each step, a tilt of milliradians times the step, would add up.
         """
         heights, error, total = self._heights, 0.0, 0.0
         left, right = self._places[:, 2].tolist()

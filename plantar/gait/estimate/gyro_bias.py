@@ -34,7 +34,7 @@ class GyroBias:
     """Mean difference of the gyro and the turn of the legs: over all samples so far, then over a time constant.
 
     A foot is weighted by its load, and a tick in which both feet carry counts ten times as much: a single sole may turn
-    on soft ground or an edge, which cannot be told from a bias (0.1 mrad/s over steps). A piece in which both differ
+    on soft ground or an edge, which looks like a bias (0.1 mrad/s over steps). A piece in which both differ
     about the base's z axis by more than noise explains is limited to that difference.
 
     Attributes:

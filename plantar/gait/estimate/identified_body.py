@@ -110,7 +110,7 @@ class IdentifiedBody:
         if rules.encoders:
             tolerances = StandingTolerances(rules.encoder_error, rules.place_error, rules.turn_error)
             found = encoder_offsets(self._kinematics.posture, stood.joint_positions, stood.up, self._feet, tolerances)
-            # What noise explains stays out: it would turn the soles of a robot that is as its model says, for good.
+            # What noise explains stays out: it would turn the soles of a robot that equals its model, permanently.
             if float(np.sqrt(np.mean(found**2))) > rules.encoder_least:
                 self.encoder_offsets = _limited(found, float(np.abs(found).max()), rules.encoder_largest)
         carried = sum(float(wrench[2]) for wrench in stood.wrenches.values())

@@ -31,7 +31,7 @@ __all__ = ["FootMotion", "Landing", "SoleSense"]
 _RETAKE_HEIGHT = 1 / 15  # above what the foot met that a step taken once more rises at most
 _CLOSE_BY = 0.1  # before its place from which a swing turns its sole to the ground
 _NEARLY_THERE = 0.02  # before its place from which a swing judges the ground that it will land on
-_TOUCHING = 1 / 60  # from the ground that it sees within which less than a blind foot's load is taken for a touch
+_TOUCHING = 1 / 60  # from the ground that it sees within which less than a blind foot's load counts as a touch
 _AHEAD = 1 / 60  # below where it is estimated to be at which a foot that comes down is commanded at most
 _ELSEWHERE = 1 / 150  # between ground and where it was expected from which the next steps come down slowly
 _SAME_PLACE = 1 / 6000  # between two places that are one
@@ -65,7 +65,7 @@ class Landing(Part, table="landing", given_by={n: f"walk.{n}" for n in ("approac
         ground_share: Share of a new foothold's height in the height at which the next one is expected: 1 expects it as
             high as the last one, less averages over more footholds of uneven ground.
         levelling: How fast in 1/s a foot that does not see the ground turns parallel to the one that stands, where only
-            forces tell what it stands on; 0 leaves it as it comes.
+            forces show what it stands on; 0 leaves it as it comes.
         probing: Whether such a foot, once it has load, turns until its centre of pressure is in the middle of what it
             is believed to stand on: taxels there carry, or deny it, before it gets the body's weight.
         approach_height: Height in m above the expected ground from which a swing that does not see the ground goes down
@@ -291,7 +291,7 @@ class FootMotion:
     def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame) -> None:
         """Follow a plan that has changed while the foot swings: it goes elsewhere, or is there at another time.
 
-        A foot in the air is aimed anew; one that has landed already lifts again and takes its step once more.
+        A foot in the air is aimed again; one that has landed already lifts again and takes its step once more.
 
         Args:
             phase: Phase of the walk.
@@ -363,7 +363,7 @@ class FootMotion:
         self._height = min(height, _RETAKE_HEIGHT * self._leg)
         self._begin(self._step, (time, touchdown), target, frame, again=True)
         self._expected, self._height = expected, height
-        self._rises_first.add(self._side)  # what it has met stands beside it then
+        self._rises_first.add(self._side)  # what it has met is next to it then
 
     def _comply(
         self,
@@ -424,7 +424,7 @@ class FootMotion:
         self.footholds[side] = (position - vector(0.0, 0.0, drop), yaw)
 
     def _may_touch(self, compliance: SwingCompliance, view: GroundView | None, load: float) -> bool:
-        """Whether a load can be a touch: the farther the ground that it sees, the likelier a foot feels noise."""
+        """Whether a load can be a touch: the farther the ground that it sees, the likelier the load is noise."""
         blind = self._landing.contact_force
         if load > blind:
             return True

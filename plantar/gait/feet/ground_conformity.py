@@ -1,4 +1,4 @@
-"""Feet that take the ground's shape: the commanded sole turns until the ground carries it where it shall be loaded.
+"""Feet that take the ground's shape: the commanded sole turns until the ground carries it where it should be loaded.
 
 A rigid sole comes to rest on three bumps, in an orientation that no sensor saw before. A stiff ankle would keep the
 commanded one and lean the body instead. Each foot therefore turns with its centre of pressure's error (damping control
@@ -106,7 +106,7 @@ class FootTurn:
         Args:
             load: Vertical force on it in N.
             center_of_pressure: Where that acts (2,) in the sole frame in m.
-            target: Where it shall act (2,) in the sole frame in m.
+            target: Where it should act (2,) in the sole frame in m.
 
         Returns:
             Turn (2,) about the sole's x and y axes in rad.
@@ -128,7 +128,7 @@ class FootTurn:
         Args:
             load: Vertical force on it in N.
             center_of_pressure: Where that acts (2,) in the sole frame in m.
-            target: Where it shall act (2,) in the sole frame in m: the desired ZMP.
+            target: Where it should act (2,) in the sole frame in m: the desired ZMP.
 
         Returns:
             Turn (2,) about the sole's x and y axes in rad.

@@ -1,7 +1,7 @@
 """After touchdown a foot turns until the ground carries it evenly (T 4.4.1, Fig. 49-d).
 
 A sole that lands a milliradian off level rests on one edge, and its taxels show that edge and no foothold. The foot
-therefore yields to the moment of its own ground reaction wrench about a point c that shall become the centre of
+therefore yields to the moment of its own ground reaction wrench about a point c that should become the centre of
 pressure,
 
     w = A ((p - c) x f),     [w_x, w_y] = A f_z [p_y - c_y, -(p_x - c_x)],
@@ -64,7 +64,7 @@ class LandingCompliance:
         Args:
             force: Vertical force on it in N.
             center_of_pressure: Where that acts (2,) in the sole frame in m.
-            target: Where it shall act (2,) in the sole frame in m.
+            target: Where it should act (2,) in the sole frame in m.
         """
         # The foot carries the body now: turning it would push the body, and its edge no longer hides the ground.
         g = self.gains

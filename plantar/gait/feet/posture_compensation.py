@@ -1,7 +1,7 @@
 """Keep the swing foot where it is wanted in the world while the body leans and sags on its stance leg.
 
 Servos give under load and a push tilts the pelvis; joints that are solved for an ideal body would carry the swing foot
-along with the lean, and it would land early, on an edge, beside its foothold. The foot's wanted pose is therefore
+along with the lean, and it would land early, on an edge, off its foothold. The foot's wanted pose is therefore
 expressed relative to the body as it is estimated, and attached to the body as it is commanded:
 
     X_command = c_command + R_command R_estimated^T (X_world - c_estimated)
@@ -67,7 +67,7 @@ class PostureCompensation:
         self.shift, self.turn, self._weight, self._kept = np.zeros(3), np.zeros(3), 0.0, np.zeros(3)
 
     def keep(self, shift: NDArray[np.float64]) -> None:
-        """Keep what a foot that stands beside its place was commanded farther: it goes out with the correction.
+        """Keep what a foot that stands off its place was commanded farther: it goes out with the correction.
 
         A leg that leans stands there with the joints of another place. Commanded to where it stands at once, as the leg
         of a body that does not lean, it would pull the foot away from there before that carries. All of it is kept,

@@ -54,7 +54,7 @@ class SwingTrajectory:
         approach_height: Height in m above the end at which a slow approach begins, 0.44 of the duration before its end;
             0 comes down in one move.
         approach_speed: Speed in m/s of the approach, which goes on below the end; raised where it would not reach it.
-        rises_first: Whether the foot is up before it moves horizontally, for something that stands beside it.
+        rises_first: Whether the foot is up before it moves horizontally, for something next to it.
     """
 
     start: NDArray[np.float64]

@@ -132,7 +132,7 @@ class SwingCompliance:
         return min(g.turn_rate, gentle + max(0.0, math.hypot(*slope) - _SLOPE_OF_NOISE) / g.turning)
 
     def holding(self, since: float) -> float:
-        """Force in N that a foot shall carry some time after it touched, until weight is put on it.
+        """Force in N that a foot should carry some time after it touched, until weight is put on it.
 
         Args:
             since: Time in s since it touched.

@@ -1,4 +1,4 @@
-"""The swing foot's path as a polynomial that is fitted anew at every tick to where and when it shall land (K 13-16).
+"""The swing foot's path as a polynomial that is fitted at every tick to where and when it should land (K 13-16).
 
 A footstep that is moved at every tick wants a path that does not pass on each jump. K fits a polynomial of the time to
 more conditions than it has coefficients: rest at lift-off and touchdown, the path of the tick before, what is measured
@@ -10,8 +10,8 @@ Time is counted in shares of the swing, so conditions and damping weigh alike fo
 step, and a swing of 100 s is as well conditioned as one of 0.1 s. Conditions on velocity and acceleration are weighed
 by the control period in these units and its square, as in K Table 1.
 
-A polynomial may swing past. Horizontally, the reference stays between where it was and where it shall land; vertically,
-it rises, and from some moment on it falls (K 2.4, monotonicity).
+A polynomial may swing past. Horizontally, the reference stays between where it was and where it should land;
+vertically, it rises, and from some moment on it falls (K 2.4, monotonicity).
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
 
 
 class SwingPoint(Record, frozen=True):
-    """Where the swing foot shall be now.
+    """Desired swing foot now.
 
     Attributes:
         position: (3,) in m.
@@ -126,13 +126,13 @@ class SwingFit:
         """The reference now, of a path to a goal (K 13-16).
 
         Args:
-            goal: Where the foot shall land (3,) in m.
+            goal: Where the foot should land (3,) in m.
             elapsed: T_c: time since lift-off in s; one control period more at each call.
             duration: T_s in s, from lift-off to touchdown.
             observed: Where the foot was at the tick before (3,) in m, by the joints; None does without.
 
         Returns:
-            Where the foot shall be; the goal, at rest, once the duration is over.
+            The desired pose; the goal, at rest, once the duration is over.
 
         Raises:
             InputError: If goal or observation is not three finite numbers, or a time not a finite number.

@@ -1,8 +1,9 @@
 """A swing that can be given another place and another time of touchdown while it is in the air.
 
-A flight follows its trajectory until it is aimed anew. From then on, horizontally and in heading, it takes a polynomial
-of fifth order from where it is, with its velocity and acceleration, to rest above its new place; vertically it goes on
-along its trajectory, whose clock runs faster or slower from then on. Neither position, velocity nor acceleration jumps.
+A flight follows its trajectory until it is aimed again. From then on, horizontally and in heading, it takes a
+polynomial of fifth order from where it is, with its velocity and acceleration, to rest above its new place; vertically
+it goes on along its trajectory, whose clock runs faster or slower from then on. Neither position, velocity nor
+acceleration jumps.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ class _Clock:
             return self.shows
         length = self.until - self.since
         s = max(0.0, time - self.since) / length
-        # Integral of a rate that rises linearly and then stays: no jump in speed, whatever the plan changed.
+        # Integral of a rate that rises linearly and then stays: no jump in speed by any change of the plan.
         ramp = 0.5 * s * s / _RAMP if s < _RAMP else s - 0.5 * _RAMP
         return self.shown + length * (self.rate * s + (self.last - self.rate) * ramp)
 

@@ -35,7 +35,7 @@ _STANCE_BRIDGE = 3.24  # beats in which a change that comes in single support is
 _FORESIGHT = 0.243  # beats before touchdown from which a foothold that is seen coming is bridged on the stance foot
 _LEAST_BRIDGE = 0.202  # beats: with less time left nothing is bridged
 _AT_REST = 4.04  # beats of standing before the first weight shift, and after the last, that the VRP rests in
-_REBUILT = 4  # stances that a replan builds anew; later ones keep what they have
+_REBUILT = 4  # stances that a replan builds again; later ones keep what they have
 _REMEMBERED = 4  # steps behind the current one that a plan without an end keeps
 _RECORDED = 1000  # changes that the record keeps
 

@@ -141,7 +141,7 @@ def solve_dsp(problem: DspProblem, weights: DspWeights) -> DspSolution:
             return _solution(cost, low, -1)
         if at_right <= 0.0 and right == high:
             return _solution(cost, high, 1)
-        # Beside the least sample the cost falls away from it: there is another minimum between, to be sampled finer.
+        # Next to the least sample the cost falls away from it: there is another minimum between, to be sampled finer.
     return _solution(cost, float(times[k]), 0)
 
 

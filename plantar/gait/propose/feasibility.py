@@ -67,7 +67,7 @@ class FeasibilityRules(
     near: float = share(0.005, "leg", 0, 0.05)
     clearance: float = share(1 / 24, "leg", 0, 0.2)
     swing_time: float = share(5.66, "beat", 0.2, 10)
-    return_time: float = fixed(8.9, "beat")  # Duration in s of the swing back beside the other foot
+    return_time: float = fixed(8.9, "beat")  # Duration in s of the swing back next to the other foot
     outward: float = share(1 / 3, "leg", 0, 1)
     inward: float = share(0.025, "leg", 0, 1)
     forward: float = share(2 / 15, "leg", 0, 1)

@@ -104,7 +104,7 @@ class StepGuard:
     def propose(self, tick: Tick) -> PlanChange | None:
         """A longer single support for a foothold that is doubted, another place for one that is refused.
 
-        It takes each of its changes for applied: nobody's comes before `Priority.SAFETY`.
+        It assumes that its changes are applied: none comes before `Priority.SAFETY`.
 
         Args:
             tick: What there is to know, after the feet's motion.
@@ -131,7 +131,7 @@ class StepGuard:
         return self._judge(phase, side, tick)
 
     def _begin(self, phase: Phase, side: Side, tick: Tick) -> None:
-        """A step begins: it comes back beside the other foot if there is no way on."""
+        """A step begins: it comes back next to the other foot if there is no way on."""
         self._step, self._tries, self._state = phase.step, 0, _State.WALKING
         origin, stance = tick.place(side), tick.place(other_side(side))
         ahead = origin.rotation_sole_to_world[:2, 0]
@@ -196,7 +196,7 @@ class StepGuard:
         )
 
     def _back(self, phase: Phase, tick: Tick) -> PlanChange:
-        """The foot goes back beside the other one, and the walk ends."""
+        """The foot goes back next to the other one, and the walk ends."""
         self.stopped, self._state = True, _State.STOPPED
         longer, wait = self._wait(self.rules.return_time, phase, tick)
         return PlanChange(

@@ -378,7 +378,7 @@ def _nearest(
 def _residual(
     program: _Program, solution: tuple[float, float, float], bound: int, edges: list[int], region: list[list[float]]
 ) -> float:
-    """How fast the cost still falls in an allowed direction, beside the largest term of its gradient."""
+    """How fast the cost still falls in an allowed direction, relative to the largest term of its gradient."""
     gx, gy, gs, size, time_size = program.gradient(*solution)
     by_time = abs(gs) if bound == 0 else max(0.0, -gs if bound < 0 else gs)
     if not edges:

@@ -209,7 +209,7 @@ class VelocityCommand:
         velocity, timing = self.table.at(tick.time), plan.schedule.timing
         if velocity is STOP and phase.step >= plan.count:
             return None  # at rest, or on the way to it
-        # A stop counts until the foot lifts off: heard a moment after the touchdown, it would take a step more.
+        # A stop counts until the foot lifts off: received a moment after the touchdown, it would take a step more.
         if phase.step == self._planned and not (velocity is STOP and plan.count > phase.step + 1):
             return None
         duration = timing.single_support + timing.double_support

@@ -40,7 +40,7 @@ __all__ = ["Footing"]
 
 _NO_PUSH = read_only(np.zeros(2))
 _PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it
-_MAX_LANDING_OFFSET = 0.25  # leg that a foot that has landed beside its place is commanded away from it at most
+_MAX_LANDING_OFFSET = 0.25  # leg that a foot that has landed off its place is commanded away from it at most
 
 
 class Footing:
@@ -163,7 +163,7 @@ class Footing:
     def _press(self) -> float | None:
         """Force in N that a foot that sees the ground holds in single support; None leaves it to its gains."""
         if self.guard is not None and self.guard.press is not None:
-            return self.guard.press  # a probe, whatever the ground's shape
+            return self.guard.press  # a probe, on ground of any shape
         return None if self.conformity is None or not self._settings.feedback else self.conformity.gains.press
 
     def perceive(

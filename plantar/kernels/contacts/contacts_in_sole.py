@@ -27,7 +27,7 @@ class ContactsInSole:
         self._make_room(8)
 
     def look_from(self, origin, rotation):
-        """Say where the sole is; at first it is where the world is.
+        """Set where the sole is; at first it is where the world is.
 
         Args:
             origin: The sole's origin (3,) in the world in m, where the simulator writes it.

@@ -45,7 +45,7 @@ def gather_feet(feet, listed, forces):
 
 
 class FootContacts:
-    """The contacts of one foot with everything that is not this foot, gathered anew at each instant.
+    """The contacts of one foot with everything that is not this foot, gathered at each instant.
 
     Args:
         own: Whether a geom belongs to the foot (geoms,), 0 or 1.

@@ -6,7 +6,7 @@ __all__ = ["spread_part", "spread_whole"]
 
 
 def spread_whole(u, area, inverse, x, y, force, cells, out):
-    """Spread a normal load over covered cells that all carry: the pressure a + b x + c y is nowhere negative.
+    """Spread a normal load over covered cells that all carry: the pressure a + b x + c y is never negative.
 
     Args:
         u: Coordinates (m, 3) of the cells: 1, and the scaled place of their covered part's centroid.

@@ -8,7 +8,7 @@ import numpy as np
 
 __all__ = ["TaxelLoad"]
 
-_SPREAD = 1e-3  # of the load: what cells beside the contact may carry where those in it cannot hold its moment
+_SPREAD = 1e-3  # of the load: what cells next to the contact may carry where those in it cannot hold its moment
 _FAINT = 0.02  # of a cell's area: how much the next row counts, so that the load is always between taxels
 _EXACT = 1e-12  # of the load and of the cells' extent: how exactly a pressure has the moment that is asked for
 
@@ -21,7 +21,7 @@ class TaxelLoad:
        cells counts faintly.
     2. Each pair's normal load is spread as on springs that cannot pull: f = w max(0, a + b x + c y).
     3. The sum over the pairs is corrected in the same way, with itself as weight, to have the load and the moments of
-       all contacts exactly. Where it cannot, cells beside it help out, and then all cells.
+       all contacts exactly. Where it cannot, neighbouring cells help, and then all cells.
     4. Tangential forces follow the normal ones, and turn about their centre, to have the rest of the wrench.
 
     Args:

@@ -5,7 +5,7 @@ A number of up to 15 digits is a whole number below 2^53 over a power of ten up 
 error, so that their quotient is the double nearest to the number (Clinger 1990, "How to read floating point numbers
 accurately"). Others are handed to `float`.
 
-Plain Python that also compiles ahead of time: `decimals.pxd` beside it gives the C types.
+Plain Python that also compiles ahead of time: `decimals.pxd` gives the C types.
 """
 
 from __future__ import annotations

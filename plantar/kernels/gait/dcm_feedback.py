@@ -132,7 +132,7 @@ class DcmFeedback:
         px, py = at[0] + offset.x, at[1] + offset.y
         if self.after:
             cx, cy = px, py
-        # The linear inverted pendulum, w^2 (c - p): what the feet shall give, not the derivative of the offset.
+        # The linear inverted pendulum, w^2 (c - p): what the feet should give, not the derivative of the offset.
         return (
             vectors.vector2(x, y),
             vectors.vector2(px, py),
@@ -147,7 +147,7 @@ class DcmFeedback:
         y = vrp[1] + self.factor * ey + self.integral_y
         if not len(region):
             return x, y
-        # No foot can press beside its contact: what is wanted there is cut to what the ground can give.
+        # No foot can press outside its contact: what is wanted there is cut to what the ground can give.
         px, py = convex.nearest(region, x, y)
         # The integral stands still while the region holds the desired ZMP back.
         if integrates and self.integral_gain > 0.0 and (px - x) * (px - x) + (py - y) * (py - y) < _SAME * _SAME:

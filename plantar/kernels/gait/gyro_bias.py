@@ -56,7 +56,7 @@ class GyroBias:
         most_ticks: Ticks of a piece.
         slip: Largest angle in rad about z by which noise differs in a piece.
         one_foot: Weight of a tick with one still foot, relative to one with two.
-        known: Gathered weight from which a slip can be told from a bias.
+        known: Gathered weight from which a slip differs from a bias.
         value: Receives the bias (3,) in the base frame in rad/s.
         missed: Receives the angle (3,) in the base frame in rad by which the legs turned more than the corrected gyro,
             in the piece that has ended.

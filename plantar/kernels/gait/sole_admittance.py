@@ -42,7 +42,7 @@ class SoleAdmittance:
 
     def fade(self):
         """One tick in the air."""
-        # There is no load to compare with, and the filter must begin anew at touchdown.
+        # There is no load to compare with, and the filter must restart at touchdown.
         self.stands = False
         self.roll, self.pitch, self.shift = self.keep * self.roll, self.keep * self.pitch, self.keep * self.shift
         # An exponential never ends.

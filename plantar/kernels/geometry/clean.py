@@ -15,9 +15,9 @@ from . import hull
 __all__ = ["anchor", "clean_ring", "extent", "turning"]
 
 _BOUND = 3.3306690738754716e-16  # Shewchuk's bound A of a turn's rounding, relative to its two products
-_UNDERFLOW = 1e-280  # m^2: products up to this say nothing
+_UNDERFLOW = 1e-280  # m^2: products up to this are rounding
 _NEAR = 4.4e-16  # of the ring's size: neighbours within it are one vertex
-_LARGEST = 1e100  # coordinates in m beyond this are taken for not finite, as by `hull`
+_LARGEST = 1e100  # coordinates in m beyond this count as not finite, as by `hull`
 _SMALLEST = 1e-100  # m: products of the edges of a smaller ring may underflow
 
 

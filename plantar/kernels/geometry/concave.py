@@ -95,7 +95,7 @@ class OutlineRectangles:
         left = self.left
         trapezoid = self.trapezoid
         count = self.first[slabs]
-        # First pass: rectangles between lines, a good start. Second pass: whatever two trapezoids may still give.
+        # First pass: rectangles between lines, a good start. Second pass: what two trapezoids may still give.
         for exact in range(2):
             for start in range(count):
                 signals.PyErr_CheckSignals()

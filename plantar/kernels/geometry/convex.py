@@ -25,7 +25,7 @@ __all__ = [
     "signed_margin",
 ]
 
-_LARGEST = 1e100  # coordinates in m beyond this are taken for not finite: their products would overflow
+_LARGEST = 1e100  # coordinates in m beyond this count as not finite: their products would overflow
 _INFINITE = float("inf")
 _NONE = float("nan")
 _NOISE = 1e-15  # of a polygon's extent: corners of its inner offset that are nearer to each other are one

@@ -9,7 +9,7 @@ import numpy as np
 
 __all__ = ["convex_hull", "gather", "hull_of_cloud", "hull_ring", "hull_tolerance", "turn_is_left"]
 
-_LARGEST = 1e100  # coordinates in m beyond this are taken for not finite: their products would overflow
+_LARGEST = 1e100  # coordinates in m beyond this count as not finite: their products would overflow
 _SMALLEST = 1e-100  # points within a box of this size in m are one: the products of their distances would underflow
 _TINY = 1e-120  # coordinates in m up to this count as 0: exact turns are made of products, which must not underflow
 _SHORT = 64  # points up to this number are sorted by insertion

@@ -208,7 +208,7 @@ class EdgeTable:
                     v = self.origin[h]
                     if pinched:
                         low = place[v]
-                        if low >= 0:  # back at a vertex of this ring: what lies between is a ring of its own
+                        if low >= 0:  # back at a vertex of this ring: what lies between is another ring
                             used = self._keep(path, low, size, points, used, starts, areas)
                             for k in range(low, size):
                                 place[path[k]] = -1

@@ -164,7 +164,7 @@ class _ChordWalk:
         return event
 
     def may_hold_better(self):
-        """Whether the parabola of the area rises above the best one, or is too coarse to say."""
+        """Whether the parabola of the area rises above the best one, or is too coarse to decide."""
         px = self.d0x + self.e0 * self.dx
         py = self.d0y + self.e0 * self.dy
         self.q1 = self.bx * py - self.by * px + self.e1 * (self.b0x * self.dy - self.b0y * self.dx)

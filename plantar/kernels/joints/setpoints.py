@@ -92,7 +92,7 @@ class Setpoints:
         """Set the goal of the set-points, with which servos follow the reference without lag or error.
 
         Args:
-            friction: Torques (k,) in N m that the joints take besides, or None.
+            friction: Torques (k,) in N m that the joints take in addition, or None.
             offsets: Angles (k,) in rad that are added, a contiguous array of float64, or None.
         """
         for i in range(self.servos.shape[0]):

@@ -92,7 +92,7 @@ class TaskSpace:
             jacobian: Rows (m, n).
             wanted: Acceleration (m,) along each; counts where it is to be met.
             meet: Whether it is.
-            least: Share of a row's size below which the rest of it is no direction of its own.
+            least: Share of a row's size below which the rest of it is no direction.
 
         Returns:
             Number of directions, and a lower bound on the singular values of these rows, each divided by its full

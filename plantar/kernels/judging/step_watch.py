@@ -153,7 +153,7 @@ class StepWatch:
         self.stance.step(self.now - max(self.landed[0], self.landed[1]))
 
     def _look(self):
-        """What to look at besides landings."""
+        """What to watch in addition to landings."""
         seen = 0
         if self.legs[0] > 0.0:
             seen += 4

@@ -23,7 +23,7 @@ def on_segment(omega, since, until, segment, vrps, rates, growths, shrinkage):
         shrinkage: B (2,) of this one in m.
 
     Returns:
-        VRP, DCM and its rate, CoM and its first and second rate, each an array (2,) of its own.
+        VRP, DCM and its rate, CoM and its first and second rate, each a new array (2,).
     """
     start, rate, growth = memory.values(vrps), memory.values(rates), memory.values(growths)
     offset, i, j = memory.values(shrinkage), 2 * segment, 2 * segment + 1

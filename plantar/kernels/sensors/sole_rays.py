@@ -1,4 +1,4 @@
-"""Kernel of the proximity sensors of one sole: a ray of each taxel against the ground, and what is told of it."""
+"""Kernel of the proximity sensors of one sole: a ray of each taxel against the ground, and what is reported of it."""
 
 from __future__ import annotations
 
@@ -93,23 +93,23 @@ class SoleRays:
         )
 
     def measure(self):
-        """Set `distances` to what the rays' lengths say."""
+        """Set `distances` to the rays' lengths."""
         for i in range(self.length.shape[0]):
             length = self.length[i]
             self.distance[i] = length - self.lift if 0.0 <= length <= self.most + self.lift else _INFINITE
 
     def see_nothing(self):
-        """Set `distances` to what taxels tell that are out of range of everything."""
+        """Set `distances` to the readings of taxels that are out of range."""
         for i in range(self.distance.shape[0]):
             self.distance[i] = _INFINITE
 
     def tell(self, noise, row, dead):
-        """What the sensors tell of `distances`.
+        """Readings of the sensors at `distances`.
 
         Args:
             noise: `NoiseRows` in m.
             row: The row of it that is added.
-            dead: Indices of taxels that tell nothing.
+            dead: Indices of dead taxels.
 
         Returns:
             Distances (n,) in m, inf where nothing is in range, NaN of a dead taxel.

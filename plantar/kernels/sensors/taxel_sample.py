@@ -15,9 +15,9 @@ class TaxelSample:
     Args:
         noise: `NoiseRows` in N, of which each sample takes the next n numbers.
         count: n.
-        least: Least force in N that the taxels tell.
+        least: Least force in N that the taxels report.
         most: Largest one.
-        dead: Indices of taxels that tell nothing.
+        dead: Indices of dead taxels.
     """
 
     def __init__(self, noise, count, least, most, dead):

@@ -86,7 +86,7 @@ class GroundFit:
         return directions
 
     def _borrow(self):
-        """Arrays to work in, nobody else's until they are given back; those of a call that failed never are."""
+        """Arrays to work in, owned by the call until they are given back; those of a call that failed never are."""
         try:
             return self.free.pop()
         except IndexError:
@@ -213,7 +213,7 @@ def _least_squares(seen, scratch):
             yy += dy * dy
             xz += dx * dz
             yz += dy * dz
-    # Eigenvalues of the 2 x 2 scatter; a direction with less than 1e-9 of the extent's square says nothing.
+    # Eigenvalues of the 2 x 2 scatter; a direction with less than 1e-9 of the extent's square is rounding.
     middle, half = 0.5 * (xx + yy), 0.5 * (xx - yy)
     spread = math.sqrt(half * half + xy * xy)
     large, small = middle + spread, middle - spread

@@ -21,7 +21,7 @@ class PerceptFields:
         force_threshold: Activation threshold in N; the layout's own where None.
         active: Mask (n,) of taxels to take as active; those above the threshold where None.
         stuck: Mask (n,) of stuck taxels; none where None.
-        options: What else may be told; the usual where None.
+        options: Other options; the usual ones where None.
     """
 
     def __init__(self, layout, reading, force_threshold=None, *, active=None, stuck=None, options=None):
@@ -41,7 +41,7 @@ class PerceptFields:
         self._fill(layout.kernel, layout, reading, force_threshold, active, stuck, options, compared)
 
     def _fill(self, kernel, layout, reading, force_threshold, active, stuck, options, compared):
-        """`_keep`, where it is known whether what is active is nothing but a comparison, which a kernel then makes on
+        """`_keep`, where it is known whether what is active is only a comparison, which a kernel then makes on
         its way."""
         self._kernel, self._compared = kernel, compared
         self.layout, self.reading, self.force_threshold, self.options = layout, reading, force_threshold, options
@@ -53,7 +53,7 @@ class PerceptFields:
         self._summed = loads
 
     def _active_above(self):
-        """Mask (n,) of the taxels above the threshold; None where more than a comparison says what is active."""
+        """Mask (n,) of the taxels above the threshold; None where more than a comparison decides what is active."""
         if self._compared:
             return self._kernel.active(self.reading.force, self.force_threshold, self._kernel.limit)
         return None

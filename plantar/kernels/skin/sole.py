@@ -84,7 +84,7 @@ class SoleKernel:
         vertices: Corner points (v, 2) in m in the sole plane, shared between cells that meet.
         corner_start: Offsets (n + 1,) of each taxel's corners.
         corner_vertex: Vertex indices of the corners, taxel by taxel, counter-clockwise.
-        threshold: Force in N up to which a taxel is not active, where nobody says otherwise.
+        threshold: Force in N up to which a taxel is not active, by default.
         limit: Force in N from which one is saturated.
     """
 
@@ -150,7 +150,7 @@ class SoleKernel:
         self.free = [SoleScratch(self.taxels, self.corners, self.levels)]
 
     def borrow(self):
-        """Arrays to work in, nobody else's until they are given back; those of a call that failed never are."""
+        """Arrays to work in, owned by the call until they are given back; those of a call that failed never are."""
         try:
             return self.free.pop()
         except IndexError:
@@ -521,7 +521,7 @@ def _rows_of_copies(cells, tolerance):
         tolerance: How far in m a copy may be off.
 
     Returns:
-        For each row the indices of its cells from one end to the other; a cell without copies is a row of its own.
+        For each row the indices of its cells from one end to the other; a cell without copies is another row.
     """
     kinds = {}  # cells of one kind, the first of which stands for them
     for i, cell in enumerate(cells):

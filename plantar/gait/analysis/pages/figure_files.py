@@ -17,7 +17,7 @@ def write_figures(
     """Write figures as PNG and SVG.
 
     Args:
-        figures: Name, figure (None for one that there is nothing to draw of) and caption of each.
+        figures: Name, figure (None for one without data) and caption of each.
         folder: Folder to write to, which exists.
         progress: Called with a fraction 0..1 and what is being done.
 

@@ -1,4 +1,4 @@
-"""What all steps say together: mean and spread of each measure, symmetry, and the walk as a whole."""
+"""All steps together: mean and spread of each measure, symmetry, and the walk as a whole."""
 
 from __future__ import annotations
 

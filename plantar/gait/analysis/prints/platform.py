@@ -1,8 +1,8 @@
 """Platforms and walkways: which cells and frames are one footprint, of which foot, and in which direction it walks.
 
-A platform sees whoever steps on it. Cells that are loaded and touch, or lie a few centimetres apart and are loaded at
-the same time, are one footprint (`platform_parts`). Its foot and the direction come from the pass over the platform
-that it is part of (`platform_walk`).
+A platform measures every foot that steps on it. Cells that are loaded and touch, or lie a few centimetres apart and are
+loaded at the same time, are one footprint (`platform_parts`). Its foot and the direction come from the pass over the
+platform that it is part of (`platform_walk`).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Which cells and frames of a platform are one footprint.
 
 Cells that are loaded and touch, or have one cell between them, are a piece; a piece that is unloaded for a while is
-stepped on anew. Pieces that are loaded at the same time, and together are no larger than a foot, are one footprint.
+stepped on again. Pieces that are loaded at the same time, and together are no larger than a foot, are one footprint.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _LONGEST, _WIDEST = 0.36, 0.17
 """Largest length and width in m of one footprint."""
 
 _BREAK = 0.25
-"""Time in s without load after which a part of the platform is stepped on anew."""
+"""Time in s without load after which a part of the platform is stepped on again."""
 
 _SAME_TIME = 0.1
 """Time in s by which two pieces of one footprint may miss each other: heel and toes are not always joined by load."""

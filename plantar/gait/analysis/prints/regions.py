@@ -44,7 +44,7 @@ _TOES_OF_SOLE = 0.82
 
 
 def with_toe_line(print_: Footprint) -> Footprint:
-    """The footprint with its toe line, where one can be told.
+    """The footprint with its toe line, where one is found.
 
     The print is looked at in strips along the foot. In each, the largest pressure as a function of u is followed from
     the highest point between 45 and 80 % of the length forwards; the lowest place beyond it counts if it is less than

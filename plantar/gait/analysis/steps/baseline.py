@@ -81,7 +81,7 @@ class RestingLevel:
 
 
 def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
-    """The level to which a walking foot's force returns, whatever the sensor's offset.
+    """The level to which a walking foot's force returns, with any offset of the sensor.
 
     Args:
         force: Vertical force (n,), NaN where it was not measured.

@@ -59,7 +59,7 @@ class RecordingResult:
     """What one recording adds to a study.
 
     Attributes:
-        who: Of whom it is.
+        who: Its participant.
         digest: SHA-256 of the file.
         key: What file, options and version it was measured with; a result of another key is measured again.
         format: Name of its format; empty where it could not be read.
@@ -137,7 +137,7 @@ def measure_recording(
 
     Args:
         folder: The study's folder.
-        who: Which recording, and of whom.
+        who: The recording and its participant.
         choices: Which steps are in the means, and whose events.
         digest: SHA-256 of the file.
         options: What is known of all files; what the table states about one goes before it.

@@ -1,4 +1,4 @@
-"""The table of a study: which file is of whom, in which condition, and what is known of them."""
+"""The table of a study: participant and condition of each file, and what is known of them."""
 
 from __future__ import annotations
 
@@ -41,10 +41,10 @@ class Participation:
         condition: In which condition; empty where no table states it.
         mass_kg: Mass of the body in kg, None where it is not known.
         foot_length_m: Length of the foot in m, None where it is not known.
-        side: "left" or "right" for a file of one foot that does not say which; else None.
-        insole_size: Size of a pedar insole, where the file does not say it; else None.
-        unit: Unit of the values, where the file does not say it; else None.
-        rate_hz: Frames a second, where the file does not say it; else None.
+        side: "left" or "right" for a file of one foot that does not name it; else None.
+        insole_size: Size of a pedar insole, where the file does not state it; else None.
+        unit: Unit of the values, where the file does not state it; else None.
+        rate_hz: Frames a second, where the file does not state it; else None.
         layout: Layout file relative to the study's folder; else None.
         more: What other columns hold.
         listed: Whether the table names the file.

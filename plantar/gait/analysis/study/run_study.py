@@ -49,7 +49,7 @@ class Study:
     """A study that was measured.
 
     Attributes:
-        results: One a recording; those that could not be measured say why in `error`.
+        results: One a recording; `error` has the reason of those that could not be measured.
         comparisons: Every two conditions.
         choices: Which steps are in the means, and whose events.
         files: The files that were written.
