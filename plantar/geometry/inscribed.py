@@ -276,8 +276,9 @@ def _climb(
     while width > least:
         for turned in (angle - width, angle + width):
             trial = largest(turned)
-            if _area(trial) > best:
-                best, angle, corners = _area(trial), turned, trial
+            size = _area(trial)
+            if size > best:
+                best, angle, corners = size, turned, trial
                 break
         else:
             width *= 0.5

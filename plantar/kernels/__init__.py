@@ -95,11 +95,12 @@ def outdated(folder: Path) -> list[str]:
         []
     """
     found = []
-    for source in sorted(folder.glob("*/*.py")):
-        made = [p.stat().st_mtime for suffix in EXTENSION_SUFFIXES if (p := source.with_suffix(suffix)).is_file()]
-        written = [p.stat().st_mtime for p in (source, source.with_suffix(".pxd")) if p.is_file()]
-        if made and max(written) > max(made):
-            found.append(f"{source.parent.name}.{source.stem}")
+    for room in sorted(p for p in folder.glob("*") if p.is_dir()):
+        changed = {entry.name: entry.stat().st_mtime for entry in os.scandir(room)}
+        for kernel in sorted(name[:-3] for name in changed if name.endswith(".py")):
+            made = [changed[kernel + suffix] for suffix in EXTENSION_SUFFIXES if kernel + suffix in changed]
+            if made and max(changed[f"{kernel}.py"], changed.get(f"{kernel}.pxd", 0.0)) > max(made):
+                found.append(f"{room.name}.{kernel}")
     return found
 
 

@@ -132,6 +132,7 @@ class _Fit:
         self._fixed = np.ones((len(times), 1))
         if np.ptp(times) > 0.2 * WARMING:  # within seconds no drift shows
             self._fixed = np.column_stack([self._fixed, -np.expm1(-np.maximum(times, 0.0) / WARMING)])
+        self._inverse = np.linalg.pinv(self._fixed)
 
     def _pressed(self, shares: dict[str, float]) -> NDArray[np.float64]:
         """Force (t, used) that the electronics get."""
@@ -151,10 +152,9 @@ class _Fit:
     def solve(self, shares: dict[str, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Zeros, drifts and gains (3, used), and what is left (t, used) in N."""
         pressed = self._pressed(shares)
-        inverse = np.linalg.pinv(self._fixed)
-        off, seen = (values - self._fixed @ (inverse @ values) for values in (pressed, self._seen))
+        off, seen = (values - self._fixed @ (self._inverse @ values) for values in (pressed, self._seen))
         gains = (off * seen).sum(axis=0) / np.maximum(np.square(off).sum(axis=0), 1e-300)
-        rest = inverse @ (self._seen - gains * pressed)
+        rest = self._inverse @ (self._seen - gains * pressed)
         return np.array([rest[0], rest[1] if len(rest) > 1 else 0.0 * gains, gains]), seen - gains * off
 
     def error(self, shares: dict[str, float]) -> float:
