@@ -1,6 +1,5 @@
-"""Force-torque sensor between ankle and foot: from its reading to the ground's wrench on the sole.
-
-The weight of foot and shoe below the sensor is subtracted with the sole's estimated orientation; their inertia is not.
+"""Force-torque sensor between ankle and foot: the ground's wrench on the sole, less the static weight of foot and
+shoe.
 """
 
 from __future__ import annotations
@@ -61,14 +60,14 @@ class AnkleSensor:
     com: NDArray[np.float64]
 
     def sole_wrench(self, measured: NDArray[np.float64], rotation_sole_to_world: NDArray[np.float64]) -> SoleWrench:
-        """The ground's wrench on the sole.
+        """The ground's wrench (6,) on the sole: the measured one less the foot's weight.
 
         Args:
             measured: Wrench (6,) in the sensor frame about its origin in N and N m, by the foot on the leg.
             rotation_sole_to_world: Estimated rotation (3, 3) of the sole.
 
         Returns:
-            The measured wrench less the foot's weight.
+            The wrench on the sole.
         """
         force = self.rotation.dot(measured[:3])
         lift = (self.mass * GRAVITY) * rotation_sole_to_world[2]  # what carries the weight, in the sole frame

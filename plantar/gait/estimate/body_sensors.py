@@ -1,4 +1,4 @@
-"""Encoders and IMU without readings: bridged by the last ones for a moment, then the robot is blind."""
+"""Missing readings of encoders and IMU: bridged by the last ones for a moment, then the robot is blind."""
 
 from __future__ import annotations
 
@@ -39,13 +39,11 @@ class BodySensors:
         self.blind = False
 
     def heard(self, told: Told) -> Told | None:
-        """The readings to use at this tick.
+        """The readings to use at this tick: those given, the last complete ones where a number is missing, or None if
+        blind.
 
         Args:
             told: Joint angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2.
-
-        Returns:
-            The same, or the last complete ones where a number is missing; None if blind.
 
         Raises:
             InputError: If no reading was complete since the start.

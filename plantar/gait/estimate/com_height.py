@@ -8,8 +8,7 @@ __all__ = ["CoMHeight"]
 class CoMHeight:
     """Follows the height of the footholds by a critically damped second-order filter.
 
-    A first-order filter would start with a speed when the robot steps onto a slab, which stiff legs turn into an
-    impact.
+    A first-order filter would start with a speed at each slab, which stiff legs turn into an impact.
 
     Args:
         ground: Height in m of the ground at the start.
@@ -30,14 +29,7 @@ class CoMHeight:
         self._frequency = frequency
 
     def update(self, target: float) -> float:
-        """Advance by one control tick.
-
-        Args:
-            target: Height in m of the ground under the feet.
-
-        Returns:
-            Filtered height in m.
-        """
+        """Filtered height in m after one more tick with `target`, the height in m of the ground under the feet."""
         w = self._frequency
         # Damping ratio 1: a step of the ground neither overshoots nor jumps in speed, which the legs would have to
         # follow.

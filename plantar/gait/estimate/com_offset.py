@@ -1,8 +1,4 @@
-"""Offset of the CoM from the model's, from where the ground carries a robot that stands still.
-
-A displaced CoM, a base displaced by encoder errors and taxels of unequal gain have the same effect here, and on
-balance: a ZMP that is not under the model's CoM. Its height cannot be observed.
-"""
+"""Horizontal offset of the CoM from the model's, from where the ground carries a robot that stands still."""
 
 from __future__ import annotations
 
@@ -26,7 +22,8 @@ def com_offset(
     feet: Mapping[Side, tuple[float, float, float, float]],
     wrenches: Mapping[Side, NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """Horizontal offset of a standing robot's CoM from its model's.
+    """Horizontal offset (3,) in m, base frame, of a standing robot's CoM from its model's; zero where no foot is
+    loaded.
 
     Args:
         posture: Its posture.
@@ -35,7 +32,7 @@ def com_offset(
         wrenches: Wrench (6,) on each sole in its own frame in N and N m.
 
     Returns:
-        Offset (3,) in the base frame in m; zero where no foot is loaded.
+        The offset; it includes the effects of encoder errors and unequal taxels.
     """
     points: list[NDArray[np.float64] | None] = []
     bases: list[NDArray[np.float64]] = []

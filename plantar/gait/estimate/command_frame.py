@@ -1,8 +1,5 @@
-"""The frame in which joints are solved, and how it follows the real footholds.
-
-Servos give, so a commanded foothold and the real one drift apart by a millimetre or two a step. In the command frame
-commanded footholds do not move; the frame follows the world through the carrying foot, slowly enough not to jump when
-the other foot takes over.
+"""The frame in which joints are solved: commanded footholds are fixed in it, and it slowly follows the carrying
+foot.
 """
 
 from __future__ import annotations
@@ -61,13 +58,7 @@ class CommandFrame:
         return frame
 
     def to_command(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A horizontal point of the world in the command frame.
-
-        Args:
-            point: Point (2,) in the world in m.
-
-        Returns:
-            The same point (2,) in the command frame in m.
+        """A horizontal point (2,) of the world in the command frame, both in m.
 
         Example:
             >>> CommandFrame(np.zeros(3), 0.005, 0.3).to_command(np.array([1.0, 2.0])).tolist()
@@ -80,14 +71,7 @@ class CommandFrame:
         return vector2(x + c * dx + s * dy, y - s * dx + c * dy)
 
     def to_world(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A point of the command frame in the world.
-
-        Args:
-            point: Point (3,) in the command frame in m.
-
-        Returns:
-            The point (3,) in the world in m.
-        """
+        """A point (3,) of the command frame in the world, both in m."""
         (px, py, pz), (x, y, z), (ox, oy, oz) = point.tolist(), self._anchor, self._offset
         dx, dy = px - x, py - y
         c, s = math.cos(self.turn), math.sin(self.turn)

@@ -1,12 +1,8 @@
-"""CoM and DCM of a pushed pendulum: a Kalman filter with the force as input (after K 7-12).
+"""CoM and DCM of a pushed pendulum: a stationary Kalman filter with the measured push as input (after K 7-12).
 
-An observer that attributes every acceleration the ZMP does not explain to measurement error follows a push late. Here
-the measured push is an input like the ZMP; the remaining disagreement may be a state, the offset d of a push on a part
-without skin. On each axis
+On each axis, sampled exactly, with d the offset of a push on a part without skin:
 
-    x' = w (xi - x),    xi' = w (xi - p + u_w + d),    d' = 0 + noise,
-
-sampled exactly at the control period. The noises are constant, so the gain is the stationary one.
+    x' = w (xi - x),    xi' = w (xi - p + u_w + d),    d' = 0 + noise.
 """
 
 from __future__ import annotations
@@ -108,7 +104,7 @@ class DcmFilter:
     def update(
         self, com: ArrayLike, com_velocity: ArrayLike | None, zmp: ArrayLike | None, offset: ArrayLike
     ) -> PushedPendulum:
-        """Advance by one control tick.
+        """CoM and DCM after one more control tick; at the first one, what is measured.
 
         Args:
             com: Kinematic CoM (2,) in m.
@@ -118,7 +114,7 @@ class DcmFilter:
                 (`plantar.mechanics.external_wrench.vrp_offset`).
 
         Returns:
-            The state; at the first update what is measured.
+            The state.
 
         Raises:
             InputError: If one of these is not two finite numbers.
@@ -152,8 +148,7 @@ class DcmFilter:
 def _stationary_gain(
     step: NDArray[np.float64], noise: NDArray[np.float64], measured: NDArray[np.float64], error: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Stationary Kalman gain (n, m) from the discrete Riccati equation, by doubling (Chu, Fan, Lin and Wang,
-    "Structure-preserving algorithms for periodic discrete-time algebraic Riccati equations", Int. J. Control 77,
+    """Kalman gain (n, m) from the discrete Riccati equation, by doubling (Chu, Fan, Lin, Wang, Int. J. Control 77,
     2004).
     """
     one = np.eye(len(step))

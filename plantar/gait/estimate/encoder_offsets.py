@@ -1,9 +1,7 @@
-"""Zero errors of the encoders, from two feet that stand flat on the ground at known places.
+"""Zero errors of the encoders, from two feet that rest flat on the ground at known places.
 
-Both legs form a loop through the ground: six equations relate the soles to each other, two more relate them to gravity,
-which the accelerometer measures. Unknown are one offset a joint and the pose of the base. Four combinations of offsets
-cannot be observed (they move the base against both feet without tilting it), so the smallest offsets that explain the
-measurements are taken; the rest appears as an offset of the CoM (`plantar.gait.estimate.com_offset`).
+The closed loop through the ground gives six equations, gravity two more. Of all offsets that explain the measurements
+the smallest are returned; the rest appears as an offset of the CoM (`plantar.gait.estimate.com_offset`).
 """
 
 from __future__ import annotations
@@ -37,8 +35,8 @@ class StandingTolerances(NamedTuple):
 
     Attributes:
         offset: Of an encoder's zero in rad.
-        place: Of each coordinate of a standing foot in m.
-        turn: Of each angle of a sole against flat ground, and of the mean accelerometer direction, in rad.
+        place: Of each coordinate of a foot in m.
+        turn: Of each angle of a sole against the ground, and of the mean accelerometer direction, in rad.
     """
 
     offset: float
@@ -53,7 +51,7 @@ def encoder_offsets(
     feet: Mapping[Side, tuple[float, float, float, float]],
     tolerances: StandingTolerances,
 ) -> NDArray[np.float64]:
-    """The most probable encoder offsets of a standing robot.
+    """The most probable reading less true angle of each encoder (k,) in rad.
 
     Args:
         kinematics: Maps joint positions (k,) in rad to position (3,) in m and rotation (3, 3) of each sole in the base
@@ -64,7 +62,7 @@ def encoder_offsets(
         tolerances: Standard deviations.
 
     Returns:
-        Reading less true angle of each encoder (k,) in rad.
+        The offsets.
     """
     k = len(joint_positions)
     offsets = np.zeros(k)
@@ -96,7 +94,7 @@ def encoder_offsets(
 def standing_base(
     posture: _Posture, up: NDArray[np.float64], feet: Mapping[Side, tuple[float, float, float, float]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Pose of the base of a robot on known footholds: level by gravity, headed along and placed over its feet.
+    """Rotation (3, 3) to the world and position (3,) in m of the base: level by gravity, headed and placed by its feet.
 
     Args:
         posture: Position (3,) in m and rotation (3, 3) of each sole in the base frame.
@@ -104,7 +102,7 @@ def standing_base(
         feet: Pose of each sole: x, y, z in m and heading in rad.
 
     Returns:
-        Rotation (3, 3) from the base frame to the world, and the base's position (3,) in m.
+        Rotation and position.
     """
     forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
     forward /= float(np.linalg.norm(forward))
@@ -119,7 +117,7 @@ def standing_base(
 def _differenced(
     kinematics: Callable[[NDArray[np.float64]], _Posture], joints: NDArray[np.float64]
 ) -> tuple[_Posture, dict[Side, NDArray[np.float64]], dict[Side, NDArray[np.float64]]]:
-    """A posture, and the velocity (3, k) and angular velocity (3, k) of each sole in the base frame by each joint."""
+    """A posture, and each sole's velocity (3, k) and angular velocity (3, k) in the base frame by each joint."""
     posture = kinematics(joints)
     moved: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}
     turned: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}
@@ -134,6 +132,5 @@ def _differenced(
 
 
 def _cross(v: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Matrix (3, 3) of the cross product with a vector from the left."""
     x, y, z = v.tolist()
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -1,15 +1,8 @@
 """Floating-base state from joint encoders, IMU and the soles' readings.
 
-Orientation: the gyro, less its identified bias, is integrated; gravity, corrected by the planned acceleration, slowly
-corrects roll and pitch, and the heading of the loaded feet corrects yaw. (The pendulum's own acceleration would not do:
-a tilt error moves the estimated CoM so that it agrees with the accelerometer.)
-
-Position: the material point of each loaded sole at its centre of pressure does not move, so the base moves by the leg's
-kinematics, weighted by load; a foot that rolls about its edge is followed too.
-
-Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the measured ZMP p as input and the kinematic
-CoM as measurement, so that no encoder is differentiated. A measured or estimated push is another input. A Kalman filter
-(`plantar.gait.estimate.dcm_filter`) can replace the observer horizontally.
+The gyro is integrated; gravity, corrected by the planned acceleration, corrects roll and pitch, and the heading of the
+loaded feet yaw. The material point of each loaded sole at its centre of pressure does not move, which gives the
+position. The CoM's velocity is observed with the pendulum x'' = w^2 (x - p), or by `dcm_filter`.
 """
 
 from __future__ import annotations
@@ -77,7 +70,7 @@ class SoleLoad(Protocol):
 
     @property
     def wrench_in_sole(self) -> NDArray[np.float64]:
-        """Wrench (6,) about the sole frame's origin."""
+        """Wrench (6,) about the sole frame's origin in N and N m."""
         ...
 
 
@@ -138,8 +131,7 @@ class FloatingBaseEstimator:
         period: Control period in s.
         feet: Known standing pose (x, y, z, yaw) of each sole at the start.
         gains: Gains.
-        gyro_bias: Identifies the gyro's bias; None disables bias correction. With it the heading follows what the gyro
-            has turned more than the legs while feet were still, so that the bias before identification leaves no error.
+        gyro_bias: Identifies the gyro's bias, and corrects the heading for the time before; None disables both.
         steady: Selects the feet that are still enough to compare the gyro with; None takes all loaded ones.
         push: Estimates a push on the body from soles and IMU; None disables it.
         dcm_filter: Estimates the horizontal CoM and its velocity; None uses the observer.
@@ -198,7 +190,7 @@ class FloatingBaseEstimator:
         airborne: Side | None = None,
         felt: NDArray[np.float64] | None = None,
     ) -> BaseState:
-        """Advance by one control tick.
+        """The estimated state after one more control tick.
 
         Args:
             joint_positions: Encoder readings (k,) in rad.
@@ -207,11 +199,10 @@ class FloatingBaseEstimator:
             soles: Load of each sole.
             planned_acceleration: Planned horizontal CoM acceleration (2,) in m/s^2; 0 where None.
             airborne: Foot that is high in the air by plan: its reading becomes its tare.
-            felt: Acceleration (2,) of the CoM in m/s^2 by a push that skin on the body measures; None uses the soles.
-                Used only with a `push` estimate.
+            felt: Acceleration (2,) of the CoM in m/s^2 by a push on the body's skin, for `push`; None uses the soles.
 
         Returns:
-            The estimated state.
+            The state.
         """
         posture = self._posture(joint_positions)
         if airborne is not None:
@@ -251,8 +242,8 @@ class FloatingBaseEstimator:
         )
 
     def _anchor(self, loads: Mapping[str, float]) -> None:
-        """Return the base to the height at which its feet landed: feet whose landing heights cannot be distinguished
-        are at one height, or the error of each step, a tilt of milliradians times the step, would add up.
+        """Return the base to the height at which its feet landed; else errors of steps, tilt times length, would add
+        up.
         """
         heights, error, total = self._heights, 0.0, 0.0
         left, right = self._places[:, 2].tolist()
@@ -269,7 +260,7 @@ class FloatingBaseEstimator:
             self._position[2] -= self._share * error / total
 
     def _carry(self, index: int, side: Side, soles: Mapping[Side, SoleLoad]) -> float:
-        """Pass a foot's load to the kernel; the load in N."""
+        """Pass a foot's load in N to the kernel, and return it."""
         sole = soles[side]
         load, point = max(0.0, sole.vertical_force - self._tare[side]), sole.position_cop_in_sole
         x, y = (0.0, 0.0) if point is None else point.tolist()
@@ -278,10 +269,8 @@ class FloatingBaseEstimator:
         return load
 
     def stand_again(self, joint_positions: NDArray[np.float64]) -> None:
-        """Reset the robot to its known footholds, after its kinematics were corrected.
-
-        Args:
-            joint_positions: Encoder readings (k,) in rad.
+        """Reset the robot to its known footholds, after its kinematics were corrected; `joint_positions` (k,) in
+        rad.
         """
         if not self._begun:
             return
@@ -292,15 +281,12 @@ class FloatingBaseEstimator:
         self._base.rest()
 
     def _watch(self, posture: Posture) -> None:
-        """Pass a posture to the kernel, unless it holds its arrays already."""
         if posture is not self._watched:
             self._watched, places, turns = posture, posture.positions, posture.rotations
             self._base.watch(posture.com, places["left"], places["right"], turns["left"], turns["right"])
 
     def _stand(self, posture: Posture, up: NDArray[np.float64]) -> None:
-        """Level the base by a unit vector (3,) against gravity in the base frame, and place it over the known
-        footholds.
-        """
+        """Level the base by a unit vector (3,) against gravity, and place it over the known footholds."""
         rotation, position = standing_base(posture, up, self.feet)
         self._base.stand(rotation, position, *(self.feet[side][3] for side in SIDES))
         if self.dcm_filter is not None:
@@ -313,13 +299,11 @@ class FloatingBaseEstimator:
         zmp: NDArray[np.float64] | None,
         felt: NDArray[np.float64] | None,
     ) -> NDArray[np.float64]:
-        """Acceleration by the push at this tick: from skin on the body, else from the soles."""
         pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp)
         estimated = push.update(self._rotation.dot(accelerometer)[:2], pendulum)
         return estimated if felt is None else felt
 
     def _filter(self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None) -> None:
-        """Replace the horizontal CoM and its velocity by the filter's."""
         com = self._position + self._rotation.dot(posture.com)
         told = dcm_filter.update(com[:2], None, zmp, self.push_acceleration / self.omega**2)
         self._com[:2], self._velocity[:2] = told.com, self.omega * (told.dcm - told.com)

@@ -1,12 +1,6 @@
-"""Bias of the gyro, from feet that carry: a sole on the ground does not turn, so the base turns as the leg's joints do.
+"""Bias of the gyro, from loaded feet: a sole on the ground does not turn, so the base turns as the leg's joints do.
 
-With R_s the rotation from a standing sole to the base frame, R_s(k-1) R_s(k)^T is the turn of the base in a tick, in
-its own frame. The rest of the gyro's reading is bias and noise. Encoder noise in one tick is large (5e-5 rad in 5 ms:
-14 mrad/s), but the mean telescopes: after T seconds 0.1 mrad / T is left. No accelerometer is needed, so all three axes
-are observed, the vertical one too.
-
-Soles slip: by milliradians within a tenth of a second. Both turns are therefore compared in pieces short enough for a
-slip to exceed the noise.
+Both turns are compared in pieces short enough for a slip of the sole to exceed the noise.
 """
 
 from __future__ import annotations
@@ -33,14 +27,10 @@ _FIRST_PIECES = 2
 class GyroBias:
     """Mean difference of the gyro and the turn of the legs: over all samples so far, then over a time constant.
 
-    A foot is weighted by its load, and a tick in which both feet carry counts ten times as much: a single sole may turn
-    on soft ground or an edge, which looks like a bias (0.1 mrad/s over steps). A piece in which both differ
-    about the base's z axis by more than noise explains is limited to that difference.
+    A foot is weighted by its load; a tick in which both feet carry counts ten times, as a single sole may turn on soft
+    ground.
 
     Attributes:
-        value: The bias (3,) in the base frame in rad/s.
-        missed: Angle (3,) in the base frame in rad by which the legs turned more than the corrected gyro in the piece
-            that has just ended without a slip; else None.
         kernel: The compiled part, which the estimator calls within its own.
 
     Args:
@@ -71,7 +61,9 @@ class GyroBias:
 
     @property
     def missed(self) -> NDArray[np.float64] | None:
-        """Angle (3,) in rad by which the legs turned more in the piece that ended at the last tick."""
+        """Angle (3,) in rad, base frame, by which the legs turned more in the piece that has just ended without a slip;
+        or None.
+        """
         return self._missed.copy() if self.kernel.concluded else None
 
     def update(
@@ -80,16 +72,15 @@ class GyroBias:
         turn: NDArray[np.float64] | None,
         weights: Mapping[Side, float],
     ) -> NDArray[np.float64]:
-        """Advance by one control tick.
+        """The bias (3,) in rad/s after one more control tick.
 
         Args:
             gyro: Measured angular velocity (3,) of the base in its own frame in rad/s.
-            turn: Turn (3,) of the base in the tick in rad by the still feet, in the base frame
-                (`plantar.kernels.gait.floating_base.FloatingBase.stand_still`); None where no foot is still.
+            turn: Turn (3,) of the base in the tick in rad by the still feet, base frame; None where no foot is still.
             weights: Load of each foot in any unit; 0 for one that is not still.
 
         Returns:
-            The bias (3,) in rad/s, unchanged while no foot is still.
+            The bias.
         """
         gx, gy, gz = gyro.tolist()
         tx, ty, tz = (0.0, 0.0, 0.0) if turn is None else turn.tolist()

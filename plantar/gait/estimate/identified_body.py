@@ -27,8 +27,7 @@ _MASS_RATIOS = (0.7, 1.4)  # that are believed of the mass over the model's; bey
 class IdentifiedBody:
     """Identifies encoder offsets and CoM in the opening stand, and corrects kinematics by them from then on.
 
-    Measurements are corrected at once; commands follow gradually (`joint_offsets`, `com_shift`), since joints that jump
-    by 0.3 degrees would jerk at the ground.
+    Measurements are corrected at once, commands gradually (`joint_offsets`, `com_shift`), so that joints do not jump.
 
     Attributes:
         encoder_offsets: Reading less true angle of each encoder (k,) in rad; empty until known.
@@ -69,7 +68,7 @@ class IdentifiedBody:
         self._step = period / rules.fade
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
-        """Corrected forward kinematics of encoder readings (k,) in rad (see `LegKinematics`)."""
+        """Corrected forward kinematics of encoder readings (k,) in rad."""
         if not self.known:
             return self._kinematics.posture(joint_positions)
         read = joint_positions - self.encoder_offsets if len(self.encoder_offsets) else joint_positions
@@ -77,7 +76,7 @@ class IdentifiedBody:
         return Posture(posture.com + self.com_offset, posture.positions, posture.rotations)
 
     def live_posture(self, joint_positions: NDArray[np.float64]) -> Posture:
-        """The same in the same arrays at each call (see `LiveKinematics`)."""
+        """The same in the same arrays at each call."""
         read = joint_positions - self.encoder_offsets if self._reads_off else joint_positions
         posture = self._live_posture(read)
         if not self._lies_off:
@@ -91,7 +90,7 @@ class IdentifiedBody:
     def stand(
         self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, SoleLoad]
     ) -> None:
-        """Take in a tick in which the robot stands still.
+        """Add a tick in which the robot stands still.
 
         Args:
             joint_positions: Encoder readings (k,) in rad.
@@ -145,8 +144,7 @@ class IdentifiedBody:
     def lean(self) -> float:
         """Roll of the torso over the stance foot in rad per metre between the CoM and the middle of the feet.
 
-        The carrying hip's torque grows with the weight and with its distance from the CoM. Motors have a tenth to spare
-        (h1's at the hip's roll a sixth).
+        It relieves the carrying hip, whose motor has a tenth of torque to spare.
         """
         return self._faded * self._rules.lean * self._tenths
 

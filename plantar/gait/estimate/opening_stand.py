@@ -54,7 +54,7 @@ class OpeningStand:
     def update(
         self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, _Sole]
     ) -> None:
-        """Take in a control tick.
+        """Add a control tick.
 
         Args:
             joint_positions: Encoder readings (k,) in rad.

@@ -1,11 +1,4 @@
-"""A push on the body, from the disagreement of ZMP and acceleration (K 9-12 inverted).
-
-A pendulum that only its soles touch has x'' = w^2 (x - p). What the IMU measures beyond that is F / m + w^2 u_tau, the
-acceleration by a wrench on the body (K 12 with its moment), so that a robot with plantar skin measures pushes on parts
-without skin, within 10 ms; kinematics show them 0.2 s later.
-
-Walking leaves some disagreement, since a body is no point and soles land. What stays below a threshold counts as none.
-"""
+"""A push on the body, from the disagreement of ZMP and acceleration: x'' - w^2 (x - p) = F / m + w^2 u_tau (K 9-12)."""
 
 from __future__ import annotations
 
@@ -21,12 +14,11 @@ __all__ = ["PushEstimate", "PushRules"]
 
 
 class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("soles", "skin")}):
-    """When a disagreement of ZMP and acceleration is a push.
+    """When a disagreement of ZMP and acceleration is a push; walking alone leaves up to 0.117 g.
 
     Attributes:
-        time_constant: Time constant in s of its low pass: two ticks, against the IMU's noise.
-        begins: Acceleration in m/s^2 above which a push begins. (In five undisturbed walks of h1 and hrp2kai on level
-            ground the largest was 0.117 g, for some ticks at a landing.)
+        time_constant: Time constant in s of its low pass.
+        begins: Acceleration in m/s^2 above which a push begins.
         ends: Acceleration in m/s^2 below which it ends.
     """
 
@@ -59,14 +51,14 @@ class PushEstimate:
         self.acts = False
 
     def update(self, measured: NDArray[np.float64], pendulum: NDArray[np.float64] | None) -> NDArray[np.float64]:
-        """Advance by one control tick.
+        """Acceleration (2,) of the CoM in m/s^2 by a push, after one more control tick; zero without one.
 
         Args:
             measured: Horizontal acceleration (2,) of the base in the world frame in m/s^2.
             pendulum: w^2 (x - p), (2,) in m/s^2; None where no foot is loaded.
 
         Returns:
-            Acceleration (2,) by the push in m/s^2; zero without one.
+            The acceleration.
         """
         if pendulum is None:
             self._acceleration, self.acts = np.zeros(2), False

@@ -1,7 +1,4 @@
-"""Load of a sole from noisy taxels: a low pass on each, before noise is clipped at zero and becomes a bias.
-
-A threshold on each taxel would avoid the bias too, but loses 60 N spread over 50 taxels, and with it 10 mm of the ZMP.
-"""
+"""Load of a sole from noisy taxels: a low pass on each, before noise is clipped at zero and becomes a bias."""
 
 from __future__ import annotations
 
@@ -20,9 +17,7 @@ __all__ = ["SkinLoad", "at_its_limit", "percept_to_its_limit"]
 
 
 def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
-    """A reading whose saturated taxels count with the most that they can measure.
-
-    Leaving a saturated taxel out would make a foot on one bump a foot in the air.
+    """The reading with each saturated taxel at its largest force; left out, it could put a loaded foot in the air.
 
     Args:
         reading: The sole's reading.
@@ -66,14 +61,7 @@ class SkinLoad:
         self._mean: NDArray[np.float64] | None = None
 
     def update(self, reading: Reading) -> SoleWrench:
-        """Take in a reading.
-
-        Args:
-            reading: The sole's latest reading; dead taxels count as unloaded.
-
-        Returns:
-            Filtered wrench on the sole (T 4.23).
-        """
+        """Filtered wrench on the sole (T 4.23) with its latest reading; dead taxels count as unloaded."""
         force, sound = reading.force, np.isfinite(reading.force)
         whole = bool(sound.all())
         if not whole:

@@ -1,9 +1,6 @@
-"""Slope of one sole against the other, from the legs' angles alone, which is more precise than the attitude.
+"""Slope of one sole against the other from the legs' angles, which is more precise than the attitude.
 
-A sole that lands a few milliradians off level rests on the edge of the ground: the leg's stiffness holds its centre of
-pressure there, and one row of taxels cannot show on which side the ground is. So a blind foot comes down parallel to
-the standing one; where it rests on an edge all the same, the ground is on the side to which it rises. Attitude is
-estimated to half a milliradian, one sole against the other to 0.15. The ground is expected to be level under both feet.
+It shows on which side of a foot that rests on an edge the ground is; the ground is expected to be level under both.
 """
 
 from __future__ import annotations
@@ -39,7 +36,7 @@ class SoleSlope:
     def update(
         self, rotations: Mapping[str, NDArray[np.float64]], loads: Mapping[str, float], standing: bool = False
     ) -> None:
-        """Take in a tick.
+        """Add a tick.
 
         Args:
             rotations: Rotation (3, 3) from each sole to the world.

@@ -1,9 +1,6 @@
 """Which loaded feet are still: those that carry nearly all, and those with a steady load.
 
-A landing sole turns until it lies flat, and one that lifts off turns on its last edge: on h1 with a random plant by
-half a milliradian a step, always the same way, which adds up in the heading; in single support by a tenth of that. Both
-ends of a stance are cut at the same load, so that the body has swayed equally far at both and the error by its lean
-cancels.
+A foot that lands or lifts off turns always the same way, which would add up in the heading.
 """
 
 from __future__ import annotations
@@ -42,13 +39,8 @@ class SteadyLoad:
         self.kernel = _Kernel(share, min(1.0, period / time_constant), band)
 
     def update(self, loads: Mapping[Side, float]) -> dict[Side, float]:
-        """Advance by one control tick.
-
-        Args:
-            loads: Load of each foot in N; 0 for an unloaded one.
-
-        Returns:
-            The loads in N, 0 for a foot that may turn.
+        """The loads in N after one more control tick, 0 for a foot that may turn; `loads` are those of each foot
+        in N.
         """
         kernel = self.kernel
         kernel.update(loads["left"], loads["right"])

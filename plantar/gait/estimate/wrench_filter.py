@@ -1,8 +1,6 @@
-"""The push that is expected to last: a low pass of the VRP offset, and its mean until a step ends (K 18-19).
+"""The push that is expected to last: a low pass of the VRP offset (K 19), which stays (K 18) or decays from then on.
 
-The offset u_w of `plantar.mechanics.external_wrench` runs through a first-order low pass (K 19) and is expected to stay
-(K 18). With `lasts` the expected offset decays, u_w(s) = u_w e^(-s / lasts), and the closed forms of a constant offset
-over a horizon T use the constant that moves the DCM as far,
+With u_w(s) = u_w e^(-s / lasts) the closed forms of a constant offset over a horizon T use
 
     mean(T) = u_w a (1 - e^(-a' T)) / (1 - e^(-w T)),    a' = w + 1 / lasts,  a = w / a'.
 """
@@ -31,8 +29,7 @@ class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estima
     """How a push is expected to go on.
 
     Attributes:
-        time_constant: Time constant in s of the low pass (K 19; the paper's alpha = dt is 1 s, with which a push of 0.1
-            s counts for a tenth).
+        time_constant: Time constant in s of the low pass (K 19).
         lasts: Time constant in s with which the expected push decays; 1e6 for one that stays (K 18).
     """
 
@@ -78,13 +75,10 @@ class WrenchFilter:
         return self._x != 0.0 or self._y != 0.0
 
     def update(self, offset: ArrayLike) -> NDArray[np.float64]:
-        """Advance by one control tick (K 19).
+        """Expected offset (2,) in m after one more control tick (K 19).
 
         Args:
             offset: Measured offset u_w (2,) of the VRP in m, cut to `MOST_OFFSET`; zero where not finite.
-
-        Returns:
-            The expected offset (2,) in m.
 
         Raises:
             InputError: If these are not two numbers.
@@ -103,13 +97,7 @@ class WrenchFilter:
         return self.expected
 
     def mean(self, horizon: float) -> NDArray[np.float64]:
-        """The constant offset that moves the DCM over some time as far as the expected one.
-
-        Args:
-            horizon: Time in s, 0 or more.
-
-        Returns:
-            Offset (2,) in m.
+        """The constant offset (2,) in m that moves the DCM over `horizon` (s) as far as the expected one.
 
         Raises:
             InputError: If the time is not a finite number, 0 or more.

@@ -1,4 +1,4 @@
-"""Settings of preemptive foot compliance: how a sole comes down, and what it carries once it has touched."""
+"""Settings of preemptive foot compliance: how a sole comes down, and what it carries after touchdown."""
 
 from __future__ import annotations
 
@@ -14,17 +14,16 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     """How a swing foot comes down on the ground that its taxels see.
 
     Attributes:
-        damping: Smallest time constant in s with which the swing comes to the ground: speed = touch_speed + distance /
-            time constant.
-        touch_speed: Speed in m/s at which it touches.
+        damping: Smallest time constant in s of the approach: speed = touch_speed + distance / time constant.
+        touch_speed: Speed in m/s at touchdown.
         margin: Distance in m from the ground at which it is down to that speed.
         top_speed: Largest speed downwards in m/s.
         acceleration: Largest acceleration downwards in m/s^2.
-        clearance: Distance in m from the ground that the foot keeps at most while it still moves horizontally.
-        reserve: The same at which a foot that has not touched hurries down; it begins at twice that.
-        late_speed_ratio: How many times faster it touches then.
+        clearance: Largest distance in m kept from the ground while the foot still moves horizontally.
+        reserve: Largest such distance of a foot that is late; it begins to hurry at twice that.
+        late_speed_ratio: Factor on its touchdown speed then.
         turning: Time constant in s with which the sole turns to the ground.
-        turn_rate: Largest rate of that in rad/s; close to the ground it is less (see `SwingCompliance.turn_rate`).
+        turn_rate: Largest rate of that in rad/s, less close to the ground (`SwingCompliance.turn_rate`).
     """
 
     damping: float = share(0.243, "beat", 0.001, 1)
@@ -52,7 +51,7 @@ class TouchdownGains(Part, table="touchdown", needs={"control.pfc": (True,)}):
         contact_force: Force in N that counts as touchdown.
         touch_force: Force in N that a foot carries at first.
         hold_force: Force in N that it carries from then on to the double support.
-        admittance: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
+        admittance: Speed in m/s with which a foot on the ground yields to each newton of force error.
     """
 
     contact_force: float = share(0.0213, "weight", 0, 10000)

@@ -1,4 +1,4 @@
-"""Where the feet are commanded to be: footholds that stand, a foot that swings, and how it lands."""
+"""Where the feet are commanded: footholds, the swing foot and its landing."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _WARY = 6  # steps after ground that was elsewhere in which a swing that does no
 
 
 class SoleSense(Record, frozen=True):
-    """What is known of a sole: what it senses, and its estimated pose in the world."""
+    """What a sole senses, and its estimated pose in the world."""
 
     percept: Percept
     position: NDArray[np.float64]
@@ -55,22 +55,19 @@ class Landing(Part, table="landing", given_by={n: f"walk.{n}" for n in ("approac
     Attributes:
         contact_force: Vertical force in N on the swing foot that counts as touchdown (the papers' 70 N).
         press_force: Vertical force in N up to which a foot that has touched is pressed down.
-        depth: Depth in m below the expected ground that the swing aims for, so that the foot rests on it with some
-            tens of newtons and does not hover.
+        depth: Depth in m below the expected ground that the swing aims for, so that the foot rests on it.
         speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
         acceleration: Its acceleration in m/s^2.
         reach: Distance in m that it goes down at most.
-        relax_time: Time constant in s with which, once the robot stands, the foot that landed last comes to be
-            commanded at the height at which it is estimated to stand; 0 leaves it where it was pressed to.
-        ground_share: Share of a new foothold's height in the height at which the next one is expected: 1 expects it as
-            high as the last one, less averages over more footholds of uneven ground.
-        levelling: How fast in 1/s a foot that does not see the ground turns parallel to the one that stands, where only
-            forces show what it stands on; 0 leaves it as it comes.
-        probing: Whether such a foot, once it has load, turns until its centre of pressure is in the middle of what it
-            is believed to stand on: taxels there carry, or deny it, before it gets the body's weight.
-        approach_height: Height in m above the expected ground from which a swing that does not see the ground goes down
-            slowly (see `SwingTrajectory`) for some steps after ground that was not where it was expected; 0 comes down
-            in one move.
+        relax_time: Time constant in s with which, once the robot stands, the last foot's commanded height approaches
+            its estimated one; 0 leaves it.
+        ground_share: Share of a new foothold's height in the expected height of the next one, 0..1.
+        levelling: Rate in 1/s at which a foot that does not see the ground turns parallel to the stance foot; 0 leaves
+            it.
+        probing: Whether such a foot, once loaded, turns until its centre of pressure is in the middle of its believed
+            foothold, to test it before it gets the body's weight.
+        approach_height: Height in m above the expected ground from which such a foot goes down slowly for some steps
+            after unexpected ground (see `SwingTrajectory`); 0 comes down in one move.
         approach_speed: Speed of that in m/s.
     """
 
@@ -95,10 +92,10 @@ class FootMotion:
         footholds: Position (3,) in m and heading in rad of each sole in the command frame.
         landed: Whether the foot that swung last has touched the ground.
         comes_down: Whether the foot that swung last is in the second half of its swing, or past it.
-        surprise: How much higher in m than expected the ground is that a swing sees where it will land, or has met.
+        surprise: Height in m of the ground that a swing sees or has met, less the expected one.
 
     Args:
-        feet: Where the feet stand at the start.
+        feet: Pose of the feet at the start.
         period: Control period in s.
         swing_height: Clearance of the swing foot in m.
         landing: How a foot lands.
@@ -150,13 +147,13 @@ class FootMotion:
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
-        """Feet whose proximity the motion depends on: the one in the air, with preemptive compliance."""
+        """Sides whose proximity is needed: the one in the air, with preemptive compliance."""
         side = self.last_side
         return () if self._compliance is None or self.landed or side is None else (side,)
 
     @property
     def ahead(self) -> NDArray[np.float64]:
-        """How far (2,) in m the swing foot still has to go horizontally, command frame; zero before the first step."""
+        """Horizontal distance (2,) in m to the swing foot's target, command frame; zero before the first step."""
         if self._swing is None:
             return np.zeros(2)
         (x, y, _), (here_x, here_y, _) = self._swing.end.tolist(), self.footholds[self._side][0].tolist()
@@ -191,7 +188,7 @@ class FootMotion:
         return known[2]
 
     def turn_standing(self, side: Side, turn: NDArray[np.float64], pivot: NDArray[np.float64]) -> None:
-        """Turn the sole of a foot that stands a little further.
+        """Turn the sole of a standing foot.
 
         Args:
             side: Which foot.
@@ -205,7 +202,7 @@ class FootMotion:
         self.footholds[side] = (position + np.array([0.0, 0.0, rise]), yaw)
 
     def outward_rise(self, side: Side) -> float:
-        """Slope in rad across a foot's stand, positive where its outer edge is the higher one."""
+        """Slope in rad across a standing foot, positive where its outer edge is higher."""
         return math.asin(float(self._tilts[side][1, 2])) * (-1.0 if side == "left" else 1.0)
 
     def update(
@@ -252,11 +249,7 @@ class FootMotion:
         self._touchdown = self.landed and not before
 
     def _relax(self, heights: Mapping[Side, float]) -> None:
-        """Command the foot that landed last as much above the other one as it is estimated to stand.
-
-        What it was pressed down too much or too little would stay in the legs, and the body lean by it. (While the
-        robot walks, its estimated attitude is off by a few milliradians, and the feet by as much as is to be found.)
-        """
+        """Command the foot that landed last as much above the other one as it is estimated to be."""
         side, other = self._side, other_side(self._side)
         position, yaw = self.footholds[side]
         stands = self.footholds[other][0].item(2) + heights[side] - heights[other]
@@ -264,17 +257,16 @@ class FootMotion:
         self.footholds[side] = (position + np.array([0.0, 0.0, share * (stands - position.item(2))]), yaw)
 
     def stand_at(self, side: Side, place: NDArray[np.float64], yaw: float) -> None:
-        """Command a foot that has landed to another place than the one that it was swung to.
+        """Move the commanded place of a foot that has landed.
 
         Args:
             side: Which foot.
-            place: Where it stands (3,) in the command frame in m.
+            place: Its place (3,) in the command frame in m.
             yaw: Its heading in rad.
         """
         self.footholds[side] = (place.copy(), yaw)
 
     def _advance(self, phase: Phase, time: float, load: float) -> None:
-        """Advance a foot that does not see the ground."""
         assert self._swing is not None
         if phase.swing is not None:
             # On its way up a sole still carries what the ground that it leaves gives back.
@@ -289,9 +281,7 @@ class FootMotion:
         self._press(self._side, load)
 
     def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame) -> None:
-        """Follow a plan that has changed while the foot swings: it goes elsewhere, or is there at another time.
-
-        A foot in the air is aimed again; one that has landed already lifts again and takes its step once more.
+        """Follow a plan that has changed in the swing; a foot that has landed lifts again and retakes its step.
 
         Args:
             phase: Phase of the walk.
@@ -319,7 +309,6 @@ class FootMotion:
     def _begin(
         self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame, again: bool = False
     ) -> None:
-        """Begin the swing of a step, from and until some times in s."""
         side = target.side
         if self._swing is not None:
             # Where the other foot found the ground is the best guess of where this one will.
@@ -356,7 +345,7 @@ class FootMotion:
             self._lifted_tilt = vector_from_rotation(self._tilts[side])
 
     def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
-        """Lift the foot that has landed again and take its step once more, to another place."""
+        """Lift a foot that has landed and repeat its step, to another place."""
         expected, height = self._expected, self._height
         self._wary = _WARY
         # It has to clear only what it has just met, in what is left of the step.
@@ -436,7 +425,7 @@ class FootMotion:
         return far <= 0.0 or compliance.force > least + far * (blind - least)
 
     def _turn(self, compliance: SwingCompliance, side: Side, view: GroundView) -> None:
-        """Turn the sole a little to the ground's slope, or back to level where there is too little to follow."""
+        """Turn the sole towards the ground's slope, or back to level where too little is seen."""
         gains = compliance.gains
         share = min(1.0, self._period / gains.turning)
         if view.slope is None:
@@ -446,7 +435,7 @@ class FootMotion:
             self._tilts[side] = turned_to_ground(self._tilts[side], view.slope, share, largest)
 
     def _press(self, side: Side, load: float) -> None:
-        """Press down the more gently the more the foot carries; a switch at one force would make it tap."""
+        """Press down more gently the more the foot carries; a switch at one force would make it tap."""
         landing = self._landing
         missing = 1.0 - load / landing.press_force
         wanted = landing.speed * missing if missing > 0.0 and self._lowered < landing.reach else 0.0

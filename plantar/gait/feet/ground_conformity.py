@@ -1,16 +1,8 @@
-"""Feet that take the ground's shape: the commanded sole turns until the ground carries it where it should be loaded.
+"""Feet that take the ground's shape: the commanded sole turns with its centre of pressure's error (Caron et al. 2019).
 
-A rigid sole comes to rest on three bumps, in an orientation that no sensor saw before. A stiff ankle would keep the
-commanded one and lean the body instead. Each foot therefore turns with its centre of pressure's error (damping control
-of a foot, Caron et al. 2019), as fast as its load allows, or faster where it rolls over an edge:
+    w = k ((p - c) x e_z),     [w_x, w_y] = k [p_y - c_y, -(p_x - c_x)]
 
-    w = k ((p - c) x e_z),     [w_x, w_y] = k [p_y - c_y, -(p_x - c_x)].
-
-- A foot that takes the weight over turns until the contacts found so far enclose its middle c; its centre of pressure
-  keeps its height meanwhile.
-- The foot that carries the body turns where the desired ZMP c lies beyond them, on to the next bump. (A foot that
-  turns between its contacts, too, swings: a servo's stiffness moves its load by ten metres for each radian.)
-- The foot that gives the weight away keeps its orientation.
+An incoming foot turns until its contacts enclose its middle c, the stance foot where the desired ZMP c is beyond them.
 """
 
 from __future__ import annotations
@@ -44,7 +36,7 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
     Attributes:
         firm: k on firm ground, in rad/s per m for each newton that the foot carries.
         rolling: k of a foot that rolls over an edge in rad/s per m.
-        nearly: Distance in m from its target at which an incoming foot stays as it is.
+        nearly: Distance in m from its target at which an incoming foot does not turn.
         largest_rate: Largest rate of a turn in rad/s.
         press: Force in N that a landed foot holds before it takes the weight over.
         watch: Number of control ticks over which that is judged.
@@ -91,17 +83,13 @@ class FootTurn:
         self._past.clear()
 
     def hold(self, center_of_pressure: NDArray[np.float64]) -> None:
-        """One control tick without a turn.
-
-        Args:
-            center_of_pressure: Where the load acts (2,) in the sole frame in m.
-        """
+        """One control tick without a turn; `center_of_pressure` (2,) in the sole frame in m."""
         self._past.append((center_of_pressure.copy(), 0.0))
 
     def incoming(
         self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """One control tick of a foot that takes the weight over.
+        """Turn (2,) in rad about the sole's x and y axes of a foot that takes the weight over, at one tick.
 
         Args:
             load: Vertical force on it in N.
@@ -109,7 +97,7 @@ class FootTurn:
             target: Where it should act (2,) in the sole frame in m.
 
         Returns:
-            Turn (2,) about the sole's x and y axes in rad.
+            The turn.
         """
         g = self.gains
         away = math.dist(center_of_pressure, target)
@@ -123,21 +111,22 @@ class FootTurn:
     def stance(
         self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """One control tick of the foot that carries the body.
+        """Turn (2,) in rad about the sole's x and y axes of the foot that carries the body, at one tick.
 
         Args:
             load: Vertical force on it in N.
             center_of_pressure: Where that acts (2,) in the sole frame in m.
-            target: Where it should act (2,) in the sole frame in m: the desired ZMP.
+            target: The desired ZMP (2,) in the sole frame in m.
 
         Returns:
-            Turn (2,) about the sole's x and y axes in rad.
+            The turn.
         """
         return self._turn(self._rate(load, center_of_pressure, target), center_of_pressure, target)
 
     def _rate(self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> float:
-        """k in rad/s per m. On firm ground a servo's stiffness K moves the load by K / force for each rad: turns in
-        proportion to the load keep the loop as fast as its delay allows."""
+        """k in rad/s per m, in proportion to the load, since a servo's stiffness K moves it by K / force for each
+        rad.
+        """
         g = self.gains
         return g.rolling if self._rolls(center_of_pressure, target) else min(g.rolling, g.firm * load)
 
@@ -171,9 +160,9 @@ class GroundConformity:
     Args:
         gains: The gains.
         layouts: Sole layout of each side.
-        middles: Where each whole sole would best be loaded (2,) in its frame in m.
+        middles: Best place (2,) to load each whole sole in its frame in m.
         period: Control period in s.
-        turns_stance: Whether it turns the foot that carries the body, too; not where the balance law does.
+        turns_stance: Whether it turns the stance foot, too; not where the balance law does.
     """
 
     def __init__(
@@ -201,7 +190,7 @@ class GroundConformity:
         percepts: Mapping[Side, Percept],
         landed: bool,
     ) -> dict[Side, SoleTurn]:
-        """One control tick: how the soles that stand turn.
+        """Turns of the standing soles at one control tick.
 
         Args:
             phase: Phase of the walk.
@@ -212,7 +201,7 @@ class GroundConformity:
             landed: Whether the swing foot has touched the ground.
 
         Returns:
-            The turns of the soles that do.
+            Turn of each sole that turns.
         """
         turned: dict[Side, SoleTurn] = {}
         for side in SIDES:

@@ -1,14 +1,8 @@
-"""After touchdown a foot turns until the ground carries it evenly (T 4.4.1, Fig. 49-d).
+"""After touchdown a foot turns until the ground carries it evenly (T 4.4.1, Fig. 49-d; damping of Caron et al. 2019).
 
-A sole that lands a milliradian off level rests on one edge, and its taxels show that edge and no foothold. The foot
-therefore yields to the moment of its own ground reaction wrench about a point c that should become the centre of
-pressure,
+    w = A ((p - c) x f),     [w_x, w_y] = A f_z [p_y - c_y, -(p_x - c_x)]
 
-    w = A ((p - c) x f),     [w_x, w_y] = A f_z [p_y - c_y, -(p_x - c_x)],
-
-the damping control of a foot (Caron et al. 2019) with the wrench of the taxels. As long as only a line of cells
-carries, c is the sole's centre, and the foot turns down onto the rest of what is there; then it is the centroid of what
-carries, so that a foot does not turn over the edge of a partial foothold.
+c is the sole's centre while a line of cells carries, then the centroid of what carries.
 """
 
 from __future__ import annotations
@@ -30,7 +24,7 @@ class DampingGains(Settings):
     Attributes:
         admittance: A in rad/s for each N m.
         largest_rate: Largest rate in rad/s.
-        largest_turn: Largest turn in rad: what a levelled sole may be off; more would lean the body.
+        largest_turn: Largest turn in rad, the error of a levelled sole.
         largest_force: Vertical force in N from which the foot carries the body and no longer yields.
     """
 
@@ -59,7 +53,7 @@ class LandingCompliance:
         self.turn = np.zeros(2)
 
     def update(self, force: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> None:
-        """One control tick of a foot that carries.
+        """One control tick of a loaded foot.
 
         Args:
             force: Vertical force on it in N.
@@ -76,11 +70,11 @@ class LandingCompliance:
         self._turn(np.array([gain * dy, -gain * dx]))
 
     def level(self, force: float, slope: NDArray[np.float64], gain: float) -> None:
-        """One control tick of a foot that comes down, or has just landed: turn it parallel to the ground expected.
+        """One control tick of a foot that comes down, or has just landed: turn it parallel to the expected ground.
 
         Args:
             force: Vertical force on it in N.
-            slope: How the sole rises against that ground (2,) along its x and y axes in m/m.
+            slope: Rise of the sole against that ground (2,) along its x and y axes in m/m.
             gain: Rate of the turn for a slope of 1 in 1/s.
         """
         if force > self.gains.largest_force:
@@ -89,7 +83,6 @@ class LandingCompliance:
         self._turn(gain * np.array([-slope[1], slope[0]]))
 
     def _turn(self, rate: NDArray[np.float64]) -> None:
-        """Turn at a rate (2,) in rad/s within limits of rate and turn."""
         g = self.gains
         size = math.hypot(*rate.tolist())
         if size > g.largest_rate:

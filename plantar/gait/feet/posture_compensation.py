@@ -1,13 +1,6 @@
-"""Keep the swing foot where it is wanted in the world while the body leans and sags on its stance leg.
+"""Keeps the swing foot at its wanted place in the world while the body leans and sags on its stance leg.
 
-Servos give under load and a push tilts the pelvis; joints that are solved for an ideal body would carry the swing foot
-along with the lean, and it would land early, on an edge, off its foothold. The foot's wanted pose is therefore
-expressed relative to the body as it is estimated, and attached to the body as it is commanded:
-
-    X_command = c_command + R_command R_estimated^T (X_world - c_estimated)
-
-with c the CoM. The correction fades in after lift-off, and fades out in double support, while the foot takes over the
-weight and becomes the one that the body leans on.
+X_command = c_command + R_command R_estimated^T (X_world - c_estimated),    c: CoM
 """
 
 from __future__ import annotations
@@ -50,15 +43,15 @@ class PostureCompensation:
 
     @classmethod
     def for_body(cls, body: BodyScale, period: float, fade: float) -> PostureCompensation:
-        """The correction for a robot, limited to a share of its leg.
+        """No correction yet, limited to a share of a robot's leg.
 
         Args:
-            body: How large the robot is.
+            body: Dimensions of the robot.
             period: Control period in s.
-            fade: Time in s in which the correction comes in and goes out.
+            fade: Time in s in which the correction fades in and out.
 
         Returns:
-            The correction, which is none yet.
+            The compensation.
         """
         return cls(period, _TIME_CONSTANT * body.beat, fade, _LARGEST_SHIFT * body.leg)
 
@@ -67,14 +60,11 @@ class PostureCompensation:
         self.shift, self.turn, self._weight, self._kept = np.zeros(3), np.zeros(3), 0.0, np.zeros(3)
 
     def keep(self, shift: NDArray[np.float64]) -> None:
-        """Keep what a foot that stands off its place was commanded farther: it goes out with the correction.
-
-        A leg that leans stands there with the joints of another place. Commanded to where it stands at once, as the leg
-        of a body that does not lean, it would pull the foot away from there before that carries. All of it is kept,
-        however much of the correction counts yet: the low pass takes it to that, and the foot's target does not jump.
+        """Add what a foot that landed off its place was commanded farther, so that its target does not jump; it fades
+        out.
 
         Args:
-            shift: Where it was commanded less where it is from now on (3,) in m, command frame.
+            shift: Old less new commanded place (3,) in m, command frame.
         """
         self._kept = shift
         self.shift = self.shift + shift
@@ -89,10 +79,10 @@ class PostureCompensation:
         rotation_command: NDArray[np.float64],
         rotation_estimated: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """One control tick.
+        """Corrections of the sole's position (3,) in m and orientation (rotation vector (3,) in rad), command frame.
 
         Args:
-            swings: Whether it is still the foot's single support: the other foot carries the body.
+            swings: Whether it is still the foot's single support.
             position: Wanted sole position (3,) in the command frame in m.
             position_in_world: The same point in the world frame in m.
             com_command: CoM reference (3,) in the command frame in m.
@@ -101,7 +91,7 @@ class PostureCompensation:
             rotation_estimated: Estimated torso orientation (3, 3), heading as commanded.
 
         Returns:
-            Corrections of the sole's position (3,) in m and orientation (rotation vector (3,) in rad), command frame.
+            The corrections at this tick.
         """
         step = self.period / self.fade
         # Fades: at lift-off and touchdown the foot is on the ground, and a jump of its target would push it.

@@ -1,7 +1,5 @@
-"""Swing foot trajectory: a minimum-jerk path from lift-off to touchdown (T 4.1.3, Fig. 33).
-
-Where the ground is not known to the millimetre the foot comes down to a height above it, and from there on slowly, at
-an even speed: what it meets earlier or later than expected it meets at that speed.
+"""Swing foot trajectory: a minimum-jerk path from lift-off to touchdown (T 4.1.3, Fig. 33), with a slow approach at its
+end.
 """
 
 from __future__ import annotations
@@ -53,8 +51,8 @@ class SwingTrajectory:
         spare: Share of the duration left when the foot is down.
         approach_height: Height in m above the end at which a slow approach begins, 0.44 of the duration before its end;
             0 comes down in one move.
-        approach_speed: Speed in m/s of the approach, which goes on below the end; raised where it would not reach it.
-        rises_first: Whether the foot is up before it moves horizontally, for something next to it.
+        approach_speed: Speed in m/s of the approach, also below the end; raised where it would not reach it.
+        rises_first: Whether the foot is up before it moves horizontally, because of an obstacle next to it.
     """
 
     start: NDArray[np.float64]

@@ -1,10 +1,7 @@
 """Preemptive foot compliance: a swing that sees the ground before it touches it (T 4.4.1, Fig. 49).
 
-- Damping: on level ground the virtual force of T 4.26 is f_p = n k_p (range - distance); slowing down in proportion to
-  the distance that is left is slowing down by f_p. The swing ends at a crawl, where T 4.31 stops at f_p > epsilon_stop:
-  so it meets what noise and bias leave of the distance.
-- Orientation: the sole turns until the ground shows no slope, or until the virtual moment is zero.
-- Hand-over: once the taxels carry load, T 4.30 (corrected) drops the virtual part.
+Speed in proportion to the remaining distance is the virtual force f_p = n k_p (range - distance) of T 4.26; the swing
+ends at a crawl instead of stopping (T 4.31), and with load the virtual part ends (T 4.30, corrected).
 """
 
 from __future__ import annotations
@@ -42,7 +39,7 @@ class SwingCompliance:
     Args:
         layout: The sole.
         gains: How it comes down.
-        touchdown: Which load is a touchdown, and which one it carries from then on.
+        touchdown: Loads of and after touchdown.
         ground: How the map of the ground is kept.
     """
 
@@ -69,11 +66,7 @@ class SwingCompliance:
         self.force = 0.0
 
     def update_load(self, load: float) -> bool:
-        """Touchdown detection: whether the foot has landed (T 4.30 corrected).
-
-        Args:
-            load: Vertical force in N on the sole, less its tare.
-        """
+        """Touchdown detection: whether the foot has landed (T 4.30 corrected), by `load` in N, less its tare."""
         self.force += 0.5 * (load - self.force)
         up = np.array([0.0, 0.0, self.force, 0.0, 0.0, 0.0])
         self.switch.update(up, np.zeros(6))
@@ -82,12 +75,12 @@ class SwingCompliance:
     def descent(
         self, view: GroundView | None, planned: float, remaining: float, time_left: float, period: float
     ) -> float:
-        """How far the foot goes down in one control tick, in m; negative: up.
+        """Distance in m that the foot goes down in one control tick; negative: up.
 
         Args:
             view: What the sole sees.
-            planned: Speed downwards in m/s of the swing's own plan, which holds while nothing is seen.
-            remaining: Horizontal distance in m that the foot still has to go.
+            planned: Speed downwards in m/s of the swing's own plan, used while no ground is seen.
+            remaining: Remaining horizontal distance in m.
             time_left: Time in s until the plan puts weight on the foot; negative where it does already.
             period: Control period in s.
 
@@ -117,11 +110,11 @@ class SwingCompliance:
         return period * min(g.top_speed, max(rise, self._speed + behind / g.correction))
 
     def turn_rate(self, distance: float, slope: tuple[float, float]) -> float:
-        """Largest rate in rad/s at which the sole turns: its edge goes down no faster than the whole of it does, but
-        where the slope that is left is more than what noise makes of the ground.
+        """Largest turning rate in rad/s: the edge goes down no faster than the sole, unless the slope exceeds its
+        noise.
 
         Args:
-            distance: How far down in m the first contact is.
+            distance: Distance down in m to the first contact.
             slope: Rise of the ground along the sole's x and y (tangents).
 
         Returns:
@@ -132,21 +125,17 @@ class SwingCompliance:
         return min(g.turn_rate, gentle + max(0.0, math.hypot(*slope) - _SLOPE_OF_NOISE) / g.turning)
 
     def holding(self, since: float) -> float:
-        """Force in N that a foot should carry some time after it touched, until weight is put on it.
-
-        Args:
-            since: Time in s since it touched.
-        """
+        """Force in N that a foot should carry `since` seconds after it touched, until weight is put on it."""
         t = self.touchdown
         return t.touch_force + min(1.0, since / t.load_time) * (t.hold_force - t.touch_force)
 
     def yielding(self, load: float, target: float, above: float, period: float) -> float:
-        """How far a foot on the ground goes down in one control tick, in m, for a force; negative: up.
+        """Distance in m that a foot on the ground goes down in one control tick, for a force; negative: up.
 
         Args:
             load: Vertical force in N on the sole.
-            target: Force in N that it should have.
-            above: How far in m it is above where it touched; a foot that has lost the ground comes back from there.
+            target: Desired force in N.
+            above: Height in m above where it touched; a foot that has lost the ground comes back from there.
             period: Control period in s.
 
         Returns:
@@ -167,7 +156,7 @@ class SwingCompliance:
 def turned_to_ground(
     rotation: NDArray[np.float64], slope: tuple[float, float], share: float, largest: float
 ) -> NDArray[np.float64]:
-    """Turn a sole a share of the way to the ground's slope.
+    """Rotation (3, 3) of a sole that is turned a share of the way to the ground's slope.
 
     Args:
         rotation: Rotation (3, 3) of the sole.
@@ -176,7 +165,7 @@ def turned_to_ground(
         largest: Largest turn in rad.
 
     Returns:
-        Rotation (3, 3) of the turned sole.
+        The turned sole.
     """
     turn = np.array([share * slope[1], -share * slope[0], 0.0])
     size = math.hypot(float(turn[0]), float(turn[1]))

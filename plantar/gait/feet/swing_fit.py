@@ -1,17 +1,7 @@
-"""The swing foot's path as a polynomial that is fitted at every tick to where and when it should land (K 13-16).
+"""The swing foot's path as a polynomial, fitted at every tick to where and when it should land (K 13-16).
 
-A footstep that is moved at every tick wants a path that does not pass on each jump. K fits a polynomial of the time to
-more conditions than it has coefficients: rest at lift-off and touchdown, the path of the tick before, what is measured
-of the foot, and two heights on the way; ridge regression weighs them against each other (K 14), and only the two ends
-are kept exactly. K 16 puts those in after the fit, by overwriting two coefficients; here the fit is made under them, so
-that it is the best of all polynomials that pass through both.
-
-Time is counted in shares of the swing, so conditions and damping weigh alike for a child's and for a grown robot's
-step, and a swing of 100 s is as well conditioned as one of 0.1 s. Conditions on velocity and acceleration are weighed
-by the control period in these units and its square, as in K Table 1.
-
-A polynomial may swing past. Horizontally, the reference stays between where it was and where it should land;
-vertically, it rises, and from some moment on it falls (K 2.4, monotonicity).
+Ridge regression (K 14) under exact conditions at both ends, unlike K 16, which overwrites two coefficients; time is
+counted in shares of the swing, and the reference is kept monotone (K 2.4).
 """
 
 from __future__ import annotations
@@ -40,10 +30,9 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
 
     Attributes:
         order: n: order of the polynomial.
-        damping: lambda: weight of the coefficients' squares. With the paper's 0.01 a foot lands at 0.15 m/s, as the
-            damping outweighs its rest, and jumps by 10 mm where its goal jumps by 100; with this at 2 mm/s, by 3 mm.
-        position: sigma_pos: weight of conditions on the position; those on velocity and acceleration weigh as much
-            times the control period, counted in swings, and its square.
+        damping: lambda: weight of the coefficients' squares; the paper's 0.01 lands at 0.15 m/s.
+        position: sigma_pos: weight of conditions on the position; on velocity and acceleration times the control
+            period, counted in swings, and its square.
         observation: sigma_obs: weight of what is measured of the foot.
         height_share: gamma: share of the swing after which, and before whose end, it is that high.
     """
@@ -55,7 +44,7 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
     height_share: float = number(1.0 / 3.0, "1", 0.01, 0.5)
 
     def begin(self, start: SwingStart) -> Swing:
-        """The fitted swing; one that rises first is no condition that a path is fitted to, and takes polynomials."""
+        """The fitted swing, or one of polynomials where it has to rise first."""
         flight = PolynomialSwing().begin(start)
         if start.rises_first:
             return flight
@@ -63,13 +52,7 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
 
 
 class SwingPoint(Record, frozen=True):
-    """Desired swing foot now.
-
-    Attributes:
-        position: (3,) in m.
-        velocity: (3,) in m/s.
-        acceleration: (3,) in m/s^2.
-    """
+    """Desired position (3,) in m, velocity in m/s and acceleration in m/s^2 of the swing foot now."""
 
     position: NDArray[np.float64]
     velocity: NDArray[np.float64]
@@ -123,16 +106,16 @@ class SwingFit:
         self._conditions, self._work = np.zeros((4, 4)), np.zeros((7 + 2 * (n - 1), n + 1))
 
     def aim(self, goal: ArrayLike, elapsed: float, duration: float, observed: ArrayLike | None = None) -> SwingPoint:
-        """The reference now, of a path to a goal (K 13-16).
+        """The reference now, of a path to a goal (K 13-16); the goal, at rest, once the duration is over.
 
         Args:
             goal: Where the foot should land (3,) in m.
             elapsed: T_c: time since lift-off in s; one control period more at each call.
             duration: T_s in s, from lift-off to touchdown.
-            observed: Where the foot was at the tick before (3,) in m, by the joints; None does without.
+            observed: Measured position (3,) at the tick before in m; None does without.
 
         Returns:
-            The desired pose; the goal, at rest, once the duration is over.
+            The desired motion.
 
         Raises:
             InputError: If goal or observation is not three finite numbers, or a time not a finite number.
@@ -153,7 +136,7 @@ class SwingFit:
     def _fitted(
         self, end: NDArray[np.float64], now: float, lasts: float, seen: NDArray[np.float64] | None
     ) -> NDArray[np.float64]:
-        """The reference now (3, 3), a row for each derivative, by ridge regression through both ends."""
+        """The reference now (3, 3), a row for each derivative."""
         rules, n, start, conditions = self._rules, self._rules.order, self._start, self._conditions
         tick, way = self._period / lasts, end - start
         units = np.array(((1.0,), (lasts,), (lasts * lasts,)))
@@ -181,7 +164,7 @@ class SwingFit:
         return found
 
     def _keep_monotone(self, found: NDArray[np.float64], end: NDArray[np.float64], s: float) -> None:
-        """Change a reference that would turn round or pass its goal; vertically it rises, and later falls."""
+        """Limit a reference that would turn round or pass its goal."""
         self._falls = self._falls or s >= 0.5
         for k, (at, was, to) in enumerate(zip(found[0].tolist(), self._state[0].tolist(), end.tolist(), strict=True)):
             if k == 2:
@@ -195,7 +178,7 @@ class SwingFit:
 
 @dataclass
 class _FittedSwing:
-    """A swing fitted at every tick to where and when it should land; heading and a slow approach are its flight's."""
+    """A fitted swing, with the heading and slow approach of its flight."""
 
     flight: SwingFlight
     fit: SwingFit
@@ -239,14 +222,13 @@ class _FittedSwing:
 
 
 def _rows(s: float, order: int) -> tuple[list[float], list[float], list[float]]:
-    """phi(s) = [1, s, ..., s^n] (K 13, corrected: one name for the basis), and its first and second derivative."""
+    """Basis [1, s, ..., s^n] (K 13, corrected), and its first and second derivative."""
     powers = _powers(s, order)
     first = [0.0] + [k * p for k, p in enumerate(powers[:-1], 1)]
     return powers, first, [0.0] + [k * p for k, p in enumerate(first[:-1], 1)]
 
 
 def _powers(s: float, order: int) -> list[float]:
-    """phi(s)."""
     powers, power = [1.0], 1.0
     for _ in range(order):
         power *= s
@@ -255,5 +237,5 @@ def _powers(s: float, order: int) -> list[float]:
 
 
 def _reduced(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Conditions (m, n + 1) on all coefficients as those (m, n - 1) on the ones that the ends leave free."""
+    """Conditions (m, n + 1) on all coefficients as those (m, n - 1) on the free ones."""
     return np.asarray(rows[:, 1:-1] - rows[:, -1:])

@@ -1,9 +1,7 @@
-"""A swing that can be given another place and another time of touchdown while it is in the air.
+"""A swing whose place and time of touchdown can change in the air, without a jump up to its acceleration.
 
-A flight follows its trajectory until it is aimed again. From then on, horizontally and in heading, it takes a
-polynomial of fifth order from where it is, with its velocity and acceleration, to rest above its new place; vertically
-it goes on along its trajectory, whose clock runs faster or slower from then on. Neither position, velocity nor
-acceleration jumps.
+Horizontally and in heading a polynomial of fifth order goes on to rest at the new place; vertically the clock of the
+trajectory runs faster or slower.
 """
 
 from __future__ import annotations
@@ -29,7 +27,7 @@ _LATE = 0.85  # of the time left in which a foot that is above its old place alr
 
 @dataclass(frozen=True)
 class _Clock:
-    """Time of the trajectory over the time of the flight, from a moment on: its rate goes smoothly to another one."""
+    """Trajectory time over flight time; its rate goes smoothly to another one."""
 
     since: float
     shown: float
@@ -40,13 +38,12 @@ class _Clock:
 
     @classmethod
     def to(cls, since: float, shown: float, rate: float, until: float, shows: float) -> _Clock:
-        """A clock that shows a time and runs at a rate at one moment, and shows another time at a later one."""
+        """The clock through a time and rate at one moment, and another time at a later one."""
         left = until - since
         last = (shows - shown - rate * left) / (left * (1.0 - 0.5 * _RAMP)) + rate
         return cls(since, shown, rate, last, until, shows)
 
     def at(self, time: float) -> float:
-        """What it shows."""
         if time >= self.until:
             return self.shows
         length = self.until - self.since
@@ -72,7 +69,6 @@ class _Course:
         start: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
         end: NDArray[np.float64],
     ) -> _Course:
-        """The course from a position, velocity and acceleration (3,) to rest at an end (3,)."""
         t, (p, v, a) = until - since, start
         v, a, way = t * v, t * t * a, end - p
         # The fifth-order polynomial in s = 0..1 with speed and acceleration given at its start and zero at its end.
@@ -92,10 +88,10 @@ class _Course:
 
 @dataclass(frozen=True)
 class SwingFlight:
-    """A swing foot's way.
+    """Motion of a swing foot.
 
     Attributes:
-        path: The trajectory that it set out on.
+        path: The trajectory that it began with.
         duration: Time in s from lift-off to the planned touchdown.
         end: Planned sole position (3,) at touchdown in m.
         yaw_end: Heading in rad at touchdown.
@@ -171,7 +167,6 @@ class SwingFlight:
         return replace(flight, yaw_end=turn, _course=course)
 
     def _horizontal(self, time: float) -> NDArray[np.float64]:
-        """Position and heading (3,) at a time in s since lift-off."""
         position, yaw = self.at(max(0.0, time))
         return np.array([position[0], position[1], yaw])
 

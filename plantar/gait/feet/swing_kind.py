@@ -1,7 +1,5 @@
-"""What a kind of swing has to offer: a path of the swing foot that can be aimed again while the foot is in the air.
-
-A kind of your own is one new file: a `SwingKind` with its settings, whose `begin` returns a `Swing`; a package names it
-as an entry point of the group "plantar.swings" (`plantar.gait.feet.swing_kinds`).
+"""What a kind of swing has to offer; a kind of your own is one new file, an entry point of the group
+"plantar.swings".
 """
 
 from __future__ import annotations
@@ -28,7 +26,7 @@ class SwingStart(Record, frozen=True):
         height: Clearance in m of the highest point above the higher end.
         duration: Time in s from lift-off to touchdown.
         period: Control period in s.
-        least_time: Time in s before touchdown from which the foot would have to be thrown to reach another place.
+        least_time: Time in s before touchdown from which the foot cannot reach another place.
         sees_ground: Whether the sole sees the ground before it touches it, and should be near to it early.
         approach_height: Height in m above the end from which it goes down slowly; 0 for one move.
         approach_speed: Speed of that in m/s.
