@@ -1,11 +1,7 @@
 """Ankle strategy in closed form: the VRP that brings the DCM to the start of the next phase (K 17-27).
 
-Under a push that is expected to stay, with offset u_w of the VRP, xi' = w (xi - u_ref + u_w). The reference VRP stays
-at u_i in single support and moves from u_i to u_e in double support, as 1 - sin over a quarter of its period (K 17), so
-both phases have a closed solution. Everything is written with e^(-w t), which is bounded; growth is limited by
-
-- `SHORTEST_TIME`: the shortest time in which a target is approached.
-- `MOST_GROWTH`: a diverging DCM grows by e^`MOST_GROWTH` at most.
+With the offset u_w of a push, xi' = w (xi - u_ref + u_w); the reference VRP is u_i in single support and moves to u_e
+in double support (K 17). Times are at least `SHORTEST_TIME`, and growth at most e^`MOST_GROWTH`.
 """
 
 from __future__ import annotations
@@ -111,16 +107,12 @@ def growth(omega: float, time: float) -> float:
 
     Returns:
         The factor.
-
-    Example:
-        >>> round(growth(3.5, 0.4), 4), growth(3.5, 100.0) == math.exp(MOST_GROWTH)
-        (4.0552, True)
     """
     return math.exp(min(omega * time, MOST_GROWTH))
 
 
 def double_support_reference(time: float, duration: float, start: ArrayLike, end: ArrayLike) -> NDArray[np.float64]:
-    """Reference VRP in double support, u = (u_e - u_i) (sin(w_d t) - 1) + u_e (K 17).
+    """Reference VRP (2,) in m in double support, u = (u_e - u_i) (sin(w_d t) - 1) + u_e (K 17).
 
     Args:
         time: Time since it began in s; cut to the duration.
@@ -129,7 +121,7 @@ def double_support_reference(time: float, duration: float, start: ArrayLike, end
         end: u_e (2,) in m.
 
     Returns:
-        VRP (2,) in m.
+        The VRP.
 
     Raises:
         InputError: If a place is not two finite numbers, or the duration not above 0.
@@ -137,8 +129,6 @@ def double_support_reference(time: float, duration: float, start: ArrayLike, end
     Example:
         >>> double_support_reference(0.05, 0.2, [0, 0], [0.2, 0.1]).round(4).tolist()
         [0.0765, 0.0383]
-        >>> double_support_reference(0.2, 0.2, [0, 0], [0.2, 0.1]).tolist()
-        [0.2, 0.1]
     """
     ux, uy = _pair(start, "start of the VRP")
     ex, ey = _pair(end, "end of the VRP")
@@ -150,7 +140,7 @@ def double_support_reference(time: float, duration: float, start: ArrayLike, end
 def dcm_after_single_support(
     dcm: ArrayLike, vrp: ArrayLike, offset: ArrayLike, omega: float, time: float
 ) -> NDArray[np.float64]:
-    """DCM after some time at one VRP (K 20, single support; K 28).
+    """DCM (2,) in m after some time at one VRP (K 20, single support; K 28).
 
     Args:
         dcm: DCM (2,) now in m.
@@ -160,7 +150,7 @@ def dcm_after_single_support(
         time: Time in s; growth is limited by `MOST_GROWTH`.
 
     Returns:
-        DCM (2,) in m.
+        The DCM.
 
     Raises:
         InputError: If a place is not two finite numbers.
@@ -186,7 +176,7 @@ def dcm_after_double_support(
     begun: float,
     until: float,
 ) -> NDArray[np.float64]:
-    """DCM at another time of a double support (K 20, double support).
+    """DCM (2,) in m at another time of a double support (K 20, double support).
 
     Args:
         dcm: DCM (2,) at the time `begun` in m.
@@ -199,7 +189,7 @@ def dcm_after_double_support(
         until: The other time in s.
 
     Returns:
-        DCM (2,) in m; what it grows by is cut at `MOST_GROWTH`.
+        The DCM; what it grows by is cut at `MOST_GROWTH`.
 
     Raises:
         InputError: If a place is not two finite numbers, or the duration not above 0.
@@ -232,12 +222,11 @@ def target_dcms(
 ) -> TargetDcms:
     """DCM at the end of a step with which the step after it comes to rest over its foot (K 21-24).
 
-    K 22 ends the second step at the DCM u_n - u_w: over the foot shifted by the push, not at u_n as the text states;
-    substituted in K 20 only that gives b_e (corrected).
+    K 22 ends the second step at u_n - u_w, not at u_n as the text states: only that gives b_e in K 20 (corrected).
 
     Args:
         place: u_e (2,), where the swing foot lands, in m.
-        stance: u_i (2,), where the other one stands, in m.
+        stance: u_i (2,), the place of the stance foot, in m.
         next_stride: s_n (2,) from `place` to the footstep after it in m.
         next_duration: T_n of that step's single support in s, 0 or more.
         double_support: T_d in s, 0 or more; 0 transfers the weight at once.
@@ -273,14 +262,14 @@ def target_dcms(
 
 
 def sway_share(omega: float, double_support: float) -> float:
-    """Share of u_e - u_i that K 24 adds, e^(-w T_d) (1 - C_d w) - (1 - C_d w_d), since the VRP moves gradually.
+    """Share -1..0 of u_e - u_i that K 24 adds as the VRP moves gradually, e^(-w T_d) (1 - C_d w) - (1 - C_d w_d).
 
     Args:
         omega: Pendulum frequency in rad/s.
         double_support: T_d in s, 0 or more.
 
     Returns:
-        The share, -1 to 0.
+        The share.
 
     Example:
         >>> round(sway_share(3.5, 0.2), 4), sway_share(3.5, 0.0)
@@ -293,7 +282,8 @@ def sway_share(omega: float, double_support: float) -> float:
 
 
 def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: ArrayLike, omega: float) -> AnkleVrp:
-    """VRP that brings the DCM to a target at the end of a single support (K 25).
+    """VRP that brings the DCM to a target at the end of a single support (K 25), not yet limited (see
+    `within_support`).
 
     Args:
         dcm: DCM (2,) now in m.
@@ -303,7 +293,7 @@ def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: A
         omega: Pendulum frequency in rad/s.
 
     Returns:
-        The VRP, not yet limited (see `within_support`).
+        The VRP.
 
     Raises:
         InputError: If a place is not two finite numbers.
@@ -333,9 +323,7 @@ def double_support_vrp(
     offset: ArrayLike,
     omega: float,
 ) -> AnkleVrp:
-    """VRP now that brings the DCM to a target at the end of a double support (K 25-26).
-
-    The VRP then follows K 17 to u_e, from the u_i that reaches the target.
+    """VRP now that brings the DCM to a target at the end of a double support (K 25-26), along K 17; not yet limited.
 
     Args:
         dcm: DCM (2,) now in m.
@@ -347,7 +335,7 @@ def double_support_vrp(
         omega: Pendulum frequency in rad/s.
 
     Returns:
-        The VRP, not yet limited (see `within_support`).
+        The VRP.
 
     Raises:
         InputError: If a place is not two finite numbers.
@@ -370,10 +358,10 @@ def double_support_vrp(
 
 
 def double_support_pull(omega: float, duration: float, left: float) -> float:
-    """Displacement of the DCM by a VRP 1 m before u_e that follows K 17 there: the integral of w e^(-w s) q(s).
+    """Displacement of the DCM in m, times e^(-w left), by a VRP 1 m before u_e that follows K 17 there.
 
-    q falls from 1 now to 0 at the end, as 1 - sin(w_d t); it is e^(-w T) times the denominator of K 25 over 1 - sin(w_d
-    T_c), which is 0 / 0 at the end.
+    The integral of w e^(-w s) q(s), with q from 1 now to 0 at the end as 1 - sin(w_d t); unlike the denominator of K 25
+    it has no 0 / 0.
 
     Args:
         omega: Pendulum frequency in rad/s.
@@ -381,7 +369,7 @@ def double_support_pull(omega: float, duration: float, left: float) -> float:
         left: Time until its end in s, above 0.
 
     Returns:
-        The displacement at the end in m, times e^(-w left).
+        The displacement at the end.
 
     Example:
         >>> round(double_support_pull(3.5, 0.2, 0.2), 4)
@@ -404,7 +392,8 @@ def double_support_pull(omega: float, duration: float, left: float) -> float:
 def shrunk_support(
     polygon: NDArray[np.float64], rules: AnkleRules, middle: ArrayLike, yaw: float = 0.0
 ) -> NDArray[np.float64]:
-    """The part of a support polygon that the ankle strategy uses, f(c) S with f(c) = (beta_x, beta_y) (K 27).
+    """The polygon (k, 2) in m that the ankle strategy uses of a support polygon, f(c) S with f(c) = (beta_x, beta_y) (K
+    27).
 
     Args:
         polygon: Support polygon S (k, 2) in the world in m.
@@ -413,7 +402,7 @@ def shrunk_support(
         yaw: Heading of the sole in rad.
 
     Returns:
-        Smaller polygon (k, 2) in m.
+        The smaller polygon.
 
     Raises:
         InputError: If the middle is not two finite numbers.
@@ -432,14 +421,15 @@ def shrunk_support(
 
 
 def within_support(wanted: AnkleVrp, support: ArrayLike) -> AnkleVrp:
-    """A VRP limited to the support polygon by its closest point (K 27).
+    """A VRP, or the closest one in the support polygon with `Saturation.SUPPORT`: then only a step reaches the target
+    (K 27).
 
     Args:
         wanted: VRP of the ankle strategy.
         support: Convex polygon (k, 2) in m, already shrunk; empty does not limit it.
 
     Returns:
-        The same VRP, or the closest one with `Saturation.SUPPORT`: then only a step reaches the target.
+        The VRP.
 
     Raises:
         InputError: If the polygon is not (k, 2) finite numbers.
@@ -464,13 +454,11 @@ def _sway(omega: float, duration: float, time: float) -> float:
 
 
 def _pair(value: ArrayLike, name: str) -> list[float]:
-    """Two finite numbers, else InputError."""
     found: list[float] = array(value, name, (2,), finite=True).tolist()
     return found
 
 
 def _above_zero(value: float, name: str) -> float:
-    """A finite number above 0, else InputError."""
     given = number(value, name, finite=True)
     if given <= 0.0:
         raise InputError(f"{name} is {value} s; allowed: above 0")

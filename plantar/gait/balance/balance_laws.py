@@ -21,13 +21,10 @@ LAWS = ("com_admittance", "wrench_distribution")
 
 
 def balance_gains(table: Mapping[str, Any]) -> LawGains:
-    """Gains of the law that a robot's `[balance]` table names.
+    """Gains of the law that a robot's `[balance]` table names; their class is that of the law.
 
     Args:
         table: The table: `law` and its gains.
-
-    Returns:
-        The gains; their class is that of the law.
 
     Raises:
         InputError: If the law or one of its gains is unknown, or a gain not allowed.
@@ -58,7 +55,7 @@ def balance_law(gains: LawGains, omega: float, mass: float, period: float) -> Ba
         period: Control period in s.
 
     Returns:
-        The law, at its beginning.
+        A new law.
     """
     if isinstance(gains, BalanceGains):
         return DcmBalance(gains, omega, mass, period)

@@ -71,16 +71,15 @@ class DcmBalance:
     def desired_zmp(
         self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Desired ZMP p_d = p_r - (1 + k_xi / w) (xi_r - xi) (T 4.28), kept in a region (T Algorithm 1).
+        """Desired ZMP (2,) in m, p_d = p_r - (1 + k_xi / w) (xi_r - xi) (T 4.28), kept in a region (T Algorithm 1).
 
         Args:
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
-            region: Convex polygon (k, 2) in the world frame, counter-clockwise, in which p_d has to lie: the support
-                polygon less its safety offset; empty leaves p_d free.
+            region: Convex polygon (k, 2) in the world frame in m, counter-clockwise, for p_d; empty leaves it free.
 
         Returns:
-            Desired ZMP (2,) in m.
+            The ZMP.
         """
         zmp: NDArray[np.float64] = self._feedback.desired(reference.vrp, reference.dcm, dcm, region)
         return zmp
@@ -92,33 +91,30 @@ class DcmBalance:
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
     ) -> BalanceState:
-        """Decide on CoM and ZMP (see `plantar.gait.balance.law.BalanceLaw`).
+        """The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
 
         Args:
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
             zmp: Measured ZMP (2,) in m, or None where no foot carries load.
-            region: Where the desired ZMP has to lie (see `desired_zmp`).
+            region: As of `desired_zmp`.
 
         Returns:
-            The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
+            The decision.
         """
         plan, self._zmp = reference, zmp
         return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Load transfer by the plan. Where the robot stands, the feet give way to what they press against each other.
-
-        That is what their wrenches differ from a load transfer with the measured ZMP, so that the two together still
-        hold against a push as stiffly as the joints do; a share of the ZMP's own error is given way to as well, so that
-        it fades.
+        """Load transfer by the plan; at rest, feet yield to what they press against each other and to a share of the
+        ZMP error.
 
         Args:
-            balanced: What `update` decided.
+            balanced: Result of `update`.
             feet: The feet.
 
         Returns:
-            What each foot should carry, and how it gives way.
+            Action of each foot.
         """
         actions = transferred(balanced, self.mass, feet)
         wanted, measured = {}, {}
@@ -136,7 +132,7 @@ class DcmBalance:
 
 
 def _wrench_in_sole(action: FootAction, foot: FootState) -> NDArray[np.float64]:
-    """Wrench (6,) about the origin of a sole, level to first order, of the force that the foot should carry."""
+    """Wrench (6,) of a foot's desired force about the origin of a sole, level to first order."""
     force = action.force
     place = foot.rotation[:2, :2].T @ (action.center_of_pressure - foot.position[:2])
     return np.array([0.0, 0.0, force[2], place[1] * force[2], -place[0] * force[2], 0.0])

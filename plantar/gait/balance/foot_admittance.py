@@ -1,8 +1,6 @@
-"""Foot damping and foot force difference control: feet yield until they carry the desired wrenches.
+"""Foot damping and foot force difference control (Kajita et al. 2010, Caron et al. 2019).
 
-After Kajita et al. 2010 and Caron et al. 2019. A sole with too much moment about an axis turns along with it, which
-moves its centre of pressure; of two feet the more loaded one goes up, the other one down. Corrections return to zero
-slowly, and quickly in the air.
+A sole turns with the moment error; of two feet the more loaded one goes up, the other one down.
 """
 
 from __future__ import annotations
@@ -44,8 +42,7 @@ class FootAdmittance:
     """Admittance of both feet.
 
     Attributes:
-        corrections: Correction of each commanded sole: turn in rad about its x and y axes, `roll` and `pitch`, and
-            `shift` in m upwards.
+        corrections: Correction of each commanded sole: `roll` and `pitch` in rad about its axes, `shift` in m upwards.
 
     Args:
         gains: The gains.
@@ -68,16 +65,15 @@ class FootAdmittance:
         measured: Mapping[Side, NDArray[np.float64]],
         rests: bool = False,
     ) -> Mapping[Side, SoleAdmittance]:
-        """Advance by one control tick.
+        """`corrections` after one more control tick; that of a foot in the air fades.
 
         Args:
             wanted: Desired wrench (6,) on each standing foot in its sole frame, by the world on the robot.
             measured: Measured wrench (6,) of the same feet.
-            rests: Whether the robot stands: corrections then do not return, so that no wrench error is left and the
-                soles do not press against each other by their edges.
+            rests: Whether the robot stands: corrections then do not return, so that no wrench error is left.
 
         Returns:
-            `corrections`; that of a foot in the air fades.
+            The corrections.
         """
         errors: list[float] = []
         for side, foot in self.corrections.items():

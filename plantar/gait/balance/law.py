@@ -1,8 +1,4 @@
-"""Interface of balance laws.
-
-Each tick calls `update` (where should CoM and ZMP be?), then `act` (what should each foot carry, and how does it
-yield?). In between, feet may adapt to the ground.
-"""
+"""Interface of balance laws: each tick calls `update` (CoM and ZMP), then `act` (load and yielding of each foot)."""
 
 from __future__ import annotations
 
@@ -46,8 +42,8 @@ class FootState(Record, frozen=True):
         level: Commanded rotation (3, 3) of the sole before foot damping.
         rotation: The same after foot damping.
         center: Point (2,) of the sole frame in m at which the foot should be loaded.
-        contact: Its sole frame in the world, the part of the sole that may be loaded, and its desired centre of
-            pressure; None in the air, or for a law without `wants_contacts`.
+        contact: Its sole frame in the world, loadable part and desired centre of pressure; None in the air, or for a
+            law without `wants_contacts`.
         wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot; None in the air, and
             for such a law while the robot walks.
     """
@@ -118,7 +114,7 @@ class BalanceLaw(Protocol):
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
             zmp: Measured ZMP (2,) in m, or None where no foot is loaded.
-            region: Convex polygon (k, 2) for the desired ZMP; empty does not limit it.
+            region: Convex polygon (k, 2) in the world in m for the desired ZMP; empty does not limit it.
 
         Returns:
             The decision.

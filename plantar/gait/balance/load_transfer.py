@@ -13,8 +13,8 @@ __all__ = ["transferred"]
 def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, FootAction]:
     """Share the force of the pendulum, m (a_x, a_y, g), between the feet.
 
-    In double support the desired ZMP, projected onto the line between the feet's centres, gives the shares; its
-    distance from that line is realised by each foot's centre of pressure.
+    In double support the desired ZMP on the line between the feet's centres gives the shares; its distance from that
+    line moves each foot's centre of pressure.
 
     Args:
         balanced: Desired ZMP and CoM acceleration.

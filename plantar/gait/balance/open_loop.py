@@ -36,7 +36,7 @@ class OpenLoop:
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
     ) -> BalanceState:
-        """Return the plan; its VRP is the desired ZMP.
+        """The plan, with its VRP as desired ZMP.
 
         Args:
             reference: The plan now.
@@ -45,7 +45,7 @@ class OpenLoop:
             region: Not used.
 
         Returns:
-            The plan.
+            The decision.
         """
         return BalanceState(reference.vrp, reference.com, reference.com_velocity, reference.com_acceleration)
 

@@ -1,8 +1,7 @@
-"""Balance by distributing the ground's wrench over the feet: DCM feedback, wrench distribution and foot admittance.
+"""Balance by distributing the ground's wrench over the feet (Caron et al. 2019, T 4.4.4).
 
-After Caron et al. 2019 (T 4.4.4): the DCM error, proportional and integral, gives a net wrench; a quadratic program
-shares it between the feet, each within its contact's wrench cone; ankles and legs yield until the soles measure their
-shares; the CoM reference yields slightly to the remaining ZMP error.
+The DCM error, proportional and integral, gives a net wrench; a quadratic program shares it within the feet's wrench
+cones; ankles and legs yield until the soles measure their shares.
 """
 
 from __future__ import annotations
@@ -67,7 +66,7 @@ class WrenchBalanceGains(Part, table="balance"):
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Make the gains of the law and of the feet's admittance from one table.
+        """Gains of the law and of the feet's admittance from one table.
 
         Args:
             table: Values by name, of either class.
@@ -85,12 +84,12 @@ class WrenchBalanceGains(Part, table="balance"):
 
     @classmethod
     def names(cls) -> tuple[str, ...]:
-        """Allowed keys of a table: settings of the law and of the feet's admittance."""
+        """Allowed keys of a table."""
         return (*super().names(), *AdmittanceGains.names())
 
     @classmethod
     def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
-        """Descriptions of the settings of the law and of the feet's admittance, for a body."""
+        """Descriptions of all settings, for a body."""
         return (*super().described(body), *AdmittanceGains.described(body))
 
 
@@ -139,16 +138,16 @@ class WrenchBalance:
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
     ) -> BalanceState:
-        """Decide on CoM and ZMP (see `plantar.gait.balance.law.BalanceLaw`).
+        """Desired ZMP and CoM reference.
 
         Args:
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
             zmp: Measured ZMP (2,) in m, or None where no foot is loaded.
-            region: Convex polygon (k, 2) for the desired ZMP; empty does not limit it.
+            region: Convex polygon (k, 2) in the world in m for the desired ZMP; empty does not limit it.
 
         Returns:
-            Desired ZMP and CoM reference.
+            The decision.
         """
         plan = reference
         return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
@@ -172,14 +171,15 @@ class WrenchBalance:
         }
 
     def distributed(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, NDArray[np.float64]]:
-        """Distribute the pendulum's wrench over the standing feet.
+        """Wrench (6,) by the world on each standing foot in its sole frame about its origin, which sum to the
+        pendulum's.
 
         Args:
             balanced: Result of `update`.
             feet: The feet.
 
         Returns:
-            Wrench (6,) on each standing foot in its sole frame about its origin, by the world.
+            The wrenches.
         """
         contacts: dict[str, Contact] = {
             side: foot.contact for side, foot in feet.states.items() if foot.contact is not None
@@ -204,7 +204,6 @@ class WrenchBalance:
 
 
 def _action(wrench: NDArray[np.float64], foot: FootState, correction: SoleAdmittance) -> FootAction:
-    """A wrench in the sole frame as a force at its centre of pressure, and how the foot yields."""
     force, place = pressed(wrench, foot.level, foot.position, foot.center)
     return FootAction(force, place, correction.roll, correction.pitch, correction.shift)
 

@@ -1,11 +1,7 @@
-"""What part of a foothold a foot can carry the body on alone: as far from its ankle as the ankle's torque reaches.
+"""The part of a foothold on which a foot can carry the body alone, within the torque limits of its ankle.
 
-A robot of weight W that stands with its ZMP at p on one foot has the torque a . ((p - c) x W e_z) on a joint of the
-ankle with axis a through c. Where that passes the joint's limit the foot turns about the joint, and the ZMP does not
-get there, on any ground: on a stone under the toes alone that happens before it is at its middle.
-
-Where a robot is to be loaded at all because its ankles are weak is another matter, which its file decides
-(`plantar.gait.contact.ankle_reach`); here is what the balance law may ask of the foot that carries alone, of any robot.
+With weight W and ZMP p a joint with axis a through c has the torque a . ((p - c) x W e_z). `ankle_reach` is a choice of
+the robot's file; this limits the balance law of any robot.
 """
 
 from __future__ import annotations
@@ -38,10 +34,10 @@ class AnkleLimits:
         self._margin = margin
 
     def within(self, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The part (j, 2) in m of a support polygon (k, 2) that, moved inwards by the margin, ends at the ankle's
-        reach.
+        """The part (j, 2) of a support polygon (k, 2) that, moved inwards by the margin, ends at the ankle's reach;
+        else all.
 
-        It is all of the polygon where none would be left. Polygons are in the sole frame, counter-clockwise.
+        Polygons are in the sole frame in m, counter-clockwise.
         """
         left = self._cut(polygon, self._margin)
         return left if area(left) > 0.0 else polygon
@@ -49,9 +45,9 @@ class AnkleLimits:
     def center(self, polygon: NDArray[np.float64], center: NDArray[np.float64]) -> NDArray[np.float64]:
         """Returns the best place (2,) in m to load a foot that carries alone.
 
-        It is `center` where the ankle reaches all of the polygon, else the centroid of where the desired ZMP may lie,
-        or where that is empty the nearest place to the ankle's reach that keeps the margin: over an edge the robot
-        falls, while a joint at its limit only lets it sink a little.
+        It is `center` where the ankle reaches all of the polygon, else the centroid of the ZMP's region, or the nearest
+        place to the ankle's reach that keeps the margin: over an edge the robot falls, with a joint at its limit it
+        only sinks.
 
         Args:
             polygon: Support polygon (k, 2) in the sole frame in m, counter-clockwise.
@@ -70,7 +66,7 @@ class AnkleLimits:
         return center if found is None else found
 
     def _cut(self, polygon: NDArray[np.float64], margin: float = 0.0) -> NDArray[np.float64]:
-        """What of a polygon (k, 2) lies within the limits, or up to a margin in m outside of them."""
+        """The part of a polygon (k, 2) within the limits, or up to a margin in m outside of them."""
         for x, y, h in self._lines:
             polygon = part_inside(polygon, x, y, h + margin)
         return polygon

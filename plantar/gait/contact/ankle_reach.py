@@ -13,8 +13,7 @@ _HALF = 0.5  # of an ankle's torque, which the other half is to balance with
 
 
 def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """Returns the part (k, 2) of a foothold on which the ankle bears the robot, or the nearest point (1, 2) to the
-    ankle.
+    """Returns the part (k, 2) of a foothold on which the ankle bears the robot, or the point (1, 2) nearest to it.
 
     Args:
         polygon: Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
@@ -37,8 +36,7 @@ def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64
 def loaded_middle(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
     """Returns the best place (2,) in the sole frame in m to load a foothold.
 
-    The centroid, or as near to it as leaves the ankle half its torque to balance with; where that is beyond the
-    foothold, midway between the ends of what the ankle bears.
+    The centroid, or as near to it as leaves the ankle half its torque, or the nearest that it bears.
 
     Args:
         polygon: Convex polygon (k, 2) in the sole frame in m, counter-clockwise.

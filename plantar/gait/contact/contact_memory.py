@@ -1,9 +1,7 @@
-"""Which cells of a standing sole touch the ground: those that carry, and those that did until the sole turned away.
+"""Which cells of a standing sole touch the ground: those that carry, and those that did until the sole's turn lifted
+them.
 
-On bumps a rigid sole rests on three points and may load one. A cell that has carried counts until the sole's turn since
-then has lifted it off,
-
-    rise_i = (s - s_i) . (r_i - p),
+    rise_i = (s - s_i) . (r_i - p)
 
 with s the rise of the sole along its axes now, s_i when the cell carried last, and p the centre of pressure.
 """
@@ -47,7 +45,7 @@ class ContactMemory:
         self.lift()
 
     def lift(self) -> None:
-        """The foot is in the air: forget what it touched."""
+        """The foot is in the air: clear the contacts."""
         count = len(self._places)
         self._mean = np.zeros(count)
         self._touches = np.zeros(count, dtype=bool)
@@ -55,12 +53,12 @@ class ContactMemory:
         self._time = -np.inf
 
     def update(self, reading: Reading, rotation: NDArray[np.float64], center_of_pressure: NDArray[np.float64]) -> None:
-        """Take the latest reading in.
+        """Add the latest reading.
 
         Args:
             reading: The sole's latest reading; dead taxels count as unloaded.
-            rotation: Rotation (3, 3) from the sole to the world, as estimated.
-            center_of_pressure: Where the sole's load acts (2,) in the sole frame in m.
+            rotation: Estimated rotation (3, 3) from the sole to the world.
+            center_of_pressure: Centre of pressure (2,) in the sole frame in m.
         """
         slope = rotation[2, :2]
         if reading.time > self._time:
@@ -77,8 +75,9 @@ class ContactMemory:
 
     @property
     def polygon(self) -> NDArray[np.float64]:
-        """Hull (k, 2) of the centres of the cells that touch, in the sole frame in m, counter-clockwise; empty where
-        fewer than three touch."""
+        """Hull (k, 2) of the touching cells' centres in the sole frame in m, counter-clockwise; empty for fewer than
+        three.
+        """
         touching = self._places[self._touches]
         return convex_hull(touching) if len(touching) >= 3 else np.empty((0, 2))
 

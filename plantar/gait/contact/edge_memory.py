@@ -1,8 +1,7 @@
 """Edges of the ground that continue from foothold to foothold, such as those of a beam.
 
-A sole that lands on one edge does not show the other. A line that was found at the foothold before, and runs through
-the sole that lands now, is presumed until the taxels contradict. Each foothold gives a point p of an edge and a
-direction, whose normals are known to some 50 mrad. With s along the line found last and d across it, an edge is
+The line of the foothold before is presumed under the sole that lands now, until the taxels contradict. With s along the
+line found last and d across it, an edge is
 
     d = h + m s,    least squares of (d_i - h - m s_i) / spread and (m - m_i) / turn over the footholds i.
 """
@@ -46,7 +45,7 @@ class EdgeMemory:
     """Edges under the footholds of the last steps.
 
     Args:
-        body: How large the robot is.
+        body: Dimensions of the robot.
         memory: Number of footholds that count.
     """
 
@@ -103,7 +102,7 @@ class EdgeMemory:
         return np.array(lines).reshape(-1, 3)
 
     def _fitted(self, last: _Edge) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """A point (2,) of the edge that was found last, and its normal (2,), by all footholds in a row that have it."""
+        """Point (2,) and normal (2,) of the edge found last, by all consecutive footholds that have it."""
         along = np.array([-last.normal[1], last.normal[0]])
         rows = [(0.0, 0.0, 0.0)]
         for foothold in reversed(list(self._footholds)[:-1]):
@@ -121,7 +120,7 @@ class EdgeMemory:
         return point, np.asarray(normal / math.hypot(*normal.tolist()))
 
     def _same(self, last: _Edge, along: NDArray[np.float64], edges: list[_Edge]) -> tuple[float, float, float] | None:
-        """Place along and across a line, and slope against it, of the one of some edges that is the same; else None."""
+        """Place along and across a line, and slope against it, of the edge that continues it; None without one."""
         for edge in edges:
             away, c = edge.point - last.point, float(edge.normal @ last.normal)
             slope = -float(edge.normal @ along) / c if c > math.cos(_PARALLEL) else math.inf

@@ -1,8 +1,4 @@
-"""What both feet stand on, and what a foot that comes down will stand on: found by their soles (T 4.4.2-4.4.3).
-
-This is perception: what is to be done about a foothold that is not what was planned is decided by
-`plantar.gait.propose`.
-"""
+"""What both feet stand on, and what a foot that comes down will stand on: found by their soles (T 4.4.2-4.4.3)."""
 
 from __future__ import annotations
 
@@ -35,14 +31,14 @@ _FORGETS = 4  # steps after which a foothold that carried a part of the sole is 
 
 
 def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
-    """Where the VRP lies over a whole foothold: see `plantar.gait.contact.ankle_reach.loaded_middle`.
+    """Place (2,) of the VRP over a whole foothold, in the sole frame in m (`plantar.gait.contact.ankle_reach`).
 
     Args:
         layout: The sole.
-        reach: How far in m from the sole frame's origin, along the sole, the ankle bears the robot.
+        reach: Distance in m from the sole frame's origin, along the sole, at which the ankle bears the robot.
 
     Returns:
-        Its place (2,) in the sole frame in m.
+        The place.
     """
     return loaded_middle(layout.outline, reach)
 
@@ -108,7 +104,7 @@ class FootContacts:
         settings: How the contact polygon is found.
         layouts: Sole layout of each side.
         reach: Distance in m from the sole frame's origin, along the sole, at which an ankle bears the robot.
-        limits: Where each foot carries the body alone within its ankle's torque limits; anywhere where not given.
+        limits: Torque limits of each ankle; None for no limit.
         sensing_range: Range of the proximity sensors in m.
     """
 
@@ -137,24 +133,25 @@ class FootContacts:
         self._region = np.empty((0, 2))
 
     def center(self, side: Side) -> NDArray[np.float64]:
-        """Where (2,) a foot's foothold is loaded in its sole frame in m; the whole sole while it is not known."""
+        """Best place (2,) to load a foot in its sole frame in m; of the whole sole while its foothold is not known."""
         return self._feet[side].center
 
     def polygon(self, side: Side) -> NDArray[np.float64]:
-        """What (k, 2) of a foot's foothold its ankle bears the robot on, in its sole frame in m; of the whole sole
-        while it is not known."""
+        """The part (k, 2) of a foothold on which its ankle bears the robot, in its sole frame in m."""
         return self._feet[side].borne
 
     def partial(self, side: Side) -> bool:
-        """Whether a foot stands on a foothold that carries a part of its sole, as far as known."""
+        """Whether a foot is known to stand on a part of its sole."""
         return not self._feet[side].contact.whole
 
     def firm(self, step: int) -> bool:
-        """Whether no foothold of the last few steps before one was found, or seen ahead, to carry a part of a sole."""
+        """Whether the footholds of the last few steps before one were found, and seen ahead, to carry the whole
+        sole.
+        """
         return step > self._part + _FORGETS
 
     def lift_off(self, side: Side, step: int) -> None:
-        """A swing begins: what its foot stood on no longer counts, where it will stand is not known.
+        """A swing begins: clear the foot's foothold.
 
         Args:
             side: Which foot.
@@ -171,21 +168,20 @@ class FootContacts:
 
         Args:
             side: Which foot.
-            distance: How far along the sole's y axis in m.
+            distance: Distance along the sole's y axis in m.
         """
         self._feet[side].center = self._middle[side] + np.array([0.0, distance])
 
     def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
-        """Feet that take the weight over, or have landed and wait for it. (Later a foot's load wanders, and the ground
-        under it stays.)
+        """Sides, left first, of feet that take the weight over, or have landed and wait for it.
 
         Args:
             phase: Phase of the walk.
             time: Time in s.
-            feet: Where the feet are.
+            feet: Commanded feet.
 
         Returns:
-            Their sides, left first.
+            The sides.
         """
         early = phase.kind == PhaseKind.SINGLE_SUPPORT and time < phase.start + self._settings.watch
         sides: list[Side] = []
@@ -204,7 +200,7 @@ class FootContacts:
         Args:
             phase: Phase of the walk.
             time: Time in s.
-            feet: Where the feet are.
+            feet: Commanded feet.
             state: Estimated state.
             soles: What each sole sees.
         """
@@ -239,7 +235,7 @@ class FootContacts:
         Args:
             phase: Phase of the walk.
             time: Time in s.
-            feet: Where the feet are.
+            feet: Commanded feet.
             state: Estimated state.
             soles: What each sole senses.
             slope: Turn of each sole against the ground, where that is followed.
@@ -254,14 +250,13 @@ class FootContacts:
         return tuple(found)
 
     def _remember(self, side: Side, state: BaseState) -> None:
-        """Let a foot that lands presume that the ground of the foothold before goes on under it."""
+        """Let a foot that lands presume the edges of the foothold before."""
         foot = self._feet[side]
         if foot.step is not None and not foot.contact.settled:
             place, turn = state.positions_sole[side], state.rotations_sole[side]
             foot.contact.expect(self._edges.expected(foot.step, place, turn))
 
     def _taken(self, side: Side, state: BaseState) -> FootholdFound:
-        """Take over what a landed foot stands on."""
         foot, contact = self._feet[side], self._feet[side].contact
         assert foot.step is not None
         known = foot.support is not None
@@ -283,12 +278,10 @@ class FootContacts:
         return FootholdFound(foot.step, side, polygon, ratio, vrp, middle, whole, as_planned, seen)
 
     def _within_limits(self, side: Side, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-        """What of a support polygon (k, 2) in the sole frame carries the robot alone within the ankle's limits."""
         limits = self._limits.get(side)
         return polygon if limits is None else limits.within(polygon)
 
     def _center(self, side: Side, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Where (2,) a part (k, 2) of a sole is best loaded, both in the sole frame."""
         center, limits = loaded_middle(polygon, self._reach), self._limits.get(side)
         weak = borne_part(polygon, self._reach) is not polygon  # such an ankle is loaded midway already
         return center if limits is None or weak else limits.center(polygon, center)
@@ -296,14 +289,13 @@ class FootContacts:
     def zmp_region(
         self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float
     ) -> NDArray[np.float64]:
-        """Returns where the desired ZMP may lie: the support polygon (k, 2) in the world in m, moved inwards.
+        """Returns the region of the desired ZMP: the support polygon (k, 2) in the world in m, moved inwards.
 
-        A foot whose support is unknown counts with its whole sole; one that stands alone as far as its ankle's torque
-        limits let it. The region is computed again only when a foot or its support changes.
+        A foot whose support is unknown counts with its whole sole; a single one within its ankle's torque limits.
 
         Args:
             phase: Phase of the walk.
-            feet: Where the feet are commanded.
+            feet: Commanded feet.
             frame_offset: Offset (3,) of the commanded feet's frame in the world in m.
             margin: Distance in m of the desired ZMP from the edge.
         """

@@ -1,7 +1,7 @@
-"""What a swinging sole sees of the ground: a map of distances, and the plane through its highest part.
+"""What a swinging sole sees of the ground: a map of distances that moves with the sole, and the plane of its highest
+part.
 
-The map moves with the sole, so that noise averages out. The plane gives the distance of the first contact and the slope
-of the ground. The sensors' bias shows at lift-off: the ground is as far away as the sole rose.
+The sensors' bias shows at lift-off, when the ground is as far away as the sole rose.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class GroundMap:
     """The ground under one sole as its taxels have seen it since lift-off.
 
     Attributes:
-        bias: What the distances that the sensors measure are too long by in m, as far as it is known.
+        bias: Known excess in m of the measured distances.
 
     Args:
         layout: The sole.
@@ -127,11 +127,11 @@ class GroundMap:
         self._stood = None
 
     def stand(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> None:
-        """The sole carries load here: it lifts off from the last height at which it did.
+        """The sole carries load here, its height before lift-off.
 
         Args:
-            position: Sole position (3,) in the world as estimated in m.
-            rotation: Rotation (3, 3) from the sole to the world as estimated.
+            position: Estimated sole position (3,) in the world in m.
+            rotation: Estimated rotation (3, 3) from the sole to the world.
         """
         self._stood = (position, rotation)
 
@@ -173,7 +173,7 @@ class GroundMap:
         return float(position[2] + rotation[2, :2].dot(self._centre[:2]))
 
     def _lifted_off(self, view: GroundView | None, height: float) -> GroundView | None:
-        """The ground that the sole has just left is as far away as its middle rose to a height in m, but for a bias."""
+        """Take the bias from a sole that has just risen to a height in m."""
         if self._liftoff is None:
             self._liftoff = height
         risen = height - self._liftoff
@@ -192,13 +192,13 @@ class GroundMap:
         position: NDArray[np.float64],
         rotation: NDArray[np.float64],
     ) -> NDArray[np.float64]:
-        """How far (n,) each taxel rose in m from one pose of the sole to another: its distance grows by that."""
+        """Rise (n,) of each taxel in m from one pose of the sole to another."""
         up = rotation.T.dot(position - before)
         turn = turned.T.dot(rotation)
         return np.asarray(up[2] + turn[2, 0] * self._x + turn[2, 1] * self._y)
 
     def _risen_since(self, time: float) -> NDArray[np.float64]:
-        """How far (n,) each taxel rose in m since a time, for a reading that is as old as that."""
+        """Rise (n,) of each taxel in m since a time, the age of a reading."""
         _, position, rotation = self._poses[-1]
         later: tuple[float, NDArray[np.float64]] = (self._poses[-1][0], np.zeros(len(self._x)))
         for k, (then, before, turned) in enumerate(reversed(self._poses)):
@@ -211,7 +211,7 @@ class GroundMap:
         return later[1]
 
     def _mix(self, reading: NDArray[np.float64]) -> None:
-        """Take a reading (n,) in m into the map; where the ground has moved the map is restarted."""
+        """Average a reading (n,) in m into the map, which restarts where the ground has moved."""
         s = self.settings
         known = np.isfinite(reading) & np.isfinite(self._distance)
         news = np.subtract(reading, self._distance, out=np.zeros(len(known)), where=known)
@@ -261,7 +261,7 @@ class GroundMap:
 
 
 def _median(values: NDArray[np.float64]) -> float:
-    """Median of a few values (n,), all finite: `np.median` takes ten times as long."""
+    """Median of a few finite values (n,), ten times as fast as `np.median`."""
     ordered = np.sort(values)
     middle = len(ordered) // 2
     return float(ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle]))

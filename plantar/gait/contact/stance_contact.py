@@ -1,7 +1,6 @@
 """What a stance foot stands on: the support polygon that its taxels show, from touchdown to lift-off (T 4.4.2-4.4.3).
 
-A cell goes dark when the ZMP moves away from it, so a taxel that has carried belongs to the contact polygon until
-lift-off. The polygon is settled once the foot has carried for a few readings, and is refined with more load.
+A taxel that has carried belongs to the contact polygon until lift-off, as cells go dark when the ZMP moves away.
 """
 
 from __future__ import annotations
@@ -104,7 +103,7 @@ class StanceContact:
         self.lift()
 
     def lift(self) -> None:
-        """The foot leaves the ground: forget what it stood on."""
+        """The foot leaves the ground: clear its contact."""
         n = len(self.layout)
         self.settled = False
         self.polygon_in_sole: NDArray[np.float64] = self.layout.outline
@@ -133,7 +132,7 @@ class StanceContact:
 
     @property
     def seen(self) -> bool:
-        """Whether the taxels saw the ground before they touched it; by loads alone it may end nearer than is known."""
+        """Whether the taxels saw the ground before they touched it; found by loads alone, it may still shrink."""
         return self._depth is not None
 
     @property
@@ -180,11 +179,7 @@ class StanceContact:
             self._remembered = kept
 
     def update_view(self, reading: Reading) -> None:
-        """Take in what the taxels see of the ground while the foot comes down.
-
-        Args:
-            reading: The sole's latest reading; not used without proximity.
-        """
+        """Add what the taxels see of the ground while the foot comes down; a `reading` without proximity is ignored."""
         distance = reading.proximity
         if distance is None or reading.time <= self._seen_time:
             return
@@ -206,11 +201,10 @@ class StanceContact:
         self._depth = np.where(sound, before + share * (depth - before), np.nan)
 
     def foresee(self, ahead: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """The ground that will carry a foot that comes down, by its taxels: convex polygon (k, 2) in the sole frame in
-        m.
+        """The part (k, 2) of a descending sole in m that the ground will carry; None where too little is seen, or for
+        all of it.
 
-        None where too little is seen, or where the ground is whole; `ahead` (2,) in m is how far the sole still moves
-        in its own plane before it lands.
+        `ahead` (2,) in m is how far the sole still moves in its own plane before it lands.
         """
         if self._looks < self.settings.foresee_readings:
             return None
@@ -226,14 +220,13 @@ class StanceContact:
         return polygon
 
     def _from_sight(self) -> NDArray[np.float64] | None:
-        """Edges (m, 3) of the ground as the taxels saw it before they touched; None where they did not."""
+        """Edges (m, 3) of the ground as seen before touchdown, or None."""
         if self._depth is None:
             return None
         idle = self._depth > self.settings.step_down
         return self._fit.between(np.isfinite(self._depth) & ~idle, idle)
 
     def _find(self) -> bool:
-        """Find what carries, from what was seen and which loads it carries."""
         s = self.settings
         mean = self._sum / self._weight
         first, before = not self.settled, self.polygon_in_sole
@@ -266,8 +259,7 @@ class StanceContact:
         return first or polygon is not before
 
     def _from_loads(self, mean: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Edges (m, 3) of the ground by what is remembered of the foothold before, while the loads do not deny it;
-        else by what the taxels have carried, and where they should have."""
+        """Edges (m, 3) of the ground as remembered, unless the loads contradict; else by the loads."""
         if self._remembered is not None and self._beyond(self._remembered, mean):
             self._forget()
         silent = self._silent(mean)
@@ -282,7 +274,7 @@ class StanceContact:
         return self._fit.between(self._carried, self._idle)
 
     def _forget(self) -> None:
-        """What was remembered of the foothold before is not so here."""
+        """Drop the remembered edges."""
         self._remembered = None
         self._fit.reset()
 
@@ -298,7 +290,7 @@ class StanceContact:
         return np.asarray((self.layout.positions[:, :2] @ lines[:, :2].T < lines[:, 2] + reach).all(axis=1))
 
     def _silent(self, mean: NDArray[np.float64]) -> NDArray[np.bool_] | None:
-        """Taxels (n,) that should carry on the ground that is believed in, and do not; None where all is well."""
+        """Taxels (n,) that should carry on the believed ground, and do not; None without any."""
         s = self.settings
         mean = np.where(mean > s.taxel_noise, mean, 0.0)  # noise that cannot be negative adds up
         load = float(mean.sum())
@@ -323,7 +315,7 @@ class StanceContact:
         return silent if wrong else None
 
     def _risen(self, cop: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Taxels (n,) that a turned sole, which rests on an edge at a point (2,), has lifted off the ground."""
+        """Taxels (n,) lifted by a turned sole that rests on an edge at a point (2,)."""
         s, places, cell = self.settings, self.layout.positions[:, :2], math.sqrt(self.layout.cell_area)
         steep = float(np.hypot(self._slope[0], self._slope[1]))
         if steep <= s.level:

@@ -1,8 +1,4 @@
-"""Where the ground continues: a strip that successive partial footholds lie on, such as a beam.
-
-Two in a row, of both feet, off the sole's middle on the same side make a strip along the walk; a line is fitted through
-them with what is known of the errors.
-"""
+"""Where the ground continues: a strip along successive partial footholds of both feet, such as a beam."""
 
 from __future__ import annotations
 
@@ -45,7 +41,7 @@ class SupportStrip:
         """Returns the strip of a robot's walk, with distances that are shares of its soles.
 
         Args:
-            body: How large the robot is.
+            body: Dimensions of the robot.
             origin: A point (2,) of the walk's line in m.
             along: Its unit direction (2,).
         """
@@ -62,23 +58,16 @@ class SupportStrip:
         return len(self._footholds) >= 2
 
     def coordinates(self, point: NDArray[np.float64]) -> tuple[float, float]:
-        """A point in the walk's own line.
-
-        Args:
-            point: Point (2,) in the world in m.
-
-        Returns:
-            Its place along the walk and its distance to the left, in m.
-        """
+        """Distances in m of a `point` (2,) of the world along the walk and to its left."""
         offset = point - self.origin
         return float(offset @ self.along), float(offset @ self.across)
 
     def clear(self) -> None:
-        """The ground is whole again, or not known."""
+        """Clear the strip: the ground is whole again, or not known."""
         self._footholds.clear()
 
     def update(self, step: int, side: Side, centroid: NDArray[np.float64]) -> None:
-        """Take in a partial foothold.
+        """Add a partial foothold.
 
         Args:
             step: The step that put the foot down; a step that is there already is replaced.
@@ -99,14 +88,7 @@ class SupportStrip:
         del self._footholds[: -self.memory]
 
     def lateral(self, place: float) -> float:
-        """Where the strip's middle lies across the walk.
-
-        Args:
-            place: Distance in m along the walk from the origin.
-
-        Returns:
-            Distance in m to the left of the walk's line.
-        """
+        """Distance in m of the strip's middle to the left of the walk's line, at a `place` in m along it."""
         places = np.array([f[2] for f in self._footholds])
         laterals = np.array([f[3] for f in self._footholds])
         middle = float(places.mean())

@@ -1,8 +1,4 @@
-"""Bridge a sudden move of the plan's DCM by a temporary shift of the VRP.
-
-A partial foothold moves the VRP of its stance to the centroid of the part, and with it the desired DCM. The VRP of a
-window of time is shifted to make up for that, as far as the support polygon allows (T 4.4.2).
-"""
+"""Bridge a sudden move of the plan's DCM by a temporary shift of the VRP, within the support polygon (T 4.4.2)."""
 
 from __future__ import annotations
 
@@ -41,7 +37,7 @@ def bridged(
         kept: Index of the first kept knot of the old plan, and the shift (2,) in m and delay in s of the kept knots.
 
     Returns:
-        The plan, and the DCM (2,) in m by which it jumps because the region limits the bridge.
+        The plan, and the DCM (2,) in m by which it jumps because of the region.
     """
     (time, state), (first, shift, delay) = now, kept
     times, points, bridge = _with_bridge(knots, (time, state.vrp), window, plan.vrps[-1])

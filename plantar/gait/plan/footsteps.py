@@ -59,13 +59,10 @@ def straight_plan(
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
     height: float = 0.0,
 ) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
-    """A straight walk: forward, backward, sideways or in place.
-
-    Every step puts its foot one step length ahead of the other foot; the last step closes. In a sideways walk the
-    leading foot opens by `sideways` and the other one follows.
+    """A straight walk: forward, backward, sideways or in place; the last step closes the feet.
 
     Args:
-        steps: Number of steps, 0 or more; the last one closes.
+        steps: Number of steps, 0 or more.
         length: Distance in m by which a step leads the other foot, negative for backward.
         sideways: Lateral distance in m by which each opening step leads, positive to the left.
         width: Distance in m of the sole frames' origins when the feet stand side by side.

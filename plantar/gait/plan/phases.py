@@ -137,7 +137,7 @@ class WalkSchedule:
         return self.phases[min(self.phases.index(phase) + 1, len(self.phases) - 1)]
 
     def delayed(self, phase: Phase, by: float, wait: float | None = None) -> WalkSchedule:
-        """Move the end of a phase, and all after it.
+        """The schedule with the end of a phase, and all after it, moved.
 
         Args:
             phase: One of `phases`.
@@ -155,10 +155,10 @@ class WalkSchedule:
         return replace(self, phases=(*self.phases[:i], longer, *later))
 
     def followed_by(self, step: int, sides: Sequence[Side], time: float) -> WalkSchedule:
-        """Replace the steps after one; with none the walk ends with it.
+        """The schedule with other steps after one; with none the walk ends with it.
 
-        A double support that has begun keeps its length; one that ended the walk is shortened or, once it has begun,
-        gives the weight time to return; a standing robot shifts its weight first.
+        A double support that has begun keeps its length, unless it ended the walk or begins the end; a standing robot
+        shifts its weight first.
 
         Args:
             step: Index of the last step that stays; -1 where none does.

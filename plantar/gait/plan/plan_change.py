@@ -1,8 +1,4 @@
-"""Proposed and applied changes of a plan, as values.
-
-A proposer returns a `PlanChange`; `plantar.gait.propose.decide` selects one, and the plan's owner
-(`plantar.gait.plan.walk_plan`) applies and records it.
-"""
+"""Proposed and applied changes of a plan, as values; only `plantar.gait.plan.walk_plan` applies them."""
 
 from __future__ import annotations
 
@@ -29,7 +25,7 @@ class PlanChange:
         vrp_shift: Move of the VRPs over those in m; as the footsteps where None.
         following: New footsteps after it; an empty tuple ends the walk with it.
         longer: Delay in s of the end of the current single support (negative: sooner).
-        wait: Time in s before that end by which the foot has to be down; unchanged where None. The swing is retimed.
+        wait: Time in s before that end by which the foot has to be down; unchanged where None.
         resets: Whether the reference jumps to the changed plan, which is nearer to the body, without a bridge.
         because: Reason recorded for the footsteps after it, where it differs.
     """

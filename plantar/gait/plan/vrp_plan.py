@@ -1,16 +1,12 @@
 """VRP plan: piecewise linear virtual repellent points, and the resulting DCM and CoM (T 4.9-4.16).
 
-Between two knots the VRP p moves linearly. On a segment of duration T the pendulum x'' = w^2 (x - p) and the DCM xi' =
-w (xi - p) have the closed solutions
+On a segment of duration T the pendulum x'' = w^2 (x - p) and the DCM xi' = w (xi - p) have the closed solutions
 
     xi(t) = p(t) + p'/w + A e^(w t)              x(t) = p(t) + A/2 e^(w t) + B e^(-w t)
 
-The DCM is unstable forward in time, so its waypoints are computed backward from the last knot (T 4.14 corrected: xi_i =
-r + e^(-w T) (xi_(i+1) - r) for a constant VRP), and each segment is evaluated from its end: A e^(w (t - T)) never
-grows. The CoM is stable forward in time and computed forward, as far as requested.
-
-A segment's A e^(w T) depends on later knots only through the difference of waypoint and VRP. So a plan whose later
-knots move together, or are delayed, keeps it: `replanned` solves only the new knots.
+DCM waypoints are computed backward from the last knot (T 4.14 corrected: xi_i = r + e^(-w T) (xi_(i+1) - r) for a
+constant VRP), the CoM forward, and segments evaluated from their end, so that no exponential grows. Later knots that
+move together keep a segment's A e^(w T), so `replanned` solves only the new knots.
 """
 
 from __future__ import annotations
@@ -202,13 +198,8 @@ class VrpPlan:
         return self.times[-1] - self.times[0]
 
     def at(self, time: float) -> LipReference:
-        """The plan at one time; before its start the first knot holds, after its end the CoM settles on the last VRP.
-
-        Args:
-            time: Time in s.
-
-        Returns:
-            VRP, DCM and CoM with their rates.
+        """VRP, DCM and CoM with their rates at a `time` in s; before the start the first knot holds, after the end the
+        last VRP.
         """
         omega = self.omega
         if time >= self.times[-1]:

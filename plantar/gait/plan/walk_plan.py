@@ -1,10 +1,7 @@
 """The plan of a walk and its one owner: footsteps, timing and VRPs (T 4.1.3, steps 2 and 3; T 4.4.2).
 
-The VRP stays over the stance foot in single support and moves to the next foot in double support. Proposers return a
-`PlanChange`; only `WalkPlan.apply` changes the plan, and records it. Everything handed out is a value.
-
-The plan continues from its present DCM and CoM: a sudden move of the DCM waypoint is bridged
-(`plantar.gait.plan.bridge`). Where the support polygon does not allow that, the double support becomes longer.
+Only `WalkPlan.apply` changes the plan, and records it. A sudden move of the DCM is bridged, or the double support
+becomes longer (`plantar.gait.plan.bridge`).
 """
 
 from __future__ import annotations
@@ -41,14 +38,14 @@ _RECORDED = 1000  # changes that the record keeps
 
 
 def vrp_of_step(step: Footstep, vrp_in_sole: ArrayLike) -> NDArray[np.float64]:
-    """VRP over a footstep (T 4.13).
+    """VRP (2,) in m, world frame, over a footstep (T 4.13).
 
     Args:
         step: The footstep.
         vrp_in_sole: Its place (2,) in the sole frame in m.
 
     Returns:
-        VRP (2,) in the world frame in m.
+        The VRP.
     """
     return np.asarray(step.position[:2] + step.rotation_sole_to_world[:2, :2] @ np.asarray(vrp_in_sole, dtype=float))
 
@@ -101,14 +98,14 @@ class PlanView:
         return self.steps[step - self.first].vrp
 
     def vrp_before(self, step: int, side: Side) -> NDArray[np.float64]:
-        """VRP over a foot before a step.
+        """VRP (2,) in the world in m over a foot before a step.
 
         Args:
             step: Index of the step.
             side: Which foot.
 
         Returns:
-            VRP (2,) in the world in m.
+            The VRP.
         """
         for planned in reversed(self.steps[: step - self.first]):
             if planned.foothold.side == side:
@@ -124,14 +121,14 @@ class PlanView:
         return np.asarray(0.5 * (self.vrp_before(step, "left") + self.vrp_before(step, "right")))
 
     def knots(self, time: float, last: int) -> tuple[list[float], list[NDArray[np.float64]]]:
-        """Knots of the VRP plan after a time, up to the stance before a step; and those of the final standing.
+        """Times in s and VRPs (2,) in m after a time, up to the stance before a step; and those of the final standing.
 
         Args:
             time: Time in s.
             last: Index of that step.
 
         Returns:
-            Times in s, and the VRP (2,) in m at each.
+            Both sequences of knots.
         """
         times: list[float] = []
         points: list[NDArray[np.float64]] = []
@@ -231,16 +228,13 @@ class WalkPlan:
         return np.asarray(self._vrps.vrps[-1])
 
     def apply(self, change: PlanChange, time: float, region: NDArray[np.float64]) -> AppliedChange:
-        """Change the plan from now on.
+        """Change the plan from now on; returns what it did, as recorded.
 
         Args:
             change: The change.
             time: Now in s.
-            region: Convex polygon (k, 2) in the world in m, counter-clockwise, for the VRP in a bridge: in the rest of
-                the single support where that is enough, else in the double support after it; empty does not limit it.
-
-        Returns:
-            What it did, as recorded.
+            region: Convex polygon (k, 2) in the world in m, counter-clockwise, for the VRP in a bridge; empty does not
+                limit it.
 
         Raises:
             InputError: If the change concerns a step that the plan does not have, or ends a phase before it begins.
@@ -264,7 +258,6 @@ class WalkPlan:
         return PlannedStep(step, vrp_of_step(step, self._vrp_in_sole[step.side]))
 
     def _changed(self, change: PlanChange, time: float) -> PlanView:
-        """Footsteps, VRPs and phases after a change."""
         view = self._view
         steps, schedule, k = list(view.steps), view.schedule, change.step - view.first
         if change.following is not None:
@@ -316,7 +309,6 @@ class WalkPlan:
         region: NDArray[np.float64],
         shift: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], float]:
-        """Bridge in a double support, which is extended where the region leaves no room."""
         window, delay, old = (max(time, phase.start), phase.end), 0.0, self._vrps
         while True:
             self._vrps = old
@@ -340,7 +332,7 @@ class WalkPlan:
         late: float = 0.0,
         anew: bool = False,
     ) -> NDArray[np.float64]:
-        """Solve the VRPs from now on, with a bridge in a window of time; the DCM (2,) in m that stays unbridged."""
+        """Solve the VRPs with a bridge in a window of time; the DCM (2,) in m that stays unbridged."""
         n = self._view.count
         last = n if anew else min(self.schedule.at(time).step + _REBUILT, n)
         if last >= n - 1:
@@ -370,7 +362,6 @@ class WalkPlan:
 
 
 def _moved(before: PlanView, after: PlanView, change: PlanChange) -> tuple[MovedStep, ...]:
-    """The footsteps that differ between two plans."""
     moved = []
     for k in range(max(change.step, after.first), after.count):
         old = before.foothold(k) if before.first <= k < before.count else None

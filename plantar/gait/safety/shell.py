@@ -1,8 +1,6 @@
 """The safety shell around a controller's tick: a command at every tick, from sensors and times of any kind.
 
-It looks at what comes in (time, encoders and IMU, soles, each against the others) and at what goes out. A controller
-whose sensors are sound and whose targets do not jump runs as it would alone, to the last bit. docs/safety.md lists the
-states, what the robot does in each, and how it leaves them.
+With sound input and targets without jumps it does not change the controller's command (docs/safety.md).
 """
 
 from __future__ import annotations
@@ -90,14 +88,7 @@ class SafetyShell:
         self.errors = 0
 
     def step(self, sensors: Sensors) -> Command:
-        """One control tick; it never raises.
-
-        Args:
-            sensors: What was read, or came instead.
-
-        Returns:
-            The command: of the controller, or of the state that holds.
-        """
+        """The command of the controller, or of the state that holds, at one control tick; it never raises."""
         try:
             reported = float(sensors.time)
         except (AttributeError, TypeError, ValueError):
@@ -144,7 +135,7 @@ class SafetyShell:
         return self._limits.limited(self._last, command)
 
     def _bridge(self, time: float) -> Command:
-        """A tick without a reading that can be taken: on with the last one for a moment, then blind."""
+        """A tick without a usable reading: on with the last one for a moment, then blind."""
         self._silent += 1
         if self._silent > self._bridged and self._begun:
             self.state = "blind"
@@ -168,7 +159,7 @@ class SafetyShell:
         return found if found < 3 or moves else 0
 
     def _readings(self, sensors: Sensors) -> Readings | None:
-        """What the soles report, each under its own side; what a silent one carries follows from the other."""
+        """Each sole's reading under its own side; what a silent one carries follows from the other."""
         readings, soles, counts = sensors.readings, self._soles, self._counts
         left, right = _sound(readings, "left", counts["left"]), _sound(readings, "right", counts["right"])
         if left is None or right is None:
@@ -213,7 +204,7 @@ class SafetyShell:
         return self._lost
 
     def _replaced(self, sensors: Sensors, readings: Readings, lost: Side | None) -> Readings | None:
-        """The readings with that of a silent sole: evenly what the other one does not carry."""
+        """The readings with a silent sole's estimated as an even load, what the other one does not carry."""
         if lost is None:
             return readings
         other = other_side(lost)
@@ -231,7 +222,6 @@ class SafetyShell:
         return found
 
     def _is_fallen(self) -> bool:
-        """Whether the trunk lies, or hangs between the feet."""
         state = self._last.state
         if not self._begun:
             return False
@@ -241,7 +231,7 @@ class SafetyShell:
 
 
 def _sound(readings: Readings, side: Side, count: int) -> Reading | None:
-    """The reading of a sole; None where there is none of its size, or no taxel reports a number."""
+    """A sole's reading; None without one of its size, or without any number."""
     reading = readings.get(side)
     if reading is None or len(reading.force) != count:
         return None

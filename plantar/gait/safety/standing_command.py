@@ -30,7 +30,7 @@ def standing_command(
     """Stand where a walk begins, with half of the weight on each foot.
 
     Args:
-        feet: Where the feet are.
+        feet: Pose of the feet.
         plan: The walk's plan.
         layouts: Sole layout of each side.
         weight: Weight of the robot in N.
@@ -38,7 +38,7 @@ def standing_command(
         time: Time in s of the plan.
 
     Returns:
-        The command; its state is what it asks for, and its percepts are unloaded.
+        The command, with its targets as state and unloaded percepts.
     """
     reference, phase = plan.at(time), plan.schedule.at(time)
     ground = float(np.mean([feet[side].z for side in SIDES]))

@@ -34,14 +34,14 @@ class TargetLimits:
         self._turn, self._force = _TURN * share, _FORCE * weight * share
 
     def limited(self, before: Command, now: Command) -> Command:
-        """A command whose targets are not farther from those of the tick before than the limits.
+        """A command whose targets are within the limits from those of the tick before.
 
         Args:
             before: Command of the tick before.
             now: Command of this tick.
 
         Returns:
-            The very same where no target moves farther; else one with targets on the way.
+            `now` itself where no target is farther; else one with targets on the way.
         """
         left, right = now.feet["left"], now.feet["right"]
         was_left, was_right = before.feet["left"], before.feet["right"]
@@ -73,7 +73,7 @@ class TargetLimits:
 
 
 def _moved(before: NDArray[np.float64], now: NDArray[np.float64], most: float) -> NDArray[np.float64]:
-    """A vector on the way from one to another, no coordinate farther than a limit; where it was if one is none."""
+    """A vector moved towards another one by a limit in each coordinate at most; not by NaN."""
     way = now - before
     largest = float(np.abs(way).max())
     if not np.isfinite(largest):
@@ -82,7 +82,7 @@ def _moved(before: NDArray[np.float64], now: NDArray[np.float64], most: float) -
 
 
 def _turned(before: NDArray[np.float64], now: NDArray[np.float64], most: float) -> NDArray[np.float64]:
-    """A rotation on the way from one to another: the sum of both by shares, made orthogonal again."""
+    """A rotation between two: their weighted sum, made orthogonal."""
     largest = float(np.abs(now - before).max())
     if not np.isfinite(largest):
         return before

@@ -15,14 +15,14 @@ _MOST_DRAWN = 0.2  # periods by which a tick is longer or shorter for that
 class TickClock:
     """Follows the time that ticks report.
 
-    A tick is expected one period after the last one. A time that is near that is taken as it is; one that is a little
-    off, of a clock with jitter, draws the ticks towards it slowly; one that is far off is another zero of the clock.
+    A tick is expected one period after the last one. A time near that is used as it is, one a little off pulls the
+    clock slowly, one far off is another zero of the clock.
 
     Args:
         period: Control period in s.
 
     Attributes:
-        odd: Ticks in a row whose time could not be taken.
+        odd: Ticks in a row whose time was not usable.
 
     Example:
         >>> clock = TickClock(0.005)
@@ -37,14 +37,7 @@ class TickClock:
         self.odd = 0
 
     def time_of(self, reported: float) -> float:
-        """The time of a tick.
-
-        Args:
-            reported: Time in s that it reports.
-
-        Returns:
-            Time in s, later than that of the tick before.
-        """
+        """The time in s of a tick, later than that of the tick before, by the time in s that it has `reported`."""
         if self._last is None:
             self._last = reported if math.isfinite(reported) else 0.0
             self._offset = 0.0 if math.isfinite(reported) else math.nan

@@ -46,8 +46,7 @@ class BodyTargets:
     def posture(self, com: NDArray[np.float64], torso: float, lean: float = 0.0) -> NDArray[np.float64]:
         """Returns the torso's rotation (3, 3): along the feet, leaning over the foot that `com` (3,) in m moves to.
 
-        A pelvis that stays level carries the body on the stance leg's hip roll joint at a lever of half its width; the
-        lean brings hip and CoM together, as people do whose hip abductors are weak.
+        The lean brings the carrying hip and the CoM together, which relieves the hip's roll joint.
         """
         settings, footholds = self._settings, self._footing.motion.footholds
         (lx, ly, _), (rx, ry, _) = footholds["left"][0].tolist(), footholds["right"][0].tolist()
@@ -61,7 +60,7 @@ class BodyTargets:
         return matrix(c, -d * e, d * f, d, c * e, -c * f, 0.0, f, e)
 
     def _com_height(self, phase: Phase) -> float:
-        """Height in m: follows the stance foot, blends in double support, higher over a part of a sole that carries."""
+        """Height in m over the stance foot, blended in double support, higher over a partial foothold."""
         footing, rise = self._footing, self._settings.partial_rise
         heights = {side: footing.motion.footholds[side][0].item(2) for side in SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])

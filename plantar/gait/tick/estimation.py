@@ -137,7 +137,6 @@ class Estimation:
         return vector2(x + vx / self.omega, y + vy / self.omega)
 
     def _identify(self, body: IdentifiedBody, sensors: Sensors, sensed: Sensed) -> None:
-        """Identify in the opening stand how the robot differs from its model, and use it afterwards."""
         if self.stands:
             body.stand(sensors.joint_positions, sensors.accelerometer, sensed.soles)
         elif body.known:

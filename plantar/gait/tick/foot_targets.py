@@ -45,7 +45,7 @@ class FootTargets:
         Args:
             phase: Phase of the walk.
             soles: Load of each sole.
-            contacts: Whether the law looks at the contacts and wrenches of feet on the ground.
+            contacts: Whether the law needs contacts and wrenches of feet on the ground.
             rests: Whether the robot stands after a walk; wrenches are given then, too.
         """
         states: dict[Side, FootState] = {}
@@ -122,7 +122,7 @@ class FootTargets:
         return round(x * fine), round(y * fine), round(z * fine), round(frame.turn * 1e4)
 
     def _contact(self, side: Side, crept: tuple[int, ...]) -> Contact:
-        """Contact of a foot that stands; the same object until the frame has crept by a step of `_crept`."""
+        """Contact of a standing foot; the same object until the frame has crept by a step of `_crept`."""
         contacts, frame = self._footing.contacts, self._footing.frame
         polygon = contacts.polygon(side)
         rectangle = self._rectangles.get(side)

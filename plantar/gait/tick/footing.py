@@ -95,7 +95,7 @@ class Footing:
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
-        """Feet whose proximity it needs at the next tick."""
+        """Sides whose proximity it needs at the next tick."""
         motion = self.motion
         sides, last = motion.proximity_sides, motion.last_side
         looks = self._settings.footholds == "skin" and not motion.landed and motion.comes_down
@@ -119,7 +119,7 @@ class Footing:
             feedback: Whether balance is fed back.
 
         Returns:
-            Where the feet are then, and by how much in m one that has just landed should carry further inside.
+            The feet then, and by how much in m one that has just landed should carry further inside.
         """
         phase, percepts, s, motion = sensed.phase, sensed.percepts, self._settings, self.motion
         senses = heights = None
@@ -145,7 +145,7 @@ class Footing:
         return feet, inward
 
     def _stand_at_landing(self, feet: FeetView, state: BaseState, misplaced: float) -> None:
-        """Command a foot that has landed next to its place to where it stands, where steps move for balance."""
+        """Command a foot that has landed next to its place to where it is, where steps move for balance."""
         if feet.side is None or state.loads[feet.side] <= self._settings.landing.contact_force:
             return  # only the plan has it down
         side, other, soles = feet.side, other_side(feet.side), state.positions_sole
@@ -161,7 +161,6 @@ class Footing:
             self.compensation.keep(commanded - place)
 
     def _press(self) -> float | None:
-        """Force in N that a foot that sees the ground holds in single support; None leaves it to its gains."""
         if self.guard is not None and self.guard.press is not None:
             return self.guard.press  # a probe, on ground of any shape
         return None if self.conformity is None or not self._settings.feedback else self.conformity.gains.press
@@ -169,17 +168,17 @@ class Footing:
     def perceive(
         self, sensed: Sensed, state: BaseState, feet: FeetView, inward: float, dcm: NDArray[np.float64] | None
     ) -> tuple[Tick, NDArray[np.float64]]:
-        """What the feet stand on, for proposers.
+        """What the feet stand on, for proposers, and the region of the desired ZMP (`zmp_region`).
 
         Args:
             sensed: What soles measure.
             state: The state of the body.
-            feet: Where the feet are commanded.
+            feet: Commanded feet.
             inward: What `swing` returned.
             dcm: The DCM (2,) in m; None where balance is not fed back.
 
         Returns:
-            What proposers receive, and where the desired ZMP may lie (`zmp_region`).
+            Both.
         """
         time, phase, percepts, s = sensed.time, sensed.phase, sensed.percepts, self._settings
         looks = dcm is not None and s.footholds != "off"
@@ -211,7 +210,6 @@ class Footing:
         return self.contacts.zmp_region(phase, feet, self.frame.offset, self._settings.balance.zmp_offset)
 
     def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
-        """The pendulum now, with what a push is expected to do until the phase ends."""
         offset, pushed, omega, plan = _NO_PUSH, _NO_PUSH, self._estimation.omega, self._plan
         if self._settings.push_estimate is not None and self._settings.step_adjustment is not None:
             expected = self._push.update(self._estimation.estimator.push_acceleration / omega**2)
@@ -222,7 +220,7 @@ class Footing:
         return Pendulum(omega, dcm, plan.at(time), plan.dcm_after(phase), region, offset, pushed)
 
     def _level(self, slope: SoleSlope, phase: Phase, state: BaseState) -> None:
-        """Turn a foot that comes down blindly, or has just landed, parallel to the one that stands."""
+        """Turn a foot that comes down blindly, or has just landed, parallel to the stance foot."""
         standing = phase.kind == PhaseKind.STANDING and phase.step == 0
         slope.update(state.rotations_sole, state.loads, standing)
         side = self.motion.last_side
@@ -233,7 +231,7 @@ class Footing:
             self.damping[side].level(load, slope.slope(side), landing.levelling)
 
     def _damp(self, phase: Phase, sensed: Sensed, state: BaseState, feet: FeetView, looks: bool) -> None:
-        """Damp feet that come to carry, once each: on its edge a sole shows no foothold, and makes a moment."""
+        """Damp feet that come to carry, once each."""
         damped: dict[Side, tuple[SoleLoad, float]] = {}
         if looks and self._slope is not None:
             self._level(self._slope, phase, state)
