@@ -1,1 +1,1 @@
-"""What wants to change the plan: footholds found, footholds refused, the shape of the ground."""
+"""What changes the plan: footholds found or refused, the shape of the ground, pushes and commands."""

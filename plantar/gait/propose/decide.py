@@ -11,14 +11,14 @@ __all__ = ["decide"]
 
 
 def decide(proposers: Sequence[Proposer], tick: Tick) -> PlanChange | None:
-    """Ask every proposer, and choose.
+    """The change to apply, or None: one a tick, of the first `Priority`; among equals, of the first proposer.
 
     Args:
-        proposers: Proposers in the order in which they are asked.
+        proposers: Proposers in order.
         tick: What they receive.
 
     Returns:
-        The change to apply, or None.
+        The change.
     """
     wanted = [(proposer.priority, change) for proposer in proposers if (change := proposer.propose(tick)) is not None]
     return min(wanted, key=lambda pair: pair[0])[1] if wanted else None

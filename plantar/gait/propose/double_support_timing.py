@@ -1,6 +1,5 @@
-"""End a double support sooner or later, where no VRP of the support polygon brings the DCM to its goal (K 4.3).
-
-The new end is the one at which the DCM misses its goal least, weighed against the change (`dsp_opt`).
+"""End a double support sooner or later, where no VRP of the support polygon brings the DCM to its goal (K 4.3,
+`dsp_opt`).
 """
 
 from __future__ import annotations
@@ -56,7 +55,7 @@ class DoubleSupportTiming:
         self._changed = -math.inf
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """Another end of the double support, where that helps (see `plantar.gait.propose.proposer.Proposer`)."""
+        """Another end of the double support, where that helps."""
         phase, pendulum, rules, plan = tick.phase, tick.pendulum, self._rules, tick.plan
         if pendulum is None or phase.kind != PhaseKind.DOUBLE_SUPPORT or not plan.first < phase.step < plan.count:
             return None
@@ -77,7 +76,7 @@ class DoubleSupportTiming:
         return PlanChange("double support adjusted", phase.step - 1, longer=change, resets=True)
 
     def _best(self, tick: Tick, pendulum: Pendulum) -> float | None:
-        """Length of the double support in s that is best; None where the VRP does without another one."""
+        """Best length of the double support in s; None where the VRP suffices."""
         phase, plan = tick.phase, tick.plan
         end, begun, length = plan.stance_vrp(phase.step), tick.time - phase.start, phase.end - phase.start
         wanted = double_support_vrp(pendulum.dcm, pendulum.goal, end, length, begun, pendulum.offset, pendulum.omega)

@@ -1,11 +1,10 @@
 """DSP-Opt: how long a double support lasts, so that the DCM is where the next single support begins (K 34-38).
 
-The DCM at the end of a double support of length T (K 34; x = T - T_c, u* the VRP now, p the pull of
-`ankle_strategy.double_support_pull`) is
+The DCM at its end T (K 34; x = T - T_c, u* the VRP now, p the pull of `ankle_strategy.double_support_pull`) is
 
     xi(T) = u_e - u_w + e^(w x) (xi_c - u_e + u_w + (u_e - u*) p(x, T)).
 
-The cost need not be convex: it is sampled over the whole interval, and the zero of its exact derivative is bracketed.
+The cost need not be convex: it is sampled, and the zero of its exact derivative is bracketed.
 """
 
 from __future__ import annotations
@@ -99,14 +98,14 @@ class DspSolution(NamedTuple):
 
 
 def solve_dsp(problem: DspProblem, weights: DspWeights) -> DspSolution:
-    """The best duration of a double support (K 37-38).
+    """The best duration of a double support (K 37-38); one that has lasted as long as it may ends now.
 
     Args:
         problem: The double support.
         weights: What a change is weighed by.
 
     Returns:
-        The solution. A double support that has lasted as long as it may ends now.
+        The solution.
 
     Raises:
         InputError: If a place is not two finite numbers, or frequency or nominal duration not above 0.
@@ -152,10 +151,7 @@ def _solution(cost: _Cost, time: float, bound: int) -> DspSolution:
 
 
 def _zero(cost: _Cost, low: float, high: float, at_low: float, at_high: float) -> float:
-    """Where the slope, negative at one end and positive at the other, passes 0.
-
-    Chandrupatla's method: Advances in Engineering Software 28, 1997.
-    """
+    """Zero of the slope between two ends of opposite sign (Chandrupatla, Advances in Engineering Software 28, 1997)."""
     a, b, fa, fb = low, high, at_low, at_high
     share = fa / (fa - fb)
     best = b
@@ -217,7 +213,6 @@ class _Cost:
         return total, size, missed
 
     def values(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The cost (n,) of durations (n,)."""
         w, left = self._omega, times - self._elapsed
         rate = (0.5 * math.pi) / times
         angle = rate * left
@@ -265,7 +260,7 @@ _SHARES, _PARTS = (0.5 * (_NODES + 1.0)).tolist(), (0.5 * _WEIGHTS).tolist()
 
 
 def _pull_and_rate_near_the_end(omega: float, left: float, angle: float, turning: float) -> tuple[float, float]:
-    """The same by ten nodes, where the closed form cancels; the angle is small there, and sin v a / sin a hardly v."""
+    """The same by ten nodes, where the closed form cancels."""
     bottom, back = math.sin(0.5 * angle), 1.0 / math.tan(0.5 * angle)
     exponent = omega * left
     pull = slower = turned = 0.0

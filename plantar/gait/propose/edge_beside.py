@@ -1,7 +1,4 @@
-"""A foot that lands with a side over an edge: the steps to come move away from that edge.
-
-After twenty metres dead reckoning is off by centimetres; at an edge only what the sole sees beyond it shows that.
-"""
+"""A foot that lands with a side over an edge: the steps to come move away from it, as dead reckoning drifts."""
 
 from __future__ import annotations
 
@@ -28,8 +25,7 @@ _MOST_OVER = 0.5
 class EdgeBeside:
     """Proposes footsteps that lie further on the ground that a foot was seen to land on.
 
-    An edge along a side that cuts off a share f of a sole of width w moves the steps to come by f w / 2. Only what lies
-    across the sole counts: in front and behind, the next foothold is other ground.
+    An edge along a side that cuts off a share f of a sole of width w moves the steps by f w / 2.
 
     Args:
         layouts: Sole layout of each side.
@@ -47,7 +43,7 @@ class EdgeBeside:
         self._moved = (-1, 0.0)
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The steps to come, moved across, at touchdown (see `plantar.gait.propose.proposer.Proposer`)."""
+        """The steps to come, moved across, at touchdown."""
         if self._proposed is not None and (was_applied(self._proposed, tick) or self._begun(self._proposed.step, tick)):
             self._proposed = None
         if tick.feet.touchdown:
@@ -75,7 +71,7 @@ class EdgeBeside:
         return PlanChange("an edge beside", step, shift=(dx, dy), because="off the edge beside")
 
     def _across(self, side: Side, distance: NDArray[np.float64]) -> float:
-        """How far in m to the sole's left the middle of what it stands on lies; 0 of a sole without an edge beside."""
+        """Distance in m to the sole's left of the middle of its ground; 0 without an edge along a side."""
         places = self._places[side]
         known = ~np.isnan(distance)
         over = known & (distance > self._drop)

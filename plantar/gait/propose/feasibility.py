@@ -5,8 +5,7 @@ The foot presses on unexpected ground with a part of the weight, and one of two 
     a) force_torque: a flat foot on flat ground makes no moment;   |eta_s| >= epsilon_t refuses the foothold
     b) skin: a foothold has to support most of the sole;           A_p / A_s <= epsilon_A refuses it
 
-A refused foothold is walked around: the sole moves sideways, back or forward, whichever is easiest, until it clears the
-box around the obstacle that the taxels show (Fig. 45).
+A refused foothold moves sideways, back or forward until the sole clears the obstacle's box (Fig. 45).
 """
 
 from __future__ import annotations
@@ -105,7 +104,7 @@ class FootholdProbe:
         self._count = self._moments = 0
 
     def update_view(self, distance: NDArray[np.float64]) -> None:
-        """Store how far (n,) in m the taxels were from the ground at touchdown; inf or NaN where they see none."""
+        """Store the distances (n,) in m of the taxels from the ground at touchdown; inf or NaN where they see none."""
         with np.errstate(invalid="ignore"):
             self._near = distance < self.rules.near
 
@@ -145,7 +144,7 @@ def way_around(
         obstacle: Points (k, 2) of the obstacle in the sole frame in m.
         outline: Outline (m, 2) of the sole in its frame in m.
         side: Which foot.
-        rules: How far a foothold may be moved.
+        rules: Largest moves of a foothold.
 
     Example:
         >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
@@ -177,14 +176,13 @@ def way_around(
 def room_ahead(
     obstacle: NDArray[np.float64], outline: NDArray[np.float64], ahead: ArrayLike, rules: FeasibilityRules
 ) -> float:
-    """Returns how much further forward in m a later foothold of the same foot has to be to clear an obstacle; 0 if too
-    far.
+    """Returns the move forward in m with which a later foothold of the same foot clears an obstacle; 0 if too far.
 
     Args:
         obstacle: Points (k, 2) of the obstacle in the sole frame of the refused foothold, in m.
         outline: Outline (m, 2) of the sole in its frame in m.
         ahead: Place (2,) of the later foothold in the same frame in m.
-        rules: Clearance, and how far forward a foothold may be moved.
+        rules: Clearance, and largest move forward.
 
     Example:
         >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])

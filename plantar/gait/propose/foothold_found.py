@@ -62,7 +62,7 @@ class FootholdCarries:
         self._proposed: PlanChange | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The VRP over what was found last (see `plantar.gait.propose.proposer.Proposer`)."""
+        """The VRP over what was found last."""
         if self._proposed is not None and was_applied(self._proposed, tick):
             self._waiting = None
         for found in tick.found:
@@ -76,7 +76,7 @@ class FootholdCarries:
         return self._proposed
 
     def _is_news(self, found: FootholdFound, tick: Tick) -> bool:
-        """Take a foothold into the strip; whether it may move the plan now."""
+        """Add a foothold to the strip; whether it may move the plan now."""
         if found.whole:
             self._strip.clear()
         elif not found.seen or self._is_narrow(found, tick):
@@ -109,8 +109,7 @@ class FootholdCarries:
         )
 
     def _moved_steps(self, found: FootholdFound, tick: Tick) -> tuple[Point, Point]:
-        """By how much in m the footsteps to come move, which one foothold moves only so far, and by how much the VRPs
-        over them."""
+        """Moves in m of the footsteps to come, limited for one foothold, and of the VRPs over them."""
         upcoming, phase = found.step + 1, tick.phase
         begun = phase.step == upcoming and phase.kind == PhaseKind.SINGLE_SUPPORT
         if begun or upcoming >= tick.plan.count:
@@ -121,7 +120,7 @@ class FootholdCarries:
         return self._onto_strip(upcoming, tick)
 
     def _into_reach(self, found: FootholdFound, tick: Tick) -> Point:
-        """Footsteps move along the sole until the ankle comes over ground that it stands on the end of."""
+        """Move of footsteps along the sole that brings the ankle over their ground."""
         foot = tick.plan.foothold(found.step)
         forward = foot.rotation_sole_to_world[:2, 0]
         near = abs(float((found.vrp - foot.position[:2]) @ forward)) <= _NEAR * self._reach
@@ -133,7 +132,7 @@ class FootholdCarries:
         return x, y
 
     def _onto_strip(self, upcoming: int, tick: Tick) -> tuple[Point, Point]:
-        """By how much in m the footsteps to come move onto the strip, and by how much the VRPs over them."""
+        """Moves in m onto the strip, of the footsteps to come and of the VRPs over them."""
         strip = self._strip
         foot = tick.plan.foothold(upcoming)
         center = vrp_of_step(foot, self._middles[foot.side])

@@ -1,10 +1,9 @@
 """Keeps a walk off bad footholds, before weight is transferred (T 4.3.2).
 
-walking --(ground higher than expected)--> doubting: the single support is extended, the foot lands softly
-doubting --(touchdown)--> probing: the foot presses, the rule decides
-probing --(feasible)--> walking on over it
-probing --(refused)--> the foot lifts again and goes around: walking
-probing --(no way around, or too many tries)--> the foot goes back next to the other one, and the walk ends
+walking --(ground higher than expected)--> doubting: the single support is extended, the foot lands softly doubting
+--(touchdown)--> probing: the foot presses, the rule decides probing --(feasible)--> walking on over it probing
+--(refused)--> the foot lifts again and goes around: walking probing --(no way around, or too many tries)--> the foot
+goes back next to the other one, and the walk ends
 """
 
 from __future__ import annotations
@@ -46,8 +45,7 @@ class CheckedStep:
     Attributes:
         step: Index of the step.
         foothold: What was found.
-        shift: How far the foothold was moved (2,) along the planned foot's axes in m; None where it stayed, or where
-            there was no way around.
+        shift: Its move (2,) along the planned foot's axes in m; None where it stayed or had no way around.
     """
 
     step: int
@@ -104,10 +102,7 @@ class StepGuard:
     def propose(self, tick: Tick) -> PlanChange | None:
         """A longer single support for a foothold that is doubted, another place for one that is refused.
 
-        It assumes that its changes are applied: none comes before `Priority.SAFETY`.
-
-        Args:
-            tick: What there is to know, after the feet's motion.
+        Its changes, of `Priority.SAFETY`, are always applied.
         """
         phase, side = tick.phase, tick.phase.swing
         if side is None or self.stopped:
@@ -131,7 +126,7 @@ class StepGuard:
         return self._judge(phase, side, tick)
 
     def _begin(self, phase: Phase, side: Side, tick: Tick) -> None:
-        """A step begins: it comes back next to the other foot if there is no way on."""
+        """A step begins, next to which the foot can come back."""
         self._step, self._tries, self._state = phase.step, 0, _State.WALKING
         origin, stance = tick.place(side), tick.place(other_side(side))
         ahead = origin.rotation_sole_to_world[:2, 0]
@@ -140,7 +135,7 @@ class StepGuard:
         self._refuge = replace(origin, x=origin.x + dx, y=origin.y + dy)
 
     def _touch(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
-        """The foot has met something: it begins to press, and the stance foot carries for long enough."""
+        """The foot touches: it presses, and the stance foot carries for long enough."""
         rules = self.rules
         self._state = _State.PROBING
         self._began, self._since, self._reading_time = tick.time, math.inf, -1.0
@@ -153,7 +148,6 @@ class StepGuard:
         return _waiting(phase, missing) if missing > 0.0 else None
 
     def _read(self, side: Side, tick: Tick) -> None:
-        """Let the probe read what the foot presses on, once it presses."""
         assert self._probe is not None
         rules, reading, load, time = self.rules, tick.readings[side], tick.loads[side], tick.time
         # The rule reads a foot that has its load; where that does not come, what there is after the time for it.
@@ -165,7 +159,6 @@ class StepGuard:
             self._probe.update_load(reading.force, tick.moments.get(side) if pressing else None)
 
     def _judge(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
-        """Step on it, go around it, or back."""
         assert self._probe is not None
         found, step = self._probe.verdict(), tick.plan.foothold(phase.step)
         if found.feasible:
@@ -196,7 +189,6 @@ class StepGuard:
         )
 
     def _back(self, phase: Phase, tick: Tick) -> PlanChange:
-        """The foot goes back next to the other one, and the walk ends."""
         self.stopped, self._state = True, _State.STOPPED
         longer, wait = self._wait(self.rules.return_time, phase, tick)
         return PlanChange(
@@ -206,7 +198,7 @@ class StepGuard:
     def _shift_of_later(
         self, step: Footstep, shift: NDArray[np.float64], found: Foothold, side: Side, tick: Tick
     ) -> Point:
-        """By how much in m the steps to come move."""
+        """Move in m of the steps to come."""
         longer, following = float(shift[0]), tick.phase.step + 2
         if following < tick.plan.count:
             ahead = tick.plan.foothold(following).position - step.position
@@ -217,11 +209,10 @@ class StepGuard:
 
     @staticmethod
     def _wait(duration: float, phase: Phase, tick: Tick) -> tuple[float, float]:
-        """By how much in s a single support has to become longer for a swing, and how long the foot is down by then."""
+        """Extension in s of a single support for a swing, and the time that the foot is down by then."""
         missing = tick.time + duration - phase.end
         return max(0.0, missing), max(0.0, -missing)
 
 
 def _waiting(phase: Phase, by: float) -> PlanChange:
-    """The single support longer by some s, for which the foot is down already."""
     return PlanChange("ground higher than expected", phase.step, longer=by, wait=phase.wait + by)

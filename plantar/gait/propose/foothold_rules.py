@@ -1,4 +1,4 @@
-"""When a foothold that is not what was planned moves the plan, and how far."""
+"""Limits of the plan's moves by unexpected footholds."""
 
 from __future__ import annotations
 

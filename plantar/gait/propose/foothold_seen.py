@@ -1,4 +1,4 @@
-"""Plan once with a foothold that is seen before the foot is on it: the stance foot has most room then."""
+"""Plan with a foothold that is seen before the foot is on it, while the stance foot has most room."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class FootholdSeenAhead:
         self._rules = rules
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The VRP over what is seen, where that is not what was planned (see `propose.proposer.Proposer`)."""
+        """The VRP over what is seen, where that is not what was planned."""
         seen = tick.seen
         if seen is None or math.dist(seen.vrp, tick.plan.vrp(seen.step)) < self._rules.least_move:
             return None

@@ -1,7 +1,6 @@
-"""Strides that learn from pushes (beyond K 6.1): what a partner asks for step after step becomes the robot's own.
+"""Strides that learn from pushes (beyond K 6.1): a partner's repeated pushes lengthen the planned strides.
 
-Two numbers are learned: how much longer strides along and across the walk are than planned. Each pushed step moves them
-by a share of what it went too far, and later footsteps follow. Figures that close, such as a box, close at any size.
+Each pushed step changes two factors, along and across the walk, by a share of its excess.
 """
 
 from __future__ import annotations
@@ -28,8 +27,8 @@ class LearnedStrideRules(
     """How fast strides learn.
 
     Attributes:
-        rate: Share of what a step went farther than its stride that the next ones take over.
-        largest: Factor by which strides become longer at most.
+        rate: Share of a step's excess over its stride that the next ones take over.
+        largest: Largest factor on strides.
     """
 
     rate: float = number(0.3, "1", 0, 1)
@@ -58,11 +57,11 @@ class LearnedStride:
 
     @property
     def factor(self) -> NDArray[np.float64]:
-        """By what strides along and across the walk are multiplied (2,)."""
+        """Factors (2,) on strides along and across the walk."""
         return self._factor.copy()
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The footsteps from the next one on, where what is learned has changed (see `propose.proposer`)."""
+        """The footsteps from the next one on, where the factors have changed."""
         plan, swings = tick.plan, tick.phase.swing is not None
         if self._strides is None:
             self._strides = _strides(plan)
@@ -85,14 +84,13 @@ class LearnedStride:
         return self._asked[0]
 
     def _learn(self, moved: NDArray[np.float64], stride: NDArray[np.float64]) -> None:
-        """Take over a share of what a step went beyond its stride."""
         for axis in range(2):
             if abs(stride[axis]) >= self._rules.least_stride:
                 more = self._rules.rate * moved[axis] / stride[axis]
                 self._factor[axis] = min(self._rules.largest, max(1.0, self._factor[axis] + more))
 
     def _following(self, plan: PlanView) -> tuple[Footstep, ...]:
-        """The footsteps after this one with the learned strides; none where they are as they were planned last."""
+        """Later footsteps with the learned strides; none where they are unchanged."""
         assert self._strides is not None
         later = [k for k in range(self._step + 1, plan.count) if k in self._strides]
         change = self._factor - self._planned_with

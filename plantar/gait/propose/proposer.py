@@ -1,7 +1,7 @@
 """Proposers of plan changes: what they receive, what they return, and whose change comes first.
 
-At each tick a proposer receives a frozen `Tick` and returns a `PlanChange` or None. One change is applied in a tick
-(`plantar.gait.propose.decide`); `Tick.plan.last` shows which.
+At each tick a proposer receives a frozen `Tick` and returns a `PlanChange` or None; `Tick.plan.last` is the applied
+one.
 """
 
 from __future__ import annotations
@@ -67,10 +67,8 @@ class Pendulum(Record, frozen=True):
     pushed: NDArray[np.float64] = read_only(np.zeros(2))
 
     def beyond_zmp(self, left: float) -> tuple[float, tuple[float, float], tuple[float, float]]:
-        """What keeps the DCM from its goal after some time, for the best ZMP in the region (K 25-27), in plain numbers.
-
-        Args:
-            left: Time T in s.
+        """What keeps the DCM from its goal after `left` seconds T, for the best ZMP in the region (K 25-27), in plain
+        numbers.
 
         Returns:
             e^(w T) - 1; the ZMP (x, y) in m that would bring the DCM to its goal; the nearest one of `zmp_region`,
@@ -89,7 +87,7 @@ class Tick(Record, frozen=True):
         time: Time in s.
         phase: Phase of the walk.
         plan: The current plan.
-        feet: Where the feet are commanded.
+        feet: Commanded feet.
         frame: The frame that they are commanded in.
         readings: Reading of each sole.
         loads: Vertical force on each foot in N.
@@ -132,7 +130,7 @@ class Proposer(Protocol):
     priority: Priority
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The change that it wants now, or None."""
+        """Its change at this tick, or None."""
         ...
 
 

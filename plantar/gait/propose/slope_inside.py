@@ -32,8 +32,8 @@ class SlopeRules(Part, table="slope", needs={"control.pfc": (True,)}):
     """What slope across a foot an ankle can follow.
 
     Attributes:
-        ankle_reach: Slope across the foot, rising outwards, in rad that an ankle can follow on one leg, which leans
-            outwards itself; on a steeper one the body stays further inside.
+        ankle_reach: Slope across the foot, rising outwards, in rad that an ankle can follow on one leg; on a steeper
+            one the body stays further inside.
     """
 
     ankle_reach: float = number(0.095, "rad", 0, 0.7)
@@ -48,7 +48,7 @@ class SlopeInside:
         self._proposed: PlanChange | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The VRP moved inwards, at touchdown (see `plantar.gait.propose.proposer.Proposer`)."""
+        """The VRP moved inwards, at touchdown."""
         if self._proposed is not None and was_applied(self._proposed, tick):
             self._proposed = None
         if tick.feet.touchdown:

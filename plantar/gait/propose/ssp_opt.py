@@ -5,10 +5,8 @@ convex quadratic program of three numbers: the footstep in a convex polygon, tau
 
     w_d |xi_s(u_e) - xi(tau)|^2 + c w_n (w_u |u_e - u_n|^2 + w_tau (tau - tau_n)^2) + (1 - c) w_s (same, u_s, tau_s)
 
-Its solution is closed: without bounds on tau the best tau follows from the footstep, which is the closest point of the
-polygon in the metric of the reduced cost; if that tau passes a bound, the bound holds at the optimum, and the closest
-point for it is the answer. tau is kept as a share of its upper bound, and w t cut at `ankle_strategy.MOST_GROWTH`, so
-that long times do not overflow.
+In closed form: the footstep is the closest point of the polygon in the metric of the cost reduced by the best tau, or
+by the bound that tau passes. tau is a share of its upper bound, and w t cut at `ankle_strategy.MOST_GROWTH`.
 """
 
 from __future__ import annotations
@@ -62,14 +60,12 @@ class StepWeights(
 class StepRegionRules(Part, table="step_region", needs={"control.step_adjustment": (True,)}):
     """Where the swing foot may land next to the stance foot (K 32).
 
-    The paper allows 0.2 m forward and 0.12 m outwards for a leg of 0.6 m, which cannot lengthen steps of 0.2 m; such a
-    leg with its knee bent by 15 degrees reaches 0.33 m aside.
+    The paper's 0.2 m forward and 0.12 m outwards for a leg of 0.6 m cannot lengthen steps of 0.2 m.
 
     Attributes:
         forward: Farthest forward in m.
         backward: Farthest backward in m.
-        clearance: Least gap in m between the soles' inner edges, side by side; with 10 mm on a leg of 0.6 m, soles of a
-            body that a push had rolled by 2 degrees touched.
+        clearance: Least gap in m between the soles' inner edges, side by side.
         outside: Largest distance between the soles' middle lines in m.
     """
 
@@ -114,10 +110,8 @@ def footstep_region(
 
 
 def touching_distance(outlines: Mapping[Side, NDArray[np.float64]]) -> float:
-    """Distance in m between the sole frames of feet side by side, whose inner edges touch.
-
-    Args:
-        outlines: Outline (k, 2) in m of each sole in its frame.
+    """Distance in m between the sole frames of feet side by side, whose inner edges touch, by their `outlines` (k, 2)
+    in m.
 
     Example:
         >>> square = np.array([(-0.1, -0.05), (0.1, -0.05), (0.1, 0.06), (-0.1, 0.06)])
@@ -223,14 +217,14 @@ class _Program(NamedTuple):
 
 
 def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
-    """The best footstep and time (K 31-33).
+    """The best footstep and time (K 31-33); None where the region is empty.
 
     Args:
         problem: The single support.
         weights: What a change is weighed by.
 
     Returns:
-        The solution; None where the region is empty.
+        The solution.
 
     Raises:
         InputError: If a place is not two finite numbers, the region not (k, 2), the frequency not above 0, or the
@@ -315,7 +309,7 @@ def _program(problem: SspProblem, weights: StepWeights, region: list[list[float]
 
 
 def _place_of_best_time(program: _Program, region: list[list[float]]) -> tuple[tuple[float, float], list[int]]:
-    """The best footstep with the best time of each, and the edges that it lies on."""
+    """The best footstep with the best time of each, and its edges of the region."""
     d, k, (gx, gy), (fx, fy) = program.dynamics, program.slope, program.grown, program.fixed
     (wx, wy), (px, py) = program.place_weights, program.places
     # What is missed along `grown` can be made up for by time, and costs only what the time's weight leaves of it.
@@ -338,7 +332,7 @@ def _place_of_best_time(program: _Program, region: list[list[float]]) -> tuple[t
 
 
 def _place_of_time(program: _Program, region: list[list[float]], s: float) -> tuple[tuple[float, float], list[int]]:
-    """The best footstep of one time, and the edges that it lies on."""
+    """The best footstep of one time, and its edges of the region."""
     d, k, (wx, wy), (px, py) = program.dynamics, program.slope, program.place_weights, program.places
     (fx, fy), (gx, gy) = program.fixed, program.grown
     sxx, syy = d * k * k + wx, d * k * k + wy
@@ -349,7 +343,7 @@ def _place_of_time(program: _Program, region: list[list[float]], s: float) -> tu
 def _nearest(
     region: list[list[float]], free: tuple[float, float], metric: tuple[float, float, float]
 ) -> tuple[tuple[float, float], list[int]]:
-    """The point of a convex polygon that is closest in a metric, and the edges that it lies on; no edge inside."""
+    """The closest point of a convex polygon in a metric, and its edges; no edge inside."""
     x, y = free
     sxx, sxy, syy = metric
     count, inside = len(region), len(region) > 2
@@ -378,7 +372,7 @@ def _nearest(
 def _residual(
     program: _Program, solution: tuple[float, float, float], bound: int, edges: list[int], region: list[list[float]]
 ) -> float:
-    """How fast the cost still falls in an allowed direction, relative to the largest term of its gradient."""
+    """Slope of the cost in the best allowed direction, relative to the largest term of its gradient."""
     gx, gy, gs, size, time_size = program.gradient(*solution)
     by_time = abs(gs) if bound == 0 else max(0.0, -gs if bound < 0 else gs)
     if not edges:

@@ -1,15 +1,11 @@
 """Step elsewhere, or sooner, when the ZMP alone cannot bring the DCM to where the next step begins (K 4.1-4.2).
 
 With the ZMP at p for the rest T of a single support the DCM xi comes to p + e^(w T) (xi - p). The wanted one, xi_s,
-moves by (1 - a) d where the footstep and all after it move by d; the VRP takes the share a of the double support's way
-from the old foot (K 23-24). A push that is expected to continue moves p by -u_w (K 9).
+moves by (1 - a) d where the footstep and all after it move by d; a is the VRP's share in the double support (K 23-24).
+A push that is expected to continue moves p by -u_w (K 9).
 
-- "search" scans the time; for each, the ZMP of the support polygon and then the footstep, as far as the foot can get,
-  make up for the DCM.
+- "search" scans the time; for each, the ZMP and then the footstep make up for the DCM.
 - "ssp_opt" solves K 31 (`plantar.gait.propose.ssp_opt`), with the place that the foot can reach in the planned time.
-
-A robot that yields moves a step by (1 - c) of what a push has moved the DCM by, even where the ankles could resist.
-A foot that lands while its step is adjusted ends the single support; one that lands next to its place stays there.
 """
 
 from __future__ import annotations
@@ -45,12 +41,11 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
         method: How the footstep is found: "search" or "ssp_opt".
         confidence: c of K 2.5: 1 keeps the nominal footsteps as far as balance lets it, 0 follows pushes.
         yielding: Share of a push's DCM motion that the steps of a robot without confidence follow, even where its
-            ankles could resist; 0 steps for balance alone, above 1 it goes farther than it is pushed.
-        double_support: Whether double supports end sooner or later, too (`double_support_timing`); in pushes of
-            0.47 m/s on h1 and hrp2kai that improved no outcome.
+            ankles could resist; 0 steps for balance alone.
+        double_support: Whether double supports end sooner or later, too (`double_support_timing`).
         least_error: DCM error in m at the end below which the plan stays.
         acceleration: Largest acceleration in m/s^2 of the swing foot.
-        sideways: Share of it to the side; all of it makes h1's hips sink, and the foot lands 95 mm off.
+        sideways: Share of it to the side; all of it makes h1's hips sink.
         shortest: Largest share of the rest of a single support by which it is shortened.
         longest: Largest share of a single support by which it is extended.
         least_left: Time in s until touchdown from which a foot is not aimed any more.
@@ -77,8 +72,7 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
 
 
 class _Foot(NamedTuple):
-    """The foot that swings: which step it takes, where (x, y) in m it is, its heading in rad and its velocity (x, y)
-    in m/s."""
+    """The swing foot: its step, place (x, y) in m, heading in rad and velocity (x, y) in m/s."""
 
     step: int
     place: tuple[float, float]
@@ -87,14 +81,14 @@ class _Foot(NamedTuple):
 
 
 class _Along(NamedTuple):
-    """By how much (x, y) in m which step has gone along with a push."""
+    """A step and its move (x, y) in m along a push."""
 
     step: int
     moved: tuple[float, float]
 
 
 class _Choice(NamedTuple):
-    """A footstep: the time in s until it, by how much (x, y) in m it moves, and what it costs in m."""
+    """A footstep: the time in s until it, its move (x, y) in m, and its cost in m."""
 
     left: float
     move: tuple[float, float]
@@ -141,7 +135,7 @@ class StepAdjustment:
         self._along: _Along | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """Another footstep where that helps, or where it is now (see `plantar.gait.propose.proposer.Proposer`)."""
+        """Another footstep where that helps, or its place now."""
         pendulum = tick.pendulum
         if pendulum is None or tick.feet.side is None:
             return None
@@ -200,7 +194,6 @@ class StepAdjustment:
         return shrunk_support(support, self._ankle, support.mean(axis=0), tick.place(other_side(swing)).yaw)
 
     def _follow(self, tick: Tick, swing: Side) -> _Foot:
-        """Where the swing foot is commanded and how fast."""
         now, before, velocity = tick.place(swing), self._foot, (0.0, 0.0)
         if before is not None and before.step == tick.phase.step:
             x, y = before.place
@@ -209,7 +202,6 @@ class StepAdjustment:
         return self._foot
 
     def _change(self, tick: Tick, found: _Choice | None, left: float) -> PlanChange | None:
-        """The change of the plan, where it is worth one."""
         if found is None:
             return None
         # A whole number of ticks, so that phases begin at ticks.
@@ -221,7 +213,7 @@ class StepAdjustment:
         return _moved(tick.plan.foothold(step), step, move, "step adjusted", longer)
 
     def _landed(self, tick: Tick, side: Side) -> PlanChange | None:
-        """The end of the single support with the landing of a step that was adjusted, and where the foot stands."""
+        """The end of the single support with the landing of a step that was adjusted, and its place."""
         phase = tick.phase
         step = phase.step if phase.swing == side else phase.step - 1
         if step < tick.plan.first or step == self._stands or tick.plan.foothold(step).side != side:
@@ -239,7 +231,7 @@ class StepAdjustment:
         return _moved(replace(planned, yaw=place.yaw), step, move, reason, longer)
 
     def _region(self, tick: Tick, swing: Side) -> NDArray[np.float64]:
-        """Where the swing foot may land (k, 2) in the world in m; the place where it is planned to among it."""
+        """Where the swing foot may land (k, 2) in the world in m, its planned place included."""
         stance, planned = tick.place(other_side(swing)), tick.plan.foothold(tick.phase.step).position[:2]
         region = footstep_region(self._box, swing, (stance.x, stance.y, stance.yaw), self._touching)
         # A walk may have longer steps than are allowed for balance; those it keeps.
@@ -247,7 +239,7 @@ class StepAdjustment:
         return region if inside else convex_hull(np.vstack([region.reshape(-1, 2), planned]))
 
     def _bounds(self, tick: Tick, left: float) -> tuple[float, float]:
-        """The soonest and the latest time in s from now at which the single support may end."""
+        """Soonest and latest time in s from now at which the single support may end."""
         rules = self._rules
         usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
         soonest = min(left, max(rules.least_left, (1.0 - rules.shortest) * (usual - begun)))
@@ -256,7 +248,6 @@ class StepAdjustment:
     def _searched(
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
     ) -> _Choice | None:
-        """The best footstep by search over its time."""
         rules = self._rules
         soonest, latest = self._bounds(tick, left)
         planned, slope = tick.plan.foothold(tick.phase.step), _slope(tick, pendulum)
@@ -283,7 +274,7 @@ class StepAdjustment:
     def _solved(
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
     ) -> _Choice | None:
-        """The best footstep by K 31, whose places are those of the VRP."""
+        """The best footstep by K 31, in VRPs."""
         plan, step, rules = tick.plan, tick.phase.step, self._rules
         vrp, target = plan.vrp(step), plan.foothold(step).position[:2]
         following = plan.schedule.following(tick.phase)
@@ -321,13 +312,13 @@ class StepAdjustment:
     def _landing(
         self, foot: _Foot, wanted: tuple[float, float], time: float, region: NDArray[np.float64]
     ) -> tuple[tuple[float, float], float]:
-        """Where in a region the swing foot lands that is wanted somewhere, and how far it would leave the region."""
+        """The landing place in a region for a wanted one, and how far that is outside the region."""
         x, y = self._reached(foot, nearest_place(region, *wanted), time)
         inside = nearest_place(region, x, y)
         return inside, math.dist(inside, (x, y))
 
     def _reached(self, foot: _Foot, wanted: tuple[float, float], time: float) -> tuple[float, float]:
-        """The place (x, y) in m nearest to a wanted one that the swing foot gets to, at rest, in some time in s."""
+        """The place (x, y) in m nearest to a wanted one that the swing foot can reach, at rest, in some time in s."""
         most, (vx, vy), (x, y) = self._rules.acceleration, foot.velocity, foot.place
         c, s, narrow = math.cos(foot.yaw), math.sin(foot.yaw), self._rules.sideways
         # In the foot's axes, those to the side stretched: what it reaches is a circle then.
@@ -347,13 +338,12 @@ def _cost(choice: _Choice) -> float:
 
 
 def _moved(planned: Footstep, step: int, move: tuple[float, float], reason: str, longer: float) -> PlanChange:
-    """A change that moves a footstep and all after it."""
     place = replace(planned, x=planned.x + move[0], y=planned.y + move[1])
     return PlanChange(reason, step, foothold=place, shift=move, longer=longer, resets=True)
 
 
 def _missed(pendulum: Pendulum, left: float) -> tuple[float, float]:
-    """By how much (x, y) in m the DCM misses its goal after some time in s with the best ZMP of the support polygon."""
+    """DCM error (x, y) in m after some time in s with the best ZMP of the support polygon."""
     (px, py), (wx, wy) = pendulum.beyond_zmp(left)[2], pendulum.offset.tolist()
     (x, y), (gx, gy), grown = pendulum.dcm.tolist(), pendulum.goal.tolist(), math.exp(pendulum.omega * left)
     ux, uy = px - wx, py - wy
@@ -361,7 +351,7 @@ def _missed(pendulum: Pendulum, left: float) -> tuple[float, float]:
 
 
 def _slope(tick: Tick, pendulum: Pendulum) -> float:
-    """By how much the DCM that is wanted at the end of the single support moves with the footstep."""
+    """Change of the wanted DCM at the end of the single support with the footstep."""
     following = tick.plan.schedule.following(tick.phase)
     growth = pendulum.omega * (following.end - following.start)
     return -math.expm1(-growth) / growth

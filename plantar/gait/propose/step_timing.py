@@ -1,12 +1,7 @@
 """End a single support when the DCM is where the next one begins, if the ZMP alone cannot bring it there in time.
 
-With the ZMP at p for the rest T of a single support the DCM comes to xi(T) = p + e^(w T) (xi - p), so a wanted xi_e
-takes the ZMP
-
-    p(T) = xi + (xi - xi_e) / (e^(w T) - 1).
-
-Where that lies a distance d outside the support polygon, the DCM ends off by (e^(w T) - 1) d; another T takes most of
-that away (the same pendulum as T 4.9-4.14).
+A wanted DCM xi_e takes the ZMP p(T) = xi + (xi - xi_e) / (e^(w T) - 1) for the rest T. At a distance d outside the
+support polygon the DCM ends off by (e^(w T) - 1) d, which another T reduces (T 4.9-4.14).
 """
 
 from __future__ import annotations
@@ -27,8 +22,7 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
     Attributes:
         least_error: DCM error in m at the end below which the timing stays.
         price: Cost of a second in m/s of DCM error.
-        longest: Largest share of a single support by which it is extended; with half of it, h1 fell after one of six
-            pushes of 40 N s to the side that it withstands otherwise.
+        longest: Largest share of a single support by which it is extended; with half of it, h1 withstands less.
         shortest: Largest share by which it is shortened.
         least_left: Time in s until touchdown from which a foot is not hurried any more.
         pause: Time in s between two changes.
@@ -58,7 +52,7 @@ class StepTiming:
         self._changed = -math.inf
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """Another end of the single support, where that helps (see `plantar.gait.propose.proposer.Proposer`)."""
+        """Another end of the single support, where that helps."""
         phase, rules, pendulum = tick.phase, self._rules, tick.pendulum
         if pendulum is None or phase.swing is None or phase.wait or tick.time < self._changed + rules.pause:
             return None
@@ -80,7 +74,7 @@ class StepTiming:
         return PlanChange(reason, phase.step, longer=change, resets=True)
 
     def _best_change(self, tick: Tick, pendulum: Pendulum, left: float, error: float) -> float:
-        """By how much in s to end the phase later: where what is missed, and the change's price, are least."""
+        """Delay in s of the phase's end with the least miss and price."""
         rules = self._rules
         usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
         later = (1.0 + rules.longest) * usual - begun - left
@@ -98,6 +92,6 @@ class StepTiming:
 
 
 def _missed(pendulum: Pendulum, left: float) -> float:
-    """By how much in m the DCM misses its goal after some time in s, wherever its ZMP is kept."""
+    """DCM error in m after some time in s, wherever its ZMP is kept."""
     growth, wanted, nearest = pendulum.beyond_zmp(left)
     return growth * math.dist(wanted, nearest)

@@ -1,13 +1,13 @@
 """Walk at a commanded velocity until a stop is commanded.
 
-At each touchdown the next steps are planned again: two that follow the command and one that closes the feet, so that
-the plan always ends at rest. Of steps of duration T, with a velocity (v_x, v_y, w_z),
+At each touchdown two steps that follow the command are planned, and one that closes the feet. Of steps of duration T,
+with a velocity (v_x, v_y, w_z),
 
     forward      each step leads the other foot by v_x T;
     sideways     the foot on that side opens by 2 v_y T, and the other one closes up to it;
-    turning      each step turns its foot by w_z T against the other one, about the middle between the feet, and stands
-                 so much wider that heels, or toes where the feet turn in, keep their distance; what the foot that turns
-                 in may not do (`Stride.turn_in`) the other one does, too.
+    turning      each step turns its foot by w_z T against the other one, about the middle between the feet, and is so
+                 much wider that heels, or toes where the feet turn in, keep their distance; what is beyond
+                 `Stride.turn_in` the other foot turns.
 
 The heading is the mean of the feet's, which follows a command by half a step.
 """
@@ -120,8 +120,8 @@ class Legs:
     inner: float = 0.07
 
     def room(self, out: float) -> float:
-        """How much wider a foot has to stand that is turned out, or in, by an angle in rad, for its heel or toe to keep
-        the distance from the middle between the feet that its inner edge has at rest.
+        """Extra width in m for a foot turned out, or in, by an angle in rad, so that heel or toe keep the inner edge's
+        distance.
 
         Example:
             >>> legs = Legs(0.17, 0.8, heel=0.09, toe=0.13, inner=0.06)
@@ -136,14 +136,14 @@ class Legs:
 def next_step(
     stance: Footstep, other: Footstep, velocity: Velocity, legs: Legs, stride: Stride, duration: float
 ) -> Footstep:
-    """Returns where a foot goes next.
+    """Returns the next step of a foot.
 
     Args:
         stance: The foot that stands.
-        other: Where the foot that goes stands until then.
+        other: Pose of the foot that goes.
         velocity: The command.
-        legs: What decides how far.
-        stride: How far at most.
+        legs: What limits a step.
+        stride: Largest step.
         duration: Time in s from step to step.
 
     Example:
@@ -200,7 +200,7 @@ class VelocityCommand:
         self._proposed: PlanChange | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The next steps, at touchdown or from standing (see `plantar.gait.propose.proposer.Proposer`)."""
+        """The next steps, at touchdown or from standing."""
         if self._proposed is not None and was_applied(self._proposed, tick):
             self._planned, self._proposed = self._proposed.step + 1, None
         phase, plan = tick.phase, tick.plan
@@ -220,7 +220,7 @@ class VelocityCommand:
         return self._proposed
 
     def _first(self, tick: Tick, velocity: Velocity | None) -> Side:
-        """The foot that moves next: as planned, or from standing the one on the side that the command goes to."""
+        """The foot that moves next: as planned, or from standing the one on the commanded side."""
         if tick.phase.step < tick.plan.count:
             return tick.plan.foothold(tick.phase.step).side
         if tick.phase.kind != PhaseKind.STANDING:
@@ -230,7 +230,7 @@ class VelocityCommand:
 
     @staticmethod
     def _standing(side: Side, tick: Tick) -> Footstep:
-        """Where a foot stands by plan; where it is commanded before its first step."""
+        """Planned pose of a foot; the commanded one before its first step."""
         plan = tick.plan
         for k in range(tick.phase.step - 1, max(plan.first, tick.phase.step - 3) - 1, -1):
             if plan.foothold(k).side == side:
