@@ -1,10 +1,8 @@
 """Mountable tactile shoes: from a foot's geometry to a printable part and its layout file.
 
 A `Foot` is read from a mesh or given by its dimensions; `build_shoe` fits the taxels and builds the solid;
-`export_shoe` writes the files and checks what it wrote. Lengths inside this package are in mm; the layout is in m.
-
-The names below are loaded at first use (PEP 562), so that the command line's help, which needs only
-`plantar.shoes.order`, does not load numpy and shapely.
+`export_shoe` writes the files and checks them. Lengths inside this package are in mm; the layout is in m. The names
+below are loaded at first use (PEP 562).
 """
 
 from __future__ import annotations

@@ -63,13 +63,7 @@ Progress = Callable[[float, str], None]
 
 @dataclass(frozen=True)
 class Shoe:
-    """One shoe.
-
-    Attributes:
-        plan: Outlines seen from above in mm, and the layout.
-        solid: The solid in mm in the sole frame; None where only the layout was asked for.
-        surface: Its triangles (n, 3, 3) in mm; None where only the layout was asked for.
-    """
+    """One shoe: its plan, solid and triangles (n, 3, 3) in mm in the sole frame, both None for a layout alone."""
 
     plan: ShoePlan
     solid: Polyhedron | None = None
@@ -91,14 +85,12 @@ class ShoeBuild:
     """The shoes of one foot.
 
     Attributes:
-        foot: The left foot.
         fit: The cells of the left sole.
         parameters: Dimensions as used: floor and wall may be raised by the load case.
-        shoes: The shoes asked for, left first.
-        load_share: Share of the load that the taxels carry.
-        retention: What holds them; None where only the layout was asked for.
+        shoes: The requested shoes, left first.
+        retention: What holds them; None for layouts alone.
         notes: What was detected, assumed and decided.
-        kind: "shoe", or "insole": a flat sheet without walls, see `plantar.shoes.insole`.
+        kind: "shoe", or "insole": a flat sheet without walls.
         touching: Taxels that touch flat ground where seats scatter; None of an insole.
     """
 
@@ -114,7 +106,6 @@ class ShoeBuild:
 
 
 def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
-    """What to do about a wide blind rim, where something can be done."""
     if fit.cell is not None or fit.blind_most is not None or plan.blind_rim <= BLIND_MOST:
         return ()
     return (
@@ -144,12 +135,9 @@ def build_shoe(
         side: "left", "right" or "both"; the right shoe mirrors the left.
         cell_area: Area of a taxel in mm^2.
         taxels: Number of taxels; None takes as many whole cells as fit the sole.
-        overhang: How far taxels may reach beyond the sole in mm; with `taxels` it grows as far as the shoe's greatest
-            overhang (parameter overhang_max) leaves room.
-        rim: "whole" cells up to the edge, or "fine": a row of smaller ones along it, so that the blind rim is 12 mm
-            wide at most; then there is no `taxels`.
-        cell: Other cells than hexagons of skin, see `plantar.shoes.cells.cell_file.read_cell`; then there is no fine
-            rim, and `cell_area` is not read.
+        overhang: Allowed reach of taxels beyond the sole in mm; with `taxels` up to parameter overhang_max.
+        rim: "whole" cells up to the edge, or "fine": smaller ones along it, for a blind rim of 12 mm at most.
+        cell: Other cells than hexagons of skin, see `read_cell`, in place of `rim` and `cell_area`.
         parameters: Dimensions of the shoe; None takes the defaults.
         name: Name of the layout; None takes the foot's.
         layout_only: Leave the solid out, and with it OpenCascade.
@@ -231,7 +219,7 @@ def build_shoe(
 def _observed(
     placed: Callable[[float], tuple[TaxelFit, ShoePlan]], cell_area: float, *, fixed: bool
 ) -> tuple[TaxelFit, ShoePlan, tuple[str, ...]]:
-    """Cells and plan of a cell area, or of a smaller one by which the center of pressure is seen both ways."""
+    """Cells and plan of a cell area, or of a smaller one that observes the center of pressure both ways."""
     area, problem, last = cell_area, None, None
     while True:
         try:
@@ -258,7 +246,7 @@ def _observed(
 
 
 def _sensitive(left: ShoePlan, mass: float) -> tuple[ShoePlan, tuple[str, ...]]:
-    """A plan whose taxels are active below what they carry under a light robot that stands on both feet."""
+    """A plan whose taxels are active below their load under a light robot that stands on both feet."""
     level = _ACTIVE * 0.5 * mass * GRAVITY / len(left.layout)
     if level > 0.5 * left.layout.force_threshold:
         return left, ()
@@ -268,18 +256,7 @@ def _sensitive(left: ShoePlan, mass: float) -> tuple[ShoePlan, tuple[str, ...]]:
 
 
 def sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:
-    """Which sides are built, where side and rim are what shoes and insoles know.
-
-    Args:
-        side: "left", "right" or "both".
-        rim: Cells along the edge.
-
-    Returns:
-        The sides, left first.
-
-    Raises:
-        InputError: If one of them is unknown.
-    """
+    """Gives the sides to build, left first; refuses a side or rim that does not exist."""
     if side not in ("left", "right", "both"):
         raise InputError(f"side is {side!r}; allowed: left, right, both")
     if rim not in RIMS:
@@ -288,15 +265,7 @@ def sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:
 
 
 def planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
-    """The sides asked for, without their solids.
-
-    Args:
-        left: The left plan.
-        sides: Which of the two.
-
-    Returns:
-        A shoe each.
-    """
+    """Gives the requested sides of a left plan, without their solids."""
     return tuple(Shoe(left if which == "left" else mirrored_plan(left)) for which in sides)
 
 
@@ -307,17 +276,8 @@ def built_sides(
     sides: tuple[Side, ...],
     tell: Progress,
 ) -> tuple[Shoe, ...]:
-    """The solids of the sides asked for, each with its mark.
-
-    Args:
-        left: The left plan.
-        steps: The left body.
-        parameters: Dimensions as used.
-        sides: Which of the two.
-        tell: Receives fraction and text.
-
-    Returns:
-        The shoes.
+    """Gives the solids of the requested sides, each with its mark: left plan, steps of the left body, parameters; tell
+    receives fraction and text.
     """
     p = parameters
     tell(0.1, "loading the CAD kernel")

@@ -1,6 +1,5 @@
-"""Coupons: small prints to try the fit of one cell and of one clip, lug or screw before the shoe is printed.
-
-They are cut out of the same blocks as the shoe that they stand for, so that they have its sizes. Lengths in mm.
+"""Coupons: small prints to try the fit of one cell and of one holder, cut out of the same blocks as the shoe. Lengths
+in mm.
 """
 
 from __future__ import annotations
@@ -34,12 +33,11 @@ _NAMES = {"clips": "clip", "straps": "lug", "screws": "screw"}
 
 @dataclass(frozen=True)
 class Coupon:
-    """A piece of the left shoe, in its place there.
+    """A piece of the left shoe, in its place there: "cell", "clip", "lug" or "screw".
 
     Attributes:
-        name: "cell", "clip", "lug" or "screw".
         text: What is tried with it.
-        window: What of the shoe it is, seen from above, a shapely polygon in mm.
+        window: Its outline from above, a shapely polygon in mm.
         surface: Its triangles (n, 3, 3) in mm, outward counter-clockwise.
     """
 
@@ -84,7 +82,7 @@ def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tupl
 
 
 def _cell(plan: Any) -> int:
-    """The largest cell that the cable runs through, the nearest to the middle."""
+    """The largest cell on the cable's route, the nearest to the middle."""
     joined: set[int] = {i for pair in plan.route for i in pair} or set(range(len(plan.cells)))
     middle = plan.contact.centroid
     return min(joined, key=lambda i: (-round(plan.cells[i].area, 1), plan.cells[i].centroid.distance(middle)))
@@ -101,7 +99,6 @@ def _cell_text(plan: ShoePlan) -> str:
 
 
 def _cell_window(plan: ShoePlan, build: ShoeBuild) -> Any:
-    """A cell and its pocket with the ribs around them; of a sheet what lies around the recess's rearmost point."""
     rib = build.parameters.rib
     if plan.cell is not None and plan.cell.kind == "sheet":
         recess = plan.pockets[0]
@@ -120,7 +117,6 @@ def _place_text(retention: Retention) -> str:
 
 
 def _holder(plan: Any, retention: Retention) -> Any:
-    """A piece of plate and wall around the last of what holds the shoe."""
     place, half = retention.places[-1], 0.5 * retention.width + _BESIDE
     strip = plan.contact.intersection(shapely.box(place.x - half, -1e3, place.x + half, 1e3)).bounds
     edge = strip[3] if place.side > 0 else strip[1]
@@ -129,7 +125,7 @@ def _holder(plan: Any, retention: Retention) -> Any:
 
 
 def _limited(steps: tuple[Step, ...], window: Any) -> tuple[Step, ...]:
-    """The steps, of each what lies in a window, and one more that cuts off what is left around it."""
+    """The steps within a window, and one more that cuts off the rest around it."""
     around = window.buffer(_MORE, join_style="mitre")
     kept = []
     for step in steps:
@@ -152,14 +148,7 @@ def _limited(steps: tuple[Step, ...], window: Any) -> tuple[Step, ...]:
 
 
 def write_coupons(coupons: tuple[Coupon, ...], folder: str | os.PathLike[str]) -> tuple[str, ...]:
-    """Write each coupon as `coupon_<name>.stl`.
-
-    Args:
-        coupons: The coupons.
-        folder: An existing folder.
-
-    Returns:
-        The files' names.
+    """Write each of the coupons into a folder as `coupon_<name>.stl`; returns the files' names.
 
     Raises:
         InputError: If a file cannot be written.

@@ -13,60 +13,22 @@ __all__ = ["check_dimensions", "checked", "choice", "length", "number", "text"]
 
 
 def length(default: float, low: float, high: float, meaning: str) -> Any:
-    """A field for a length.
-
-    Args:
-        default: Its default in mm.
-        low: Smallest allowed value in mm.
-        high: Largest allowed value in mm.
-        meaning: What it is.
-
-    Returns:
-        The field of a dataclass.
-    """
+    """Gives a dataclass field for a length in mm: default, low and high limits, meaning."""
     return number(default, low, high, "mm", meaning)
 
 
 def number(default: float, low: float, high: float, unit: str, meaning: str) -> Any:
-    """A field for a number in a unit.
-
-    Args:
-        default: Its default.
-        low: Smallest allowed value.
-        high: Largest allowed value.
-        unit: Its unit, "-" where it has none.
-        meaning: What it is.
-
-    Returns:
-        The field of a dataclass.
-    """
+    """Gives a dataclass field for a number: default, low and high limits, unit ("-" for none), meaning."""
     return field(default=default, metadata={"low": low, "high": high, "unit": unit, "text": meaning})
 
 
 def choice(default: str, choices: tuple[str, ...], meaning: str) -> Any:
-    """A field for one of several words.
-
-    Args:
-        default: Its default.
-        choices: All of them.
-        meaning: What it is.
-
-    Returns:
-        The field of a dataclass.
-    """
+    """Gives a dataclass field for one of several choices: default, choices, meaning."""
     return field(default=default, metadata={"choices": choices, "text": meaning})
 
 
 def text(default: str, meaning: str) -> Any:
-    """A field for any text of one line.
-
-    Args:
-        default: Its default.
-        meaning: What it is.
-
-    Returns:
-        The field of a dataclass.
-    """
+    """Gives a dataclass field for a text of one line: default, meaning."""
     return field(default=default, metadata={"text": meaning})
 
 
@@ -105,11 +67,11 @@ def check_dimensions(record: Any, what: str, names: Iterable[str] | None = None)
 
     Args:
         record: The instance.
-        what: What its fields are, for messages: "shoe parameter".
+        what: What its fields are, for messages.
         names: Which fields; None for all.
 
     Raises:
-        InputError: If a value is not allowed; the message names field, value, unit and range.
+        InputError: If a value is not allowed.
     """
     for name in [f.name for f in fields(record)] if names is None else names:
         object.__setattr__(record, name, checked(record, name, getattr(record, name), what))

@@ -1,4 +1,4 @@
-"""Shoes for a foot that was found in a robot's model: its surface stands in the sole's frame already."""
+"""Shoes for a foot found in a robot's model, its surface in the sole's frame."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ _AREAS = (100.0, 691.0)  # mm^2 of a taxel: what can be made, and what the paper
 
 @dataclass(frozen=True)
 class FoundShoes:
-    """What is to be known of the shoes that were built.
+    """The shoes that were built.
 
     Attributes:
         thickness: Outer contact face below the bare sole in m.
-        mass: Mass of one in kg; None where the printable part was not built.
-        notes: What was found, assumed and decided, checks that do not hold among it.
+        mass: Mass of one in kg; None for layouts alone.
+        notes: What was found, assumed and decided, failed checks included.
     """
 
     thickness: float
@@ -45,13 +45,7 @@ class FoundShoes:
 
 
 def taxel_area(area: float) -> float:
-    """Area of a taxel for a sole: so that it has as many as the papers' soles, and none is larger than theirs.
-
-    Args:
-        area: Area of the sole in mm^2.
-
-    Returns:
-        Area of a taxel in mm^2.
+    """Area of a taxel in mm^2 for a sole of an area in mm^2: as many as on the papers' soles, none larger than theirs.
 
     Example:
         >>> taxel_area(27_791.0), taxel_area(9_900.0), taxel_area(900.0)
@@ -70,9 +64,8 @@ def shoe_for_surface(
     solid: bool = False,
     progress: Progress | None = None,
 ) -> FoundShoes:
-    """Build and write the shoes of a left foot whose surface stands in the frame of its sole.
-
-    The layouts are written into the folder itself, printable parts and papers into its folder "shoe".
+    """Build and write the shoes of a left foot: layouts into the folder, printable parts and papers into its folder
+    "shoe".
 
     Args:
         name: Name of the robot.
@@ -80,11 +73,11 @@ def shoe_for_surface(
             below the ankle.
         folder: An existing folder.
         mass: Mass of the robot in kg.
-        solid: Whether the printable part is built, too; where it cannot be, the layouts are.
+        solid: Whether to build the printable part; where it cannot be, the layouts are.
         progress: Receives fraction and text.
 
     Returns:
-        What was made of it.
+        The result.
 
     Raises:
         FootError: If the foot cannot carry taxels.
@@ -113,7 +106,7 @@ def shoe_for_surface(
 
 
 def _felt(build: ShoeBuild, mass: float) -> ShoeBuild:
-    """Shoes whose taxels are active from so much on as suits the robot's mass in kg; none is less sensitive for it."""
+    """Shoes with activation thresholds that suit the robot's mass in kg, none less sensitive for it."""
     shoes = []
     for shoe in build.shoes:
         layout = shoe.layout
@@ -125,7 +118,7 @@ def _felt(build: ShoeBuild, mass: float) -> ShoeBuild:
 
 
 def _foot(name: str, triangles: NDArray[np.float64]) -> Foot:
-    """The foot of a surface; where that is none, one with upright sides on the hull of its lowest band."""
+    """The foot of a surface; otherwise one with upright sides on the hull of its lowest band."""
     try:
         return foot_from_triangles(name, triangles, where=name, file_unit="m", up="z", forward="x", sole_z=0.0)
     except FootError as error:

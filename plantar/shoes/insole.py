@@ -39,7 +39,7 @@ def build_insole(
         side: "left", "right" or "both"; the right insole mirrors the left.
         cell_area: Area of a taxel in mm^2.
         rim: "fine" follows the edge with smaller cells, "whole" takes whole ones alone.
-        cell: Other cells than hexagons of skin, as in `build_shoe`; then `rim` and `cell_area` are not read.
+        cell: Other cells than hexagons of skin, in place of `rim` and `cell_area`.
         parameters: Dimensions; None takes the defaults.
         name: Name of the layout; None takes the foot's.
         layout_only: Leave the solid out, and with it OpenCascade.

@@ -1,8 +1,5 @@
-"""Printed materials: what the strength check and the masses need of them.
-
-Values are typical of the materials' data sheets (PA12: multi-jet fusion and laser sintering; PETG, PLA and TPU of
-95 Shore A: filament; resin: tough photopolymers). A part that carries a person or an expensive robot deserves the data
-that is separate maker.
+"""Printed materials, typical of their data sheets: PA12 multi-jet fusion and laser sintering; PETG, PLA and TPU (95
+Shore A) filament; resin tough photopolymers. For a critical part use the maker's data.
 """
 
 from __future__ import annotations
@@ -17,13 +14,12 @@ class Material:
     """A printed material.
 
     Attributes:
-        name: Its name.
-        process: How it is printed where the parameter `process` does not state, see `plantar.shoes.processes`.
-        density: Density in g/cm^3.
+        process: How it is printed where the parameter `process` does not state it.
+        density: In g/cm^3.
         modulus: Young's modulus in MPa.
         strength: Tensile strength within a layer in MPa.
-        across: Share of the strength that holds across the layers, 0..1.
-        strain: Strain that a clip may take each time it is put on, 0..1.
+        across: Share of the strength across the layers, 0..1.
+        strain: Allowed strain of a clip each time it is put on, 0..1.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""What a user asks for: the options of a shoe, with what each means; light, so that a help needs no geometry."""
+"""The options of a shoe, with their meaning; light, so that a help needs no geometry."""
 
 from __future__ import annotations
 
@@ -15,9 +15,7 @@ def _option(default: Any, text: str, metavar: str | None = None) -> Any:
 
 @dataclass(frozen=True)
 class FootSource:
-    """Where the foot comes from: a file, a built-in robot or dimensions; the rest describes how a file is to be read.
-
-    `plantar.shoes.foot.source.read_foot` checks and reads it. None leaves the choice to what is found.
+    """Where the foot comes from: a file, a built-in robot or dimensions; the rest describes how a file is read.
 
     Example:
         >>> FootSource(robot="h1").file is None

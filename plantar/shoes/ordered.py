@@ -27,13 +27,13 @@ def build_ordered(
     taxels: int | None = None,
     progress: Progress | None = None,
 ) -> ShoeBuild:
-    """Build the shoe or the insole of an order; of one that asks for coupons, only the layouts.
+    """Build the shoe or the insole of an order; of one for coupons, only the layouts.
 
     Args:
         foot: The left foot.
-        order: What is wanted.
+        order: The options.
         parameters: Dimensions.
-        taxels: Number of taxels that the foot's robot asks for; None where it asks for none.
+        taxels: Number of taxels of the foot's robot; None without one.
         progress: Receives fraction and text.
 
     Returns:
@@ -61,10 +61,7 @@ def build_ordered(
 
 
 def ordered_cell(order: ShoeOrder) -> Cell | None:
-    """The cell that an order names.
-
-    Returns:
-        The cell; None for hexagons of skin.
+    """The cell of an order; None for hexagons of skin.
 
     Raises:
         InputError: If there is no such cell, or the order contradicts itself.
@@ -79,15 +76,8 @@ def ordered_cell(order: ShoeOrder) -> Cell | None:
 
 
 def write_ordered_coupons(build: ShoeBuild, folder: Path, progress: Progress | None = None) -> dict[str, Any]:
-    """Build and write the coupons of a build; gives names, what each is for, sizes in mm, and the files.
-
-    Args:
-        build: The left shoe or insole, or a pair.
-        folder: An existing folder.
-        progress: Receives fraction and text.
-
-    Returns:
-        Plain JSON values.
+    """Build the coupons of a build and write them into a folder, progress receives fraction and text; returns plain
+    JSON values.
     """
     coupons = build_coupons(build, progress=progress)
     files = write_coupons(coupons, folder)

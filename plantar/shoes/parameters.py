@@ -123,7 +123,7 @@ class ShoeParameters:
 
     @property
     def pad_rim_height(self) -> float:
-        """How far the pad's rim rises above its sheet in mm; 0 where the relief leaves none."""
+        """Height of the pad's rim above its sheet in mm; 0 where the relief leaves none."""
         return max(0.0, self.taxel_protrusion - self.pad_relief)
 
     @property
@@ -133,7 +133,7 @@ class ShoeParameters:
 
     @property
     def thickness(self) -> float:
-        """Height of the face that the foot stands on above the sole frame in mm."""
+        """Height of the foot's face above the sole frame in mm."""
         return self.ceiling + self.floor
 
     @property
@@ -143,19 +143,19 @@ class ShoeParameters:
 
     @property
     def printed(self) -> Material:
-        """Data of the printed material, with the density given."""
+        """The printed material, with the given density."""
         return MATERIALS[self.material].with_density(self.density)
 
     @property
     def pad_material(self) -> str:
-        """What the pad is of, as a maker orders it."""
+        """The pad's material, as a maker orders it."""
         if self.pad_foam > 0.0:
             return f"foam sheet, {self.pad_foam:g} kPa or less at 25 % (ASTM D1056, D3574)"
         return f"silicone, about {self.pad_hardness:g} Shore A"
 
     @property
     def made_by(self) -> Process:
-        """The printing process, with the gaps and the scatter that are given."""
+        """The printing process, with the given gaps and scatter."""
         process = PROCESSES[self.printed.process if self.process == "auto" else self.process]
         given: dict[str, Any] = {
             "press": self.gap_press,
@@ -171,7 +171,7 @@ class ShoeParameters:
 
     @classmethod
     def range_of(cls, name: str) -> tuple[float, float, str, str]:
-        """Lowest and highest value, unit and meaning of a parameter that is a number.
+        """Lowest and highest value, unit and meaning of a numeric parameter.
 
         Raises:
             InputError: If there is no such parameter; the message names all of them.
@@ -205,10 +205,10 @@ class ShoeParameters:
         return cls(**values)
 
     def changed(self, settings: Iterable[str]) -> ShoeParameters:
-        """These parameters with some replaced, as `--set` gives them.
+        """These parameters with some replaced, as by `--set`.
 
         Raises:
-            InputError: If a text is not of that form, a name is unknown, or a value is not allowed.
+            InputError: If a text is no NAME=VALUE, a name is unknown, or a value is not allowed.
 
         Example:
             >>> ShoeParameters().changed(["rim_height=16", "material=PETG"]).rim_height
@@ -227,11 +227,8 @@ class ShoeParameters:
 
 
 def read_parameters(path: str | os.PathLike[str]) -> ShoeParameters:
-    """Read shoe parameters from a JSON or TOML file; what it does not name keeps its default.
-
-    Args:
-        path: File that ends in .json or .toml and holds `name = value` pairs, in mm. Of a `check.json` the table
-            "parameters" is taken, so that a shoe can be built again.
+    """Read shoe parameters in mm from `name = value` pairs of a JSON or TOML file, or from the table "parameters" of a
+    `check.json`.
 
     Raises:
         InputError: If the file cannot be read, or a name or value is not allowed.

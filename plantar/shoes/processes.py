@@ -1,9 +1,8 @@
-"""How a part is printed: the gaps it needs to go together, and how far its seats scatter. Lengths in mm.
+"""Printing processes: the gaps that parts need to go together, and the scatter of their seats. Lengths in mm.
 
-Gaps are a side, of parts that are printed and cleaned apart. FDM: what printers' makers advise for a 0.4 mm nozzle. SLS
-and MJF: what services promise on their parts (0.3 mm, or 0.3 %), SLA: 0.1 mm. The scatter of the seats is one standard
-deviation, for lack of a published figure taken as a third of that promise. A coupon of your printer replaces them: the
-parameters `gap_press`, `gap_slide`, `gap_play` and `seat_scatter`.
+Gaps are a side. FDM: advice of printers' makers for a 0.4 mm nozzle. SLS and MJF: services promise 0.3 mm, or 0.3 %;
+SLA: 0.1 mm. The scatter, one standard deviation, is a third of that promise, for lack of a published figure. A coupon
+of your printer replaces them: parameters `gap_press`, `gap_slide`, `gap_play` and `seat_scatter`.
 """
 
 from __future__ import annotations
@@ -18,16 +17,15 @@ class Process:
     """A printing process.
 
     Attributes:
-        name: Its name.
         press: Gap a side of what is pushed in and stays.
         slide: Gap a side of what slides.
         play: Gap a side of what moves freely.
         scatter: Standard deviation of the height of a taxel's seat.
         sag: How far a bridged ceiling may sag.
         foot: How far the first layer spreads (elephant's foot).
-        shrinkage: What a part may shrink beyond what the printer corrects, in %.
+        shrinkage: Shrinkage beyond the printer's correction, in %.
         supports: Whether what hangs over needs support.
-        finish: What is done before parts are fitted.
+        finish: Work before parts are fitted.
     """
 
     name: str

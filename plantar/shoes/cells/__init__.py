@@ -1,1 +1,1 @@
-"""What one cell is like: skin, a film sensor with its tail, a sheet of electrodes; the built-in ones as TOML."""
+"""Sensor cells: skin, a film sensor with its tail, a sheet of electrodes; the built-in ones as TOML."""

@@ -1,9 +1,8 @@
-"""The body of a sensor cell as its maker states it: shape, size, active area, load, tail, pitch. Lengths in mm.
+"""The body of a sensor cell as its maker states it. Lengths in mm.
 
-Three kinds of cell follow from what is stated. *Tiles* (hex, square, rectangle without an active area) are bodies with
-a rubber head that spreads over the ribs to the next one, so that the cells tile the sole. *Films* (any shape with an
-active area, and round ones) lie at the ceiling of a pocket, and a land of the pad presses on the active area alone. A
-*sheet* is one body with rows and columns of electrodes; a cell is what lies around a crossing.
+*Tiles* (hex, square, rectangle without an active area) have a rubber head that spreads over the ribs, so that they tile
+the sole. *Films* (any shape with an active area, and round ones) lie at the ceiling of a pocket, and a land of the pad
+presses on the active area. A *sheet* is one body with rows and columns of electrodes; a cell lies around a crossing.
 """
 
 from __future__ import annotations
@@ -53,7 +52,7 @@ KEYS: Mapping[str, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Cell:
-    """One kind of sensor cell. Lengths in mm, forces in N; 0 leaves a value to what its meaning states.
+    """One kind of sensor cell. Lengths in mm, forces in N; 0 means unset, as each text describes.
 
     Raises:
         InputError: If a value is out of its range, missing, or not one of its shape.
@@ -145,7 +144,7 @@ class Cell:
 
     @property
     def label(self) -> str:
-        """What messages and lists call it: its name, or its shape where it has none."""
+        """Its name, or its shape without one."""
         return self.name or self.shape
 
     @property
@@ -174,7 +173,7 @@ class Cell:
 
     @property
     def active_area(self) -> float:
-        """Area in mm^2 that a film feels."""
+        """Active area of a film in mm^2."""
         along, across = self.felt
         share = {"round": 0.25 * math.pi, "hex": 0.75}.get(self.shape, 1.0)
         return share * along * across
@@ -185,7 +184,7 @@ class Cell:
         return self.lattice == "hex" or (self.lattice == "auto" and self.shape in ("hex", "round"))
 
     def as_dict(self) -> dict[str, float | str]:
-        """The keys of its shape and their values, as a TOML states them; what is left out is left out."""
+        """The keys of its shape with values that are set, as in a TOML."""
         every = {f.name: f.default for f in fields(self) if f.name in KEYS[self.shape]}
         return {k: getattr(self, k) for k, d in every.items() if d not in (0.0, "") or getattr(self, k) != d}
 
@@ -216,7 +215,7 @@ class Cell:
 
     @classmethod
     def table(cls) -> list[dict[str, Any]]:
-        """Each key as a row: name, default, low, high, unit (or choices) and text, and the shapes that have it."""
+        """Each key as a row: name, default, low, high, unit (or choices), text and shapes."""
         return [
             {"name": f.name, "default": f.default, "shapes": [s for s in SHAPES if f.name in KEYS[s]], **f.metadata}
             for f in fields(cls)

@@ -26,13 +26,7 @@ def built_in_cells() -> dict[str, Path]:
 
 
 def read_cell(name: str | os.PathLike[str]) -> Cell:
-    """A cell of a TOML file, or a built-in one.
-
-    Args:
-        name: Name of a built-in cell, or a path that ends in .toml.
-
-    Returns:
-        The cell; one without a name has that of its file.
+    """A built-in cell by name, or one of a TOML file; without a name it has that of its file.
 
     Raises:
         InputError: If there is no such cell, the file cannot be read, or a key or value is not allowed.

@@ -42,14 +42,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Check:
-    """One check: what was measured against what is allowed.
-
-    Attributes:
-        name: What is checked.
-        holds: Whether it does.
-        value: The measured value.
-        allowed: What is allowed, in words.
-    """
+    """One check: its measured value, and what is allowed, in words."""
 
     name: str
     holds: bool
@@ -59,27 +52,19 @@ class Check:
 
 @dataclass(frozen=True)
 class ShoeCheck:
-    """What was measured on one shoe.
+    """Measures of one shoe.
 
     Attributes:
-        watertight: Whether every edge of the STL has two triangles and they agree on the inside.
-        volume_cm3: Volume of the solid in cm^3.
-        mass_g: Mass of the printed part in g.
-        min_wall_mm: Thinnest wall, floor or bar in mm.
-        size_mm: Extent (3,) of the printed part along x, y, z in mm.
-        overhang_mm: How far the contact face reaches beyond the foot in mm.
-        reach_mm: How far any of the shoe does: lugs and the board's holder too.
-        print_hours: Estimate of the time to print it.
+        watertight: Whether every edge of the STL has two consistent triangles.
+        min_wall_mm: Thinnest wall, floor or bar.
+        size_mm: Extent (3,) of the printed part along x, y, z.
+        overhang_mm: Reach of the contact face beyond the foot.
+        reach_mm: Reach of any part beyond it, lugs and the board's holder included.
         printing: The build directions, the chosen first.
         mounting: The gaps between foot and shoe; None of an insole.
-        load: The load case.
-        members: Stresses under it.
-        load_share: Share of the load that the taxels carry.
-        weights: Masses in g.
-        pull_off: How firmly it is held; None where nothing holds it, as asked for.
-        checks: The single checks.
+        pull_off: Holding forces; None without holders.
         shortest_edge_mm: Of the STEP.
-        arc_share: Share of its bent walls that cylinders and cones are, 0..1; 1 where none is bent.
+        arc_share: Share of bent walls that are cylinders and cones, 0..1; 1 where none is bent.
     """
 
     watertight: bool
@@ -112,12 +97,12 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
 
     Args:
         shoe: The shoe as built.
-        build: What it belongs to.
+        build: Its build.
         surface: Triangles (n, 3, 3) in mm, as read back from the STL.
         step: The solid as read back from the STEP.
 
     Returns:
-        The measures and checks; nothing is raised for a check that does not hold.
+        The measures and checks; a check that does not hold raises nothing.
     """
     with optional_library("trimesh", "shoes"):
         import trimesh
@@ -176,7 +161,9 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
 
 
 def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
-    """Gives what a plan of a build decides: blind rim, center of pressure, taxels that touch, their load share."""
+    """Gives the checks that a plan of a build decides: blind rim, center of pressure, touching taxels, their load
+    share.
+    """
     return (*_rim_checks(plan, build), *_contact_checks(plan, build), *_share_checks(build.load_share))
 
 
@@ -220,7 +207,6 @@ def _feature_checks(features: tuple[Feature, ...]) -> Iterator[Check]:
 
 
 def _contact_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
-    """What the taxels see of the center of pressure, and how many touch the ground with the process's scatter."""
     if build.kind == "insole":  # which bends to the ground, and to the foot
         return
     seen, touching = observability(plan), build.touching
@@ -243,7 +229,6 @@ def _contact_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
 
 
 def _insole_checks(shoe: Shoe, surface: Array, p: ShoeParameters) -> Iterator[Check]:
-    """An insole's thickness, its place within the foot's outline, and what its cells carry below a soft foot."""
     high = float(surface[..., 2].max())
     yield Check("thickness, mm", abs(high - p.thickness) <= 0.05, round(high, 3), f"{p.thickness:g} within 0.05")
     beyond = float(_beyond(shoe.plan.foot, surface))
@@ -253,7 +238,6 @@ def _insole_checks(shoe: Shoe, surface: Array, p: ShoeParameters) -> Iterator[Ch
 
 
 def _beyond(outline: Any, surface: Array) -> float:
-    """How far any corner of a surface lies beyond an outline, in mm."""
     points = np.unique(surface.reshape(-1, 3)[:, :2].round(4), axis=0)
     return float(outline.distance(shapely.points(points)).max())
 
@@ -344,13 +328,12 @@ def _printing_checks(best: Printing, plan: ShoePlan, p: ShoeParameters) -> Itera
 
 
 def _reach(plan: ShoePlan, surface: Array) -> float:
-    """How far any corner of a surface lies beyond the foot's outline, in mm."""
     hull = shapely.MultiPoint(surface.reshape(-1, 3)[:, :2]).convex_hull
     return float(max(plan.foot.distance(shapely.points(ring(hull)))))
 
 
 def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tuple[float, float]:
-    """How far corners in the solid are from where the layout states.
+    """Distance of corners in the solid from where the layout states them.
 
     Args:
         shoe: The shoe.
@@ -358,9 +341,8 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tu
         step: The solid as read back from the STEP.
 
     Returns:
-        Largest distance in mm of a cell's corner in the layout from a corner of the groove that marks the cells in the
-        ribs, and of a pocket's corner (the cell's, moved in by half a rib) from one in the pockets' ceiling. Corners
-        that a port or the cable's channel takes away are left out.
+        Largest distance in mm of a layout's cell corner from the groove in the ribs, and of a pocket's corner from one
+        in the pockets' ceiling, those left out that a port or the channel removes.
     """
     p = parameters
     cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(0.05)
@@ -375,7 +357,7 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tu
 
 
 def _farthest(wanted: Array, step: StepSolid, height: float) -> float:
-    """Largest distance from a wanted point (n, 2) to the nearest of the corners and circles found at a height."""
+    """Largest distance from a wanted point (n, 2) to the nearest corner or circle found at a height."""
     level = step.corners[np.abs(step.corners[:, 2] - height) < 1e-3, :2]
     round_ = step.circles[np.abs(step.circles[:, 2] - height) < 1e-3]
     if not len(level) or not len(wanted):
@@ -386,7 +368,6 @@ def _farthest(wanted: Array, step: StepSolid, height: float) -> float:
 
 
 def _taxels_outside(shoe: Shoe) -> int:
-    """Number of taxels that are not wholly inside the layout's outline."""
     outline = shapely.Polygon(to_mm(shoe.layout.outline)).buffer(1e-3)
     cells = [shapely.Polygon(to_mm(shoe.layout.cell_polygon(i))) for i in range(len(shoe.layout))]
     return sum(not outline.covers(c) for c in cells)

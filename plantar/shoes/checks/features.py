@@ -1,9 +1,5 @@
-"""Whether the print has the features that its bill and its assembly name: read from the exported surface alone.
-
-Every line of the bill that is not the print itself, and every step that puts something in, names a seat: taxels sit in
-pockets between ribs, their cable runs through ports, a channel and a hole, the board slides into rails, straps run
-through lugs, clips have hooks that bend freely, screws have holes and nuts slots. Each is looked for in sections of the
-triangles; what is expected comes from the plan, what is there from the file. Lengths in mm.
+"""Whether the print has the seats that its bill and its assembly name: looked for in sections of the exported surface,
+at the places of the plan. Lengths in mm.
 """
 
 from __future__ import annotations
@@ -37,13 +33,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Feature:
-    """A feature of the print.
-
-    Attributes:
-        name: What it is.
-        part: The line of the bill, or the step, that needs it.
-        share: How much of it is there, 0..1.
-    """
+    """A feature of the print: the part that needs it, and the share of it, 0..1, that is there."""
 
     name: str
     part: str
@@ -56,13 +46,10 @@ class Feature:
 
 
 class _Print:
-    """Sections of a print's surface."""
-
     def __init__(self, surface: Array) -> None:
         self._at = cache(lambda height: section(surface, height))
 
     def filled(self, place: Any, *heights: float) -> float:
-        """Share of a place that the print fills, in the emptiest section."""
         return min(float(self._at(round(h, 4) + _EPS).intersection(place).area / place.area) for h in heights)
 
     def free(self, place: Any, *heights: float) -> float:
@@ -71,20 +58,19 @@ class _Print:
         return 1.0 if most <= _FREE else 1.0 - most
 
     def cut(self, height: float) -> Any:
-        """The section at a height."""
         return self._at(round(height, 4) + _EPS)
 
 
 def printed_features(shoe: Shoe, build: ShoeBuild, surface: Array) -> tuple[Feature, ...]:
-    """Look for every feature that the shoe's papers name.
+    """Look for every feature named in the shoe's papers.
 
     Args:
         shoe: The shoe.
-        build: What it belongs to.
+        build: Its build.
         surface: Triangles (n, 3, 3) in mm, as read back from the STL.
 
     Returns:
-        The features, with how much of each is there.
+        The features.
     """
     solid, p, plan = _Print(surface), build.parameters, shoe.plan
     found = [*_seats(solid, plan, p), *_cable(solid, plan, p)]
@@ -96,7 +82,6 @@ def printed_features(shoe: Shoe, build: ShoeBuild, surface: Array) -> tuple[Feat
 
 
 def _seats(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature]:
-    """A pocket for each taxel, free up to its ceiling, with print above and ribs around it."""
     part = "taxel" if plan.cell is None else "cell"
     hole, ways = hole_outline(plan, p), shapely.union_all(cable_outlines(plan, p))
     free, roofs, ribs = [], [], []
@@ -136,7 +121,6 @@ def _cable(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
 
 
 def _rails(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature]:
-    """The board's slot is free, and stopped at both ends, in front, behind and below."""
     half, gap = 0.5 * p.board_length, p.made_by.slide
     back = -holder_depth(p)
     levels = np.linspace(p.thickness + 0.3, p.rim_top - 0.3, 4).tolist()
@@ -162,13 +146,11 @@ def _rails(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
 
 
 def _holders(solid: _Print, shoe: Shoe, build: ShoeBuild, retention: Retention) -> Iterator[Feature]:
-    """Slots and bars of straps, hooks of clips with room to bend, holes and nut slots of screws."""
     p, width = build.parameters, retention.width
     middle = shoe.plan.foot.centroid.y
     flip = 1.0 if shoe.side == "left" else -1.0
 
     def area(place: Any, start: float, end: float, height: float) -> float:
-        """Area of print between two distances along the foot from a place, outwards on its side."""
         ends = sorted((middle, middle + flip * place.side * 1e3))
         window = shapely.box(place.x + min(start, end), ends[0], place.x + max(start, end), ends[1])
         return float(solid.cut(height).intersection(window).area)

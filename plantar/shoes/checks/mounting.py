@@ -1,4 +1,4 @@
-"""Whether the shoe goes onto the foot: the foot in the shoe as exported, and on its way into it. Lengths in mm."""
+"""Whether the shoe goes onto the foot: the foot in the exported shoe, and on its way into it. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -37,16 +37,15 @@ class Mounting:
     """How the foot sits in the shoe.
 
     Attributes:
-        gap: Smallest gap between foot and wall, mm; negative never, 0 where they meet.
+        gap: Smallest gap between foot and wall, 0 where they meet.
         play: Largest gap at the wall's upper edge.
-        gap_above: Smallest gap between the foot and what stands above the wall (lugs, clips).
+        gap_above: Smallest gap between the foot and lugs or clips above the wall.
         gap_on_the_way: Smallest gap between the foot and rigid parts while the shoe is pushed on from below.
         floor_gap: Distance between the foot's lowest point and the floor.
-        support_share: Share of the foot's touching area that lies over the floor, 0..1.
-        undercut: Area in mm^2 of wall that hangs over the foot's place, clips and screws left out: a slot below it
-            could not be printed.
-        links: Places where other links of the robot meet the print or a strap while the ankle moves.
-        links_known: Whether those are of the robot's model, or a shank that is assumed.
+        support_share: Share of the foot's touching area over the floor, 0..1.
+        undercut: Area in mm^2 of wall over the foot's place, clips and screws left out, which could not be printed.
+        links: Places where other links of the robot meet print or strap while the ankle moves.
+        links_known: Whether those are of the robot's model, or an assumed shank.
     """
 
     gap: float
@@ -113,7 +112,6 @@ def check_mounting(
 
 
 def _links_met(links: Array, shoe: Array, p: ShoeParameters) -> int:
-    """How many points of other links lie in a left shoe."""
     heights, count = links[:, 2] + p.thickness, 0
     for low in np.arange(0.0, float(shoe[..., 2].max()), _SLICE).tolist():
         near = links[(heights > low) & (heights <= low + _SLICE)]
@@ -123,7 +121,6 @@ def _links_met(links: Array, shoe: Array, p: ShoeParameters) -> int:
 
 
 def _undercut(shoe: Array, retention: Retention, p: ShoeParameters) -> float:
-    """Area of what a left shoe has over the place of the foot within the wall's height, section over section."""
     half = 0.5 * retention.width + _BESIDE
     kept = [shapely.box(q.x - half, 0.0, q.x + half, q.side * 1e3) for q in retention.places]
     levels = np.unique(shoe[..., 2].round(3))
@@ -141,7 +138,6 @@ def _undercut(shoe: Array, retention: Retention, p: ShoeParameters) -> float:
 
 
 def _gap(foot: Foot, height: float, solid: Any) -> float:
-    """Smallest distance between the foot at a height above the floor and a section of the shoe there."""
     if foot.triangles is None:
         return float(foot.sole.distance(solid))
     segments, _ = cut_segments(foot.triangles, height + 1e-5)
@@ -169,7 +165,6 @@ def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
 
 
 def _play(outline: Any, solid: Any) -> float:
-    """Largest distance of the hole's border in a section from the foot's outline."""
     holes = [shapely.Polygon(h) for part in getattr(solid, "geoms", [solid]) for h in part.interiors]
     around = [h for h in holes if h.covers(outline)]
     if around:

@@ -34,11 +34,10 @@ class Printing:
     """A part on the printer's bed.
 
     Attributes:
-        direction: How it lies, one of BUILD_DIRECTIONS.
-        overhang: Area that faces down by more than 45 degrees and is no bridge, in mm^2.
-        bridges: Area of flat ceilings that are no wider than the printer bridges, in mm^2.
+        direction: One of BUILD_DIRECTIONS.
+        overhang: Area in mm^2 that faces down by more than 45 degrees and is no bridge.
+        bridges: Area in mm^2 of flat ceilings no wider than the printer bridges.
         size: Extent (3,) on the bed: longer, shorter side and height.
-        fits: Whether it fits the printer.
     """
 
     direction: str
@@ -49,14 +48,8 @@ class Printing:
 
 
 def choose_direction(triangles: Array, parameters: ShoeParameters) -> tuple[Printing, ...]:
-    """How a part lies on the bed, the best first: that fits, has the least overhang, height and area of bridges.
-
-    Args:
-        triangles: Closed surface (n, 3, 3), outward counter-clockwise.
-        parameters: The printer's bed and the widest bridge.
-
-    Returns:
-        Every direction.
+    """Gives how triangles (n, 3, 3), closed, lie on the bed by the printer's parameters, the best first: fits, least
+    overhang, height, bridges.
     """
     found = [_printing(name, triangles, parameters) for name in BUILD_DIRECTIONS]
     return tuple(sorted(found, key=lambda f: (not f.fits, round(f.overhang, 0), f.size[2], round(f.bridges, 0))))
@@ -74,7 +67,6 @@ def _printing(name: str, triangles: Array, p: ShoeParameters) -> Printing:
 
 
 def _overhang(triangles: Array, bridge_max: float) -> tuple[float, float]:
-    """Area of overhangs and of bridges in mm^2, with z up."""
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     double = np.linalg.norm(cross, axis=1)
     keep = double > 1e-9
@@ -99,15 +91,8 @@ def _overhang(triangles: Array, bridge_max: float) -> tuple[float, float]:
 
 
 def print_hours(volume: float, height: float, flow: float) -> float:
-    """Estimate of the time to print a part.
-
-    Args:
-        volume: Volume in mm^3, printed solid.
-        height: Height on the bed in mm.
-        flow: Material laid down in mm^3/s.
-
-    Returns:
-        Hours: volume over flow, and 6 s for each layer of 0.2 mm.
+    """Gives the estimated hours to print a volume in mm^3 of a height in mm: volume over flow in mm^3/s, and 6 s for
+    each layer of 0.2 mm.
 
     Example:
         >>> round(print_hours(239_000.0, 28.5, 8.0), 1)

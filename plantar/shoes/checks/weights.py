@@ -18,14 +18,7 @@ BOARD_UP = 12.0
 
 @dataclass(frozen=True)
 class Weights:
-    """What one shoe weighs, in g.
-
-    Attributes:
-        printed: The printed part.
-        pad: The silicone pad.
-        skin: The taxels: their area times protrusion and pocket depth at the parameter skin_density.
-        board: The connection board.
-    """
+    """Masses of one shoe in g: print, pad, taxels (their area times protrusion and pocket depth) and board."""
 
     printed: float
     pad: float
@@ -43,16 +36,7 @@ class Weights:
 
 
 def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
-    """Weigh a shoe.
-
-    Args:
-        shoe: The shoe.
-        build: What it belongs to.
-        volume: Volume of the printed part in mm^3.
-
-    Returns:
-        The masses.
-    """
+    """Gives the masses of a shoe of a build with a printed volume in mm^3."""
     p = build.parameters
     pad = volume_of(pad_surface(shoe.plan, p)) if p.pad_thickness > 0.0 else 0.0
     board = p.board_length * BOARD_UP * p.board_thickness * _BOARD_DENSITY if shoe.plan.heel.board else 0.0
@@ -65,7 +49,6 @@ def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
 
 
 def _skin(shoe: Shoe, p: ShoeParameters) -> float:
-    """Volume in mm^3 of the taxels: heads and bases, or the bodies of films and sheets."""
     plan = shoe.plan
     if plan.cell is not None and plan.lands:
         return float(sum(q.area for q in plan.pockets)) * plan.cell.thickness

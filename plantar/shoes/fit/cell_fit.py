@@ -51,9 +51,9 @@ def fit_cells(
         foot: Outline of the foot below the rim's upper edge, a shapely polygon.
         cell: The cell.
         rib: Wall between two pockets.
-        taxels: Number of cells, which may reach beyond the foot; None takes as many as fit; of a sheet always None.
-        overhang: How far cells may reach beyond the outline where `taxels` is None; the least where it is given.
-        overhang_max: How far the shoe may reach beyond the outline.
+        taxels: Number of cells; None takes as many as fit; of a sheet always None.
+        overhang: Allowed reach of cells beyond the outline without `taxels`; the least with them.
+        overhang_max: Allowed reach of the shoe beyond the outline.
         border: Plate beyond the cells.
 
     Returns:
@@ -111,7 +111,6 @@ def _note(cell: Cell, pattern: CellPattern) -> str:
 
 
 def _placed(lattice: Lattice, axial: NDArray[np.int64], shape: Array) -> tuple[Array, ...]:
-    """A shape (k, 2) about the centre of each cell."""
     if isinstance(lattice, RowLattice):
         return tuple(lattice.shapes(axial, shape))
     c, s = math.cos(lattice.angle), math.sin(lattice.angle)
@@ -121,7 +120,7 @@ def _placed(lattice: Lattice, axial: NDArray[np.int64], shape: Array) -> tuple[A
 def _links(
     pattern: CellPattern, lattice: Lattice, axial: NDArray[np.int64], pockets: tuple[Array, ...]
 ) -> tuple[tuple[int, int], ...]:
-    """Pairs of cells between whose middles lie no other cell's pocket and less than two pitches: where a cable goes."""
+    """Pairs of cells less than two pitches apart with no pocket between them: where a cable can run."""
     centres = lattice.centres(axial)
     far = 1.01 * max(pattern.width, math.hypot(0.5 * pattern.width, pattern.rise), pattern.rise)
     gaps = np.hypot(*(centres[:, None] - centres[None]).transpose(2, 0, 1))
@@ -134,7 +133,6 @@ def _links(
 
 
 def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, border: float) -> TaxelFit:
-    """Crossings of a sheet whose electrodes lie inside the face, with what lies around each."""
     edge = region.buffer(-cell.play - 0.5 * rib, join_style="mitre")
     sheet = tidy(edge) if not edge.is_empty else edge
     inside = sheet.buffer(-cell.edge, join_style="mitre")
@@ -184,7 +182,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
 
 
 def _crossings(region: Any, inside: Any, cell: Cell) -> Array:
-    """Crossings (n, 2) of the lines that have most of their electrodes inside."""
+    """Crossings (n, 2) of the offset with the most electrodes inside."""
     half = 0.5 * cell.line_width
     low_x, low_y, high_x, high_y = region.bounds
     most = (high_x - low_x) / cell.pitch_x + (high_y - low_y) / cell.pitch_y

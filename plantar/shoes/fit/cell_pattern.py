@@ -1,7 +1,7 @@
-"""How cells repeat over a sole: the room that one takes, and the lattice of its copies. Lengths in mm.
+"""How cells repeat over a sole: the room of one, and the lattice of its copies. Lengths in mm.
 
-The room of a cell is a union of convex parts about its centre: the hexagon or rectangle of a tile, or a film's pocket
-with its tail and half a rib around it. Rows are `rise` apart; each is shifted by `shift` against the one before.
+A room is a union of convex parts about the cell's centre: a tile's hexagon or rectangle, or a film's pocket with its
+tail and half a rib around it. Rows are `rise` apart; each is shifted by `shift` against the one before.
 """
 
 from __future__ import annotations
@@ -54,17 +54,11 @@ class Lattice(Protocol):
         """Centres (n, 2) of cells (n, 2) in mm."""
 
     def corners(self, axial: Any) -> Array:
-        """Corners (n, k, 2) of the room that cells take, in mm."""
+        """Corners (n, k, 2) of cells' rooms in mm."""
 
     def cells_near(self, lower: Any, upper: Any) -> NDArray[np.int64]:
-        """Cells (n, 2) whose centres lie within about one cell of a box.
-
-        Args:
-            lower: Lower corner (2,) of the box in mm.
-            upper: Its upper corner.
-
-        Returns:
-            The cells.
+        """Gives cells (n, 2) whose centres lie within about one cell of a box with corners lower (2,) and upper (2,) in
+        mm.
         """
 
 
@@ -76,8 +70,8 @@ class CellPattern:
         width: From centre to centre within a row.
         rise: From row to row.
         shift: Of a row against the one before, 0 or half of `width`.
-        parts: Corners (k, 2) of the convex parts of a cell's room about its centre, rows along x.
-        period: Angle in rad by which the lattice and its cells repeat when they are turned.
+        parts: Corners (k, 2) of the convex parts of a room about its centre, rows along x.
+        period: Angle in rad by which lattice and cells repeat when turned.
         hexagon: Area of a cell in mm^2 where the room is that of a `HexLattice`; else None.
     """
 
@@ -89,44 +83,30 @@ class CellPattern:
     hexagon: float | None = None
 
     def at(self, origin: tuple[float, float], angle: float) -> Lattice:
-        """The lattice at a place.
-
-        Args:
-            origin: Centre of cell (0, 0).
-            angle: Of the rows in rad.
-
-        Returns:
-            The lattice.
-        """
+        """Gives the lattice with cell (0, 0) at an origin and its rows at an angle in rad."""
         if self.hexagon is not None:
             return HexLattice(self.hexagon, origin, angle)
         return RowLattice(self, origin, angle)
 
     @cached_property
     def room(self) -> Any:
-        """The room of a cell about its centre, a shapely polygon."""
+        """Room of a cell about its centre, a shapely polygon."""
         return joined(self.parts)
 
     @property
     def reach(self) -> float:
-        """Farthest point of a cell's room from its centre."""
+        """Farthest point of a room from its centre."""
         return max(float(np.hypot(*p.T).max()) for p in self.parts)
 
     @property
     def area(self) -> float:
-        """Area of a cell's room in mm^2."""
+        """Area of a room in mm^2."""
         return float(self.hexagon if self.hexagon is not None else self.room.area)
 
 
 @dataclass(frozen=True)
 class RowLattice:
-    """A placed lattice of any cells.
-
-    Attributes:
-        pattern: The cells.
-        origin: Centre of cell (0, 0).
-        angle: Of the rows in rad.
-    """
+    """A placed lattice of any cells, with the centre of cell (0, 0) at `origin` and rows at `angle` in rad."""
 
     pattern: CellPattern
     origin: tuple[float, float]
@@ -148,30 +128,16 @@ class RowLattice:
         return self._placed(self._flat(axial))
 
     def corners(self, axial: Any) -> Array:
-        """Corners (n, k, 2) of the room that cells take, in mm."""
+        """Corners (n, k, 2) of cells' rooms in mm."""
         return self.shapes(axial, ring(self.pattern.room))
 
     def shapes(self, axial: Any, shape: Array) -> Array:
-        """A shape about the centre of each cell.
-
-        Args:
-            axial: The cells (n, 2).
-            shape: Corners (k, 2) about the centre in mm, rows along x.
-
-        Returns:
-            Corners (n, k, 2) in mm.
-        """
+        """Gives the corners (n, k, 2) of a shape (k, 2) about the centres of axial cells (n, 2), rows along x."""
         return self._placed(self._flat(axial)[:, None, :] + shape)
 
     def cells_near(self, lower: Any, upper: Any) -> NDArray[np.int64]:
-        """Cells (n, 2) whose centres lie within about one cell of a box.
-
-        Args:
-            lower: Lower corner (2,) of the box in mm.
-            upper: Its upper corner.
-
-        Returns:
-            The cells, by row.
+        """Gives cells (n, 2), by row, whose centres lie within about one cell of a box with corners lower (2,) and
+        upper (2,).
         """
         p = self.pattern
         box = np.array([[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]])
@@ -204,17 +170,17 @@ def hex_pattern(area: float) -> CellPattern:
 
 
 def pattern_of(cell: Cell, rib: float) -> CellPattern:
-    """How a cell repeats: as it states, or as near to each other as the ribs allow.
+    """How a tile or film repeats: as stated, or as near to each other as the ribs allow.
 
     Args:
-        cell: A tile or a film.
+        cell: The cell.
         rib: Wall between two pockets.
 
     Returns:
         The pattern.
 
     Raises:
-        FootError: If the pitch that the cell states leaves a thinner rib.
+        FootError: If the stated pitch leaves a thinner rib.
 
     Example:
         >>> fsr = Cell(shape="round", size=18.0, thickness=0.5, play=0.0)
@@ -238,7 +204,6 @@ def pattern_of(cell: Cell, rib: float) -> CellPattern:
 
 
 def _pitch(cell: Cell, axis: str, least: float, rib: float) -> float:
-    """The pitch along an axis: the least, or what the cell states where that is no less."""
     stated: float = getattr(cell, f"pitch_{axis}", 0.0)
     if stated and stated < least - 1e-6:
         raise FootError(
@@ -249,7 +214,7 @@ def _pitch(cell: Cell, axis: str, least: float, rib: float) -> float:
 
 
 def _least_rise(parts: Sequence[Array], width: float, shift: float, height: float) -> float:
-    """How near to each other rows may be: rooms are convex across the rows, so that they part once."""
+    """Smallest distance of rows: rooms are convex across the rows, so that bisection finds it."""
     if not shift:
         return float(height)
     room = shapely.union_all([shapely.Polygon(p) for p in parts])
@@ -269,7 +234,6 @@ def _least_rise(parts: Sequence[Array], width: float, shift: float, height: floa
 
 
 def _period(cell: Cell, width: float, rise: float, shift: float) -> float:
-    """Angle in rad by which the lattice with its cells repeats."""
     if cell.tail_length:
         return 2.0 * math.pi
     if cell.shape == "round" and shift and abs(rise - 0.5 * math.sqrt(3.0) * width) < 1e-3:
@@ -279,11 +243,11 @@ def _period(cell: Cell, width: float, rise: float, shift: float) -> float:
 
 
 def pocket_parts(cell: Cell, around: float = 0.0) -> tuple[Array, ...]:
-    """Convex parts of a cell's pocket about the middle of its body: the body, its tail, and the play around them.
+    """Convex parts of a tile's or film's pocket about the middle of its body: body and tail with play.
 
     Args:
-        cell: A tile or a film.
-        around: How much more.
+        cell: The cell.
+        around: Room added all around.
 
     Returns:
         Corners (k, 2) of each, counter-clockwise, rows along x; a circle's polygon holds the circle.
@@ -299,13 +263,13 @@ def pocket_parts(cell: Cell, around: float = 0.0) -> tuple[Array, ...]:
 
 
 def joined(parts: Sequence[Array]) -> Any:
-    """Convex parts (k, 2) that overlap as one shapely polygon, counter-clockwise and without needless corners."""
+    """Overlapping convex parts (k, 2) as one shapely polygon, counter-clockwise."""
     shape = shapely.union_all([shapely.Polygon(p) for p in parts], grid_size=1e-6)
     return shapely.geometry.polygon.orient(shape.simplify(1e-6))
 
 
 def active_shape(cell: Cell) -> Array:
-    """Corners (k, 2) of a film's active area about the middle of its body; of a circle's area."""
+    """Corners (k, 2) of a film's active area about the middle of its body; of equal area for a circle."""
     along, across = cell.felt
     if cell.shape == "round":
         equal = math.sqrt(2.0 * math.pi / (_SIDES * math.sin(2.0 * math.pi / _SIDES))) * math.cos(math.pi / _SIDES)

@@ -1,9 +1,8 @@
-"""A fine rim: a row of smaller cells along the edge, so that a load near it is given near it. Lengths in mm.
+"""A fine rim: a row of smaller cells along the edge, so that a load near it is measured near it. Lengths in mm.
 
-Whole cells end half a cell before the edge, and what presses beyond their centres counts as acting at them. Here a
-strip of one depth follows the edge, cut into cells across it; inside of the strip lies the lattice, its cells whole or
-trimmed there. The strip is as deep as the blind rim allows, since its cells' middles lie half its depth from the edge;
-a sharp corner has its own cell, between the perpendiculars from the strip's inner corner to both edges.
+A strip of one depth follows the edge, cut into cells across it; inside lies the lattice, its cells whole or trimmed.
+The strip is as deep as the blind rim allows, since its cells' middles lie half its depth from the edge. A sharp corner
+has its own cell, between the perpendiculars from the strip's inner corner to both edges.
 """
 
 from __future__ import annotations
@@ -41,14 +40,14 @@ Array = NDArray[np.float64]
 
 
 def blind_rim(face: Any, centres: Array) -> float:
-    """Widest place in mm of a face beyond the hull of cell centres.
+    """Widest place of a face beyond the hull of cell centres.
 
     Args:
         face: The contact face, a shapely polygon.
         centres: Centres (n, 2) of the cells.
 
     Returns:
-        The distance from the hull to the farthest corner of the face.
+        Distance in mm from the hull to the face's farthest corner.
 
     Example:
         >>> import shapely
@@ -60,7 +59,7 @@ def blind_rim(face: Any, centres: Array) -> float:
 
 
 def strip_cells(region: Any, face: Any, cell_area: float) -> tuple[tuple[Array, ...], Any]:
-    """Cells along the edge of a region: the fewest, together with those inside, that the blind rim allows.
+    """Cells along the edge of a region: the fewest, with those inside, that the blind rim allows.
 
     Args:
         region: Where cells may be, a shapely polygon.
@@ -68,10 +67,10 @@ def strip_cells(region: Any, face: Any, cell_area: float) -> tuple[tuple[Array, 
         cell_area: Area of a whole cell in mm^2.
 
     Returns:
-        Corners (k, 2) of each cell, counter-clockwise, once around; and what they leave inside, a shapely polygon.
+        Corners (k, 2) of each cell, counter-clockwise, once around; and the shapely polygon inside of them.
 
     Raises:
-        FootError: If no such cells of a size that can be made leave a blind rim of BLIND_MOST.
+        FootError: If no cells that can be made leave a blind rim of BLIND_MOST.
     """
     found: list[tuple[float, list[Any], Any]] = []
     edge = shapely.geometry.polygon.orient(shapely.Polygon(region.exterior).simplify(_DETAIL))
@@ -96,7 +95,7 @@ def strip_cells(region: Any, face: Any, cell_area: float) -> tuple[tuple[Array, 
 
 
 class _Line:
-    """A closed line, its places told by the way along it from its first corner."""
+    """A closed line; a place on it is the way from its first corner."""
 
     def __init__(self, polygon: Any) -> None:
         self.ring = polygon.exterior
@@ -107,21 +106,18 @@ class _Line:
         self.headings = np.arctan2(steps[:, 1], steps[:, 0])
 
     def turns(self) -> Array:
-        """How far (k,) the line turns left at each corner in rad."""
         return np.asarray((self.headings - np.roll(self.headings, 1) + np.pi) % (2.0 * np.pi) - np.pi)
 
     def nearest(self, point: Array) -> float:
-        """The place nearest to a point, or the corner that is as good as there."""
+        """The place nearest to a point, snapped to a near corner."""
         at = float(self.ring.project(shapely.Point(point)))
         off = np.abs(self.starts - at)
         return float(self.starts[int(off.argmin())]) % self.length if off.min() < _SNAP else at
 
     def at(self, place: float) -> Array:
-        """The point of a place."""
         return np.array(self.ring.interpolate(place % self.length).coords[0])
 
     def between(self, start: float, end: float) -> Array:
-        """Points (k, 2) from one place on to another, with the corners between."""
         end = end if end >= start - 1e-9 else end + self.length
         around = np.concatenate([self.starts[:-1], self.starts[:-1] + self.length])
         passed = np.flatnonzero((around > start + 1e-6) & (around < end - 1e-6)) % len(self.points)
@@ -129,7 +125,6 @@ class _Line:
 
 
 def _strip(edge: Any, inside: Any, depth: float, length: float) -> list[Any]:
-    """The strip between two rings, cut into cells of about a length along it."""
     inner, outer = _Line(inside), _Line(edge)
     cuts = _cuts(inner, outer, depth, length)
     cells = []
@@ -144,7 +139,6 @@ def _strip(edge: Any, inside: Any, depth: float, length: float) -> list[Any]:
 
 
 def _cuts(inner: _Line, outer: _Line, depth: float, length: float) -> list[tuple[float, float]]:
-    """Where the strip is cut: places along its inner and its outer ring, once around."""
     turns = inner.turns()
     sharp = np.flatnonzero(turns > _SHARP)
     fixed = inner.starts[sharp].tolist() or [0.0]
@@ -165,7 +159,7 @@ def _cuts(inner: _Line, outer: _Line, depth: float, length: float) -> list[tuple
 
 
 def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
-    """Cells inside of a strip: of the lattice with the most whole ones, and trimmed ones; and the whole ones' bound."""
+    """Cells of the lattice with the most whole ones inside of a strip, whole or trimmed; the lattice and its bound."""
     clear = inside.buffer(-_CLEAR, join_style="mitre")
     try:
         fit = fit_lattice(clear, cell_area=cell_area)
@@ -193,11 +187,11 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
     Args:
         foot: Outline of the foot below the rim's upper edge, a shapely polygon.
         cell_area: Area of a whole cell in mm^2.
-        overhang: How far cells may reach beyond the outline in mm.
+        overhang: Allowed reach of cells beyond the outline in mm.
         border: Plate beyond the cells in mm.
 
     Returns:
-        The cells, from heel to toes; of the whole ones the bound is that of what the strip leaves inside.
+        The cells, from heel to toes; the bound is that of the whole ones inside of the strip.
 
     Raises:
         InputError: If the area is out of its range.

@@ -1,13 +1,12 @@
-"""Proven upper bound on the whole cells that any placement of the lattice puts inside an outline. Lengths in mm.
+"""Proven upper bound on the whole cells that any placement of a lattice puts inside an outline. Lengths in mm.
 
-Branch and bound over the placements: the offset of the lattice within its unit cell and its angle within its period
-(60 degrees of hexagons: a lattice repeats beyond both). A cell is inside an outline when it is inside the half planes
-of the outline's convex hull and outside the triangles that fill the pockets of that; each condition is a distance,
-the slack, that grows by at most as much as the cell moves. Within a box of placements no point of a cell moves farther
-from where it is at the box's middle than `reach` = half the box's diagonal + (distance of the cell's farthest point
-from the centre of rotation) x half the box's angle. So a cell whose slack at the middle is below -reach is outside for
-the whole box, and the number of the others bounds the box. Boxes that cannot hold more than what is known are dropped,
-the others are halved along each axis, those that may hold the most first, until none is left or the budget is spent.
+Branch and bound over offset (within the unit cell) and angle (within the period). A cell is inside if it is inside the
+half planes of the convex hull and outside the triangles that fill the hull's pockets; each condition's slack changes by
+at most the cell's motion. Within a box of placements no point of a cell moves by more than `reach` = half the box's
+diagonal + (distance of the cell's farthest point from the centre of rotation) x half the box's angle. So cells with a
+slack below -reach at the middle are outside for the whole box, and the number of the others bounds it. Boxes that
+cannot beat the best known are dropped; the others are halved along each axis, the most promising first, until none is
+left or the budget is spent.
 """
 
 from __future__ import annotations
@@ -39,16 +38,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class CellBound:
-    """What was proven.
+    """The proven bound.
 
     Attributes:
-        bound: No placement holds more whole cells than this.
-        best: Whole cells of the best placement seen, which may leave the outline by some hundredths of a mm, or by 0.3
-            mm where it has more than 40 corners and is looked at with less detail.
+        bound: Whole cells that no placement exceeds.
+        best: Whole cells of the best placement seen; it may leave the outline by hundredths of a mm, or by 0.3 mm where
+            that has more than 40 corners.
         origin: Centre of a cell of that placement in mm.
         angle: Angle of its rows in rad.
         boxes: Boxes of placements that were looked at.
-        angles: Angles in rad at which more cells than the best may fit: of the boxes left over.
+        angles: Angles in rad of the boxes left over, at which more may fit.
     """
 
     bound: int
@@ -65,11 +64,11 @@ def bound_whole_cells(region: Any, pattern: CellPattern, *, known: int = 0, shar
     Args:
         region: Outline, a shapely polygon without holes in mm.
         pattern: The cells.
-        known: Number of cells of a placement that is known: less is of no interest.
-        share: The search ends when the best is proven to be at least this share of the bound; 1 proves the best.
+        known: Cells of a known placement.
+        share: The search ends at a best of this share of the bound; 1 proves the best.
 
     Returns:
-        The bound and the best placement seen; `best` is 0 where none better than `known` was met.
+        The bound and the best placement seen; `best` is 0 if none beats `known`.
 
     Example:
         >>> import shapely
@@ -172,7 +171,6 @@ class _Outline:
 
     @property
     def conditions(self) -> int:
-        """Conditions that are looked at for one placement, about."""
         return len(self.cells) * (len(self.normals) + 3 * len(self.triangles))
 
     def counts(self, boxes: Array, half: Array, wanted: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -200,7 +198,7 @@ class _Outline:
         return np.where(possible > wanted, (slack >= 0.0).sum(axis=1), 0), possible
 
     def _clear_of_triangles(self, turn: Array, offset: Array) -> Array:
-        """How far each cell (b, n) is clear of the triangles; negative where it enters one (separating axes)."""
+        """Clearance of each cell (b, n) from the triangles; negative where it enters one (separating axes)."""
         corners = np.einsum("bij,tkj->btki", turn, self.triangles)
         edge = np.roll(corners, -1, axis=2) - corners
         first, second = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
@@ -220,12 +218,10 @@ class _Outline:
 
 
 def _reach(directions: Array, part: Array) -> Array:
-    """How far a part (k, 2) reaches from the cell's centre along unit directions (..., 2)."""
     return np.asarray((directions @ part.T).max(axis=-1))
 
 
 def _faces(part: Array) -> tuple[Array, Array]:
-    """Outward normals (k, 2) of a convex part (k, 2), and how far its edges lie along them from the cell's centre."""
     edge = np.roll(part, -1, axis=0) - part
     normal = np.column_stack([edge[:, 1], -edge[:, 0]]) / np.hypot(*edge.T)[:, None]
     return normal, np.einsum("ki,ki->k", normal, part)

@@ -36,12 +36,11 @@ class LatticeFit:
     """A placement of the lattice and the cells that are kept.
 
     Attributes:
-        lattice: The lattice, with lengths in mm; of hexagons a `HexLattice`.
         cells: Axial coordinates (n, 2) of the kept cells, row by row.
-        overhang: How far a cell may reach beyond the sole's outline in mm, as used.
-        covered: Area of the sole's outline that lies under a kept cell in mm^2.
+        overhang: Allowed reach of a cell beyond the sole's outline in mm, as used.
+        covered: Area of the sole under kept cells in mm^2.
         covered_area_ratio: `covered` over the sole's area, 0..1.
-        bound: Proven: no placement, at any offset and angle, holds more whole cells with this overhang.
+        bound: Proven: no placement holds more whole cells with this overhang.
     """
 
     lattice: Lattice
@@ -54,8 +53,6 @@ class LatticeFit:
 
 @dataclass(frozen=True)
 class _Candidate:
-    """One placement during the search: the lattice, its cells, and what it is judged by."""
-
     lattice: Lattice
     cells: NDArray[np.int64]
     covered: float
@@ -78,7 +75,7 @@ def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: 
         angle: Rotation of the cell in rad.
 
     Returns:
-        A shapely polygon, multipolygon, or an empty geometry; a cell may leave the region by a micrometre.
+        A shapely geometry, possibly empty; a cell may leave the region by a micrometre.
 
     Example:
         >>> import shapely
@@ -95,7 +92,6 @@ def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: 
 
 
 def _swept(points: NDArray[np.float64], part: NDArray[np.float64]) -> Any:
-    """Where a part's centre may not lie along each edge of a ring: what the part, turned about, sweeps there."""
     swept = np.concatenate([points[:-1, None] - part, points[1:, None] - part], axis=1)
     return shapely.convex_hull(shapely.multipoints(swept))
 
@@ -109,23 +105,19 @@ def fit_lattice(
     overhang_max: float = 0.0,
     pattern: CellPattern | None = None,
 ) -> LatticeFit:
-    """Place the lattice so that the most whole cells lie inside a sole.
+    """Place the lattice so that the most whole cells lie inside a sole; deterministic.
 
-    At every fifth degree (each fifteenth where cells have a tail) the best offset is found exactly; then
-    `bound_whole_cells` looks at all others, and what is better there is taken. Ties are decided by straight rows (along
-    or across the foot before others), by the area of the sole
-    under the cells plus that inside their convex hull (the support polygon they can show), and by how near the patch's
-    centre is to the sole's.
-    With `taxels` the overhang is the smallest, in steps of 0.5 mm, at which so many fit, and cells that cover the least
-    of the sole are left out. The same input gives the same placement.
+    At every fifth degree (fifteenth for cells with a tail) the best offset is found exactly; `bound_whole_cells` looks
+    between. Ties are decided by straight rows, by the area under the cells plus that inside their convex hull, and by
+    the patch's distance from the sole's centre.
 
     Args:
         sole: Outline of the sole, a shapely polygon in mm.
         cell_area: Area of a cell in mm^2.
-        taxels: Number of cells; None takes as many as fit.
-        overhang: How far cells may reach beyond the outline in mm where `taxels` is None; the least where it is given.
-        overhang_max: The most overhang in mm that `taxels` may take.
-        pattern: Other cells than hexagons; `cell_area` is not read then.
+        taxels: Number of cells, with the least overhang in steps of 0.5 mm; None takes as many as fit.
+        overhang: Allowed reach of cells beyond the outline in mm without `taxels`; the least with them.
+        overhang_max: The most overhang in mm with `taxels`.
+        pattern: Other cells than hexagons, in place of `cell_area`.
 
     Returns:
         The placement.
@@ -161,7 +153,6 @@ def fit_lattice(
 
 
 def _least_overhang(sole: Any, pattern: CellPattern, taxels: int, overhang: float, overhang_max: float) -> float:
-    """The smallest overhang in mm at which enough cells fit, by bisection over its steps."""
     steps = max(0, math.floor((overhang_max - overhang) / _OVERHANG_STEP + 1e-9))
 
     def most(step: int) -> int:
@@ -195,10 +186,7 @@ class _Scan:
 
 
 def _scan(sole: Any, pattern: CellPattern, overhang: float, angles: Sequence[float] | None = None) -> list[_Scan]:
-    """Count whole cells at angles (in rad), at lattice origins among which is the best of that angle.
-
-    Where none are given: those of `_angles`, and rows along and across the outline's long edges.
-    """
+    """Count whole cells at angles (rad), at lattice origins among which is the best of that angle."""
     region = sole.buffer(overhang) if overhang > 0.0 else sole
     out = []
     known = _angles(pattern)
@@ -218,14 +206,12 @@ def _scan(sole: Any, pattern: CellPattern, overhang: float, angles: Sequence[flo
 
 
 def _straight(pattern: CellPattern) -> list[float]:
-    """Angles in degrees of rows along and across the foot."""
     period = float(round(math.degrees(pattern.period)))
     return list(dict.fromkeys(k * 90.0 % period for k in range(4)))
 
 
 def _angles(pattern: CellPattern) -> list[float]:
-    """Lattice angles in degrees that are looked at, in the order in which ties are decided: straight ones, halves
-    between them, then every step until the lattice repeats."""
+    """Lattice angles in degrees in the order of ties: straight ones, halves between them, then every step."""
     period = round(math.degrees(pattern.period))
     steps = [float(a) for a in range(0, period, _TAILED_STEP if period == 360 else _ANGLE_STEP)]
     straight = _straight(pattern)
@@ -234,8 +220,7 @@ def _angles(pattern: CellPattern) -> list[float]:
 
 
 def _edge_angles(sole: Any, pattern: CellPattern) -> list[float]:
-    """Angles in rad of rows along and across the outline's long edges, but for those of `_angles`; the longest
-    first."""
+    """Further angles in rad, of rows along and across the outline's long edges, the longest first."""
     period = float(round(math.degrees(pattern.period)))
     points = np.array(sole.exterior.coords)
     edge = np.diff(points, axis=0)
@@ -253,12 +238,11 @@ def _edge_angles(sole: Any, pattern: CellPattern) -> list[float]:
 
 
 def _most(scans: list[_Scan]) -> int:
-    """Most whole cells at any of the origins and angles."""
     return max((int(s.counts.max()) for s in scans), default=0)
 
 
 def _placements(sole: Any, pattern: CellPattern, taxels: int | None, scans: list[_Scan]) -> list[_Candidate]:
-    """Placements worth comparing: with the most whole cells, or with `taxels` (the next more, cut down to them)."""
+    """Placements worth comparing: with the most whole cells, or the fewest that hold `taxels`, reduced to them."""
     most = _most(scans)
     if not most:
         return []
@@ -278,7 +262,6 @@ def _placements(sole: Any, pattern: CellPattern, taxels: int | None, scans: list
 
 
 def _sampled_offsets(pattern: CellPattern, angle: float) -> NDArray[np.float64]:
-    """Lattice origins (k, 2) that sample one unit cell of the lattice."""
     share = np.arange(_COARSE) / _COARSE
     u, v = np.meshgrid(share * pattern.width, share * pattern.rise)
     c, s = math.cos(angle), math.sin(angle)
@@ -288,8 +271,8 @@ def _sampled_offsets(pattern: CellPattern, angle: float) -> NDArray[np.float64]:
 def _critical_offsets(allowed: Any, pattern: CellPattern, lattice: Lattice) -> NDArray[np.float64]:
     """Lattice origins (k, 2) at which one cell is tight at a corner of the allowed area, or two at its edges.
 
-    The number of cells at an origin is the number of copies of the allowed area, moved by lattice vectors, that hold
-    the origin. The most copies overlap at a corner of one or where the edges of two cross: the best is among these.
+    The count at an origin is the number of copies of the allowed area, moved by lattice vectors, that hold it. It is
+    largest at a corner of one or where the edges of two cross: the best is among these.
     """
     edge = allowed.boundary
     shifts = _difference_vectors(allowed, lattice)
@@ -318,7 +301,6 @@ def _difference_vectors(allowed: Any, lattice: Lattice) -> NDArray[np.float64]:
 
 
 def _count(allowed: Any, lattice: Lattice, offsets: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Number of whole cells (k,) at each lattice origin (k, 2)."""
     centres = _near_centres(allowed, lattice)[1]
     x = centres[None, :, 0] + offsets[:, None, 0]
     y = centres[None, :, 1] + offsets[:, None, 1]
@@ -339,7 +321,6 @@ def _cells_inside(allowed: Any, lattice: Lattice, pattern: CellPattern) -> NDArr
 
 
 def _covered_of_cells(sole: Any, lattice: Lattice, cells: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Area (n,) of the sole under each cell in mm^2."""
     return np.asarray(shapely.area(shapely.intersection(shapely.polygons(lattice.corners(cells)), sole)))
 
 
@@ -352,7 +333,6 @@ def _candidate(sole: Any, lattice: Lattice, cells: NDArray[np.int64], rank: int,
 
 
 def _reduced(sole: Any, lattice: Lattice, cells: NDArray[np.int64], taxels: int) -> NDArray[np.int64]:
-    """The cells that cover the most of the sole; ties: the nearest to its centre."""
     covered = np.round(_covered_of_cells(sole, lattice, cells), 3)
     centres = lattice.centres(cells)
     far = np.round(np.hypot(centres[:, 0] - sole.centroid.x, centres[:, 1] - sole.centroid.y), 3)

@@ -44,23 +44,21 @@ class TaxelFit:
 
     Attributes:
         cells: Corners (k, 2) of each cell, counter-clockwise; row by row.
-        shares: Area (n,) of each over a whole cell's, 1 where it is whole.
-        lattice: Placement of the lattice.
+        shares: Area (n,) of each over a whole cell's.
         cell_area: Area of a whole cell in mm^2.
-        overhang: How far a cell may reach beyond the foot's outline, as used.
+        overhang: Allowed reach of a cell beyond the foot's outline, as used.
         covered: Area of the sole under the cells in mm^2.
         covered_area_ratio: `covered` over the sole's area, 0..1.
         bound: Proven: no placement holds more whole cells with this overhang; None of a sheet.
-        border: Border around the cells that this leaves room for.
-        lattice_cells: Axial coordinates (n, 2), where all cells are whole; else None.
-        notes: What was done to make them fit.
-        blind_most: Widest blind rim in mm that was asked for; None where none was.
-        cell: What a cell's body is; None of the hexagons of skin that `--cell-area` sizes.
+        border: Border left around the cells.
+        lattice_cells: Axial coordinates (n, 2) where all cells are whole; else None.
+        blind_most: Widest blind rim in mm that was requested, if any.
+        cell: The cell's body; None of hexagons of skin.
         pockets: Corners (k, 2) of the pockets, of a sheet of its one recess; None where they follow from the cells.
-        rooms: Corners (k, 2) of what the plate has to hold around them; None where that is the cells.
-        links: Pairs of cells between which a cable can run straight; None where those are the neighbours.
+        rooms: Corners (k, 2) that the plate has to hold; None for the cells.
+        links: Pairs of cells between which a cable can run straight; None for the neighbours.
         lines: Row and column (n, 2) of a sheet's cells; else None.
-        crossings: Where (n, 2) these cross; else None.
+        crossings: Crossings (n, 2) of these; else None.
     """
 
     cells: Cells
@@ -99,17 +97,17 @@ def fit_taxels(
 ) -> TaxelFit:
     """Fit taxels to the face of a shoe that meets the ground.
 
-    As many whole cells as fit, or a number of them: that may reach beyond the foot, as little as it can; where it does
-    not fit with the border, the border is left out, and where it still does not, cells at the rim are cut.
+    As many whole cells as fit, or a given number with the least overhang; if these do not fit, first the border
+    shrinks, then cells at the rim are cut.
 
     Args:
-        foot: Outline of the foot below the rim's upper edge, a shapely polygon: the plate below it is rigid, so that
-            taxels belong wherever it meets the ground, not only below what of the foot touches.
+        foot: Outline of the foot below the rim's upper edge, a shapely polygon: the rigid plate meets the ground
+            everywhere below it.
         cell_area: Area of a cell in mm^2.
         taxels: Number of cells; None takes as many whole ones as fit.
-        overhang: How far cells may reach beyond the outline where `taxels` is None; the least where it is given.
-        overhang_max: How far the shoe may reach beyond the outline.
-        border: Plate that is wanted beyond the cells.
+        overhang: Allowed reach of cells beyond the outline without `taxels`; the least with them.
+        overhang_max: Allowed reach of the shoe beyond the outline.
+        border: Plate wanted beyond the cells.
 
     Returns:
         The cells.
@@ -164,29 +162,17 @@ def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: t
 
 
 def rows_and_columns(lines: NDArray[np.int64]) -> tuple[int, int]:
-    """How many rows and columns of a sheet have a cell.
-
-    Args:
-        lines: Row and column (n, 2) of each cell.
-    """
+    """Number of rows and of columns among lines (n, 2), the row and column of each cell."""
     return len(np.unique(lines[:, 0])), len(np.unique(lines[:, 1]))
 
 
 def covered_area(sole: Any, cells: Sequence[NDArray[np.float64]]) -> float:
-    """Area in mm^2 of a sole under cells that do not overlap.
-
-    Args:
-        sole: Its outline, a shapely polygon.
-        cells: Corners (k, 2) of each cell.
-
-    Returns:
-        The area.
-    """
+    """Gives the area in mm^2 of a sole, a shapely polygon, under cells (k, 2) that do not overlap."""
     return float(shapely.area(shapely.intersection([shapely.Polygon(c) for c in cells], sole)).sum())
 
 
 def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit | None:
-    """So many cells within a distance of the sole, of which the rim cuts the least; None where they do not fit."""
+    """A number of cells within a distance of the sole, of which the rim cuts the least; None if they do not fit."""
     from plantar.shoes.fit.fit_bound import bound_whole_cells
 
     # Gentle corners stay one point: a cut cell gets no short edges.

@@ -15,14 +15,14 @@ _SHORT = 1.2  # mm: shortest edge that is left
 
 
 def trimmed_cell(cell: Any, region: Any) -> NDArray[np.float64]:
-    """What a region leaves of a cell, without edges too short to print.
+    """The part of a cell inside a region, without edges too short to print.
 
     Args:
         cell: The cell, a shapely polygon.
         region: A shapely polygon that it crosses.
 
     Returns:
-        Corners (k, 2) of the largest part, counter-clockwise; those of the whole cell stay, which neighbours share.
+        Corners (k, 2) of the largest part, counter-clockwise; corners of the whole cell stay, which neighbours share.
 
     Example:
         >>> import shapely

@@ -1,4 +1,4 @@
-"""DXF drawings through ezdxf: called in a process of its own, see `plantar.files.confined`."""
+"""DXF drawings through ezdxf, called in a process apart (`plantar.files.confined`)."""
 
 from __future__ import annotations
 
@@ -17,14 +17,8 @@ _FINE = 0.002  # of the drawing's size: how far a curve's chord may lie from it
 
 
 def lines_of_dxf(path: Path) -> dict[str, NDArray[Any]]:
-    """Lines of a DXF's model space, blocks put in where they are inserted.
-
-    Returns:
-        "points" (n, 2) of all lines, y upwards; "counts" (k,) of the points of each; and "unit", its $INSUNITS.
-
-    Raises:
-        DependencyError: If ezdxf is not installed.
-        DXFError: If it is no DXF.
+    """Lines of a DXF's model space, blocks expanded: "points" (n, 2) of all, y upwards; "counts" (k,) of each; "unit",
+    its $INSUNITS.
     """
     with optional_library("ezdxf", "shoes"):
         from ezdxf import path as paths

@@ -1,4 +1,4 @@
-"""A robot's foot as the shoe sees it: its outline at the sole and up to the rim; and a foot from its dimensions."""
+"""A foot as the shoe sees it: its outline at the sole and up to the rim."""
 
 from __future__ import annotations
 
@@ -26,15 +26,13 @@ class Foot:
     """The left foot of a robot in mm: x forward, y left, z up, the sole plane at z = 0, origin below the ankle.
 
     Attributes:
-        name: Name of the foot or robot.
         sole: Outline of the sole, a shapely polygon.
-        outline_up_to: Gives the outline (shapely polygon) of the foot's part below a height above the sole plane.
-        height: Height of the foot's geometry in mm; infinite where only dimensions are known.
-        notes: What was detected or assumed.
-        triangles: The foot's surface (n, 3, 3); None where only its outline is known.
-        support: What of the sole touches a flat floor, a shapely polygon or multipolygon; None for all of it.
-        mass: Mass of the robot in kg, where it is known.
-        links: Points (n, 3) where the robot's other links pass while the ankle moves; None where they are not known.
+        outline_up_to: Outline (shapely polygon) of the part below a height above the sole plane.
+        height: Height of the geometry in mm; infinite where only dimensions are known.
+        triangles: Surface (n, 3, 3); None where only the outline is known.
+        support: Part of the sole that touches a flat floor; None for all of it.
+        mass: Mass of the robot in kg.
+        links: Points (n, 3) where the robot's other links pass while the ankle moves; None if unknown.
     """
 
     name: str
@@ -65,21 +63,21 @@ def foot_from_dimensions(
     corner_radius: float = 0.0,
     mass: float | None = None,
 ) -> Foot:
-    """A foot with a rectangular sole and straight sides, as robot files describe it.
+    """A foot with a rectangular sole and straight sides.
 
     Args:
         name: Name of the robot.
         length: Extent along x in m.
         width: Extent along y in m.
-        sole_center: Middle (2,) of the left foot's box against the ankle in m, x forward, y left.
-        corner_radius: Corner radius in m.
-        mass: Mass of the robot in kg, where it is known.
+        sole_center: Middle (2,) of the left foot's box against the ankle in m.
+        corner_radius: In m.
+        mass: Mass of the robot in kg.
 
     Returns:
         The left foot.
 
     Raises:
-        FootError: If a dimension is out of what a foot can be.
+        FootError: If a dimension is out of range.
 
     Example:
         >>> foot = foot_from_dimensions("a", length=0.2, width=0.1, sole_center=(0.02, 0.0), corner_radius=0.01)
@@ -109,9 +107,9 @@ def foot_from_outline(name: str, outline: Any, notes: tuple[str, ...] = ()) -> F
     """A foot with straight sides from the outline of its sole.
 
     Args:
-        name: Name of the foot or robot.
-        outline: A shapely polygon in mm: x forward, y left, the ankle at the origin.
-        notes: What was detected or assumed.
+        name: Name of the foot.
+        outline: Shapely polygon in mm: x forward, y left, the ankle at the origin.
+        notes: What was detected.
 
     Returns:
         The left foot.

@@ -1,4 +1,4 @@
-"""A foot from its surface: its unit, which way it stands, its sole and what of it touches the floor."""
+"""A foot from its surface: its unit, which way is up, its sole and what touches the floor."""
 
 from __future__ import annotations
 
@@ -52,15 +52,15 @@ def foot_from_mesh(
     forward: Axis | None = None,
     sole_band: float = 5.0,
 ) -> Foot:
-    """Read a foot's mesh and find its sole. Watertight or not, loose parts allowed.
+    """Read a foot's mesh, watertight or not, and find its sole.
 
     Args:
         path: STL, OBJ, PLY, OFF, 3MF or STEP file.
         mesh_side: Which foot the mesh shows; a right foot is mirrored.
         unit: Unit of the file; None detects it from the size.
-        up: Axis of the mesh that points up; None takes z, or where there is no sole the one axis at which there is.
-        sole_z: Height of the sole plane along the axis that points up, in mm; None takes the lowest point.
-        forward: Axis that points to the toes once z is up; None takes x, or y where the foot is longer along y.
+        up: Axis that points up; None takes z, or the one axis with a sole.
+        sole_z: Height of the sole plane in mm; None takes the lowest point.
+        forward: Axis to the toes once z is up; None finds it.
         sole_band: Height in mm of the lowest part that counts as sole.
 
     Returns:
@@ -98,20 +98,20 @@ def foot_from_triangles(
     sole_band: float = 5.0,
     links: Triangles | None = None,
 ) -> Foot:
-    """A foot from its triangles; see `foot_from_mesh`.
+    """A foot from its triangles; options as in `foot_from_mesh`.
 
     Args:
         name: Name of the foot.
         triangles: Triangles (n, 3, 3), the ankle at the origin.
-        where: Where they are from, for messages.
+        where: Their source, for messages.
         mesh_side: Which foot they show.
-        unit: Their unit, as the user gives it.
-        file_unit: Their unit, as the file states it.
+        unit: Unit given by the user.
+        file_unit: Unit stated in the file.
         up: Axis that points up.
         sole_z: Height of the sole plane in mm.
-        forward: Axis that points to the toes.
+        forward: Axis to the toes.
         sole_band: Height of the sole in mm.
-        links: Points (n, 3) of the robot's other links, in the frame and unit of the triangles.
+        links: Points (n, 3) of the robot's other links, in the same frame and unit.
 
     Returns:
         The left foot.
@@ -174,7 +174,7 @@ def _standing(
     links: Triangles | None,
     up_given: bool = False,
 ) -> Foot:
-    """The foot from triangles in mm with z up; the links follow them from where they were read."""
+    """The foot from triangles in mm with z up; the links follow the move from `read` to the foot's frame."""
     notes = list(notes)
     if sole_z is None:
         triangles, tilt = levelled(triangles)
@@ -240,14 +240,12 @@ def _standing(
 
 
 def _moved_along(start: Triangles, end: Triangles, points: Triangles) -> Triangles:
-    """Points (n, 3) moved as a surface was, by the affine map between both."""
     corners = np.column_stack([start.reshape(-1, 3), np.ones(3 * len(start))])
     move = np.linalg.lstsq(corners, end.reshape(-1, 3), rcond=None)[0]
     return np.asarray(np.column_stack([points, np.ones(len(points))]) @ move)
 
 
 def _check_height(triangles: Triangles, where: str) -> None:
-    """Refuse a surface without height: neither a sole nor an ankle can be found on it."""
     high = float(np.ptp(triangles[..., 2]))
     if high < _HEIGHT_MIN:
         raise FootError(
@@ -257,16 +255,16 @@ def _check_height(triangles: Triangles, where: str) -> None:
 
 
 def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: str) -> tuple[float, str]:
-    """How many mm a unit of a file is.
+    """The size of a file's unit.
 
     Args:
         extent: Length of the foot in the file's unit.
-        unit: Unit that the user gives.
-        file_unit: Unit that the file states.
+        unit: Unit given by the user.
+        file_unit: Unit stated in the file.
         where: Name of the file, for messages.
 
     Returns:
-        The scale to mm, and a note on how it was found.
+        Scale to mm, and a note on how it was found.
 
     Raises:
         FootError: If the foot is of no foot's size.
@@ -290,7 +288,6 @@ def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: 
 
 
 def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, path: str) -> Any:
-    """Outline of the lowest band, refused where the body cannot be a foot."""
     points = triangles.reshape(-1, 3)
     length, width, height = (float(v) for v in np.ptp(points, axis=0))
     _check_height(triangles, path)
@@ -324,6 +321,5 @@ def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, 
 
 
 def _box_holds(box: tuple[float, float, float, float], slack: float) -> bool:
-    """Whether the origin lies in a box grown by a share of its size."""
     dx, dy = slack * (box[2] - box[0]), slack * (box[3] - box[1])
     return box[0] - dx <= 0.0 <= box[2] + dx and box[1] - dy <= 0.0 <= box[3] + dy

@@ -1,7 +1,5 @@
-"""Triangle meshes from files: STL, OBJ and 3MF read here, PLY, OFF and DAE through trimesh, STEP and IGES through
-OpenCascade.
-
-The libraries are called in its own process whose memory and time have limits (`plantar.files.gate`).
+"""Triangle meshes from files: STL, OBJ and 3MF are parsed here, other formats by libraries in a process apart
+(`plantar.files.gate`).
 """
 
 from __future__ import annotations
@@ -37,7 +35,7 @@ _LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
 
 
 def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit | None]:
-    """Read the triangles of a mesh file; parts of a scene are put together.
+    """Read the triangles of a mesh file; parts of a scene are joined.
 
     Returns:
         Triangles (n, 3, 3) in the file's unit, and that unit where the file states it.
@@ -94,7 +92,7 @@ def _read(file: Path, kind: str) -> tuple[NDArray[np.float64], Unit | None]:
 
 
 def _check_off(file: Path) -> None:
-    """Refuse an OFF file whose head states more faces than a foot has, before a library takes memory for them."""
+    """Refuse an OFF file whose head states too many faces, before a library allocates them."""
     with file.open("rb") as opened:
         head = opened.read(4096)
     words = [w for line in head.splitlines() for w in line.partition(b"#")[0].split()]

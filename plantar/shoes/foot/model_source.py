@@ -1,7 +1,6 @@
-"""A robot's model through MuJoCo's reader: where the shapes of a body are, where bodies are, and what the robot weighs.
+"""A robot's model through MuJoCo's reader: shapes and places of bodies, and the robot's mass.
 
-Classes, includes, frames, replicas, attached models, angles and sizes are MuJoCo's to read. Of a model only that is
-compiled which is asked for, so that a robot whose other meshes are missing still has a foot.
+Only the parts in question are compiled, so that a robot whose other meshes are missing still has a foot.
 """
 
 from __future__ import annotations
@@ -51,14 +50,14 @@ Spec = Any
 
 
 class _NotCompiled(FootError):
-    """A model that MuJoCo cannot compile, maybe for a mesh of a kind that it does not read."""
+    """A model that MuJoCo cannot compile, possibly for a mesh of a kind that it does not read."""
 
 
 class BodyPlace(NamedTuple):
-    """Where a body is at the zero pose.
+    """A body at the zero pose.
 
     Attributes:
-        shaped: Whether it has a shape, or what is fixed to it has.
+        shaped: Whether it, or what is fixed to it, has a shape.
         carries: Whether a body that moves against it hangs on it.
         depth: Bodies above it.
         height: Height of its origin in m.
@@ -75,10 +74,9 @@ class ModelSource:
     """An MJCF or URDF file that MuJoCo reads.
 
     Attributes:
-        file: The file.
         urdf: A URDF's text for MuJoCo; None of an MJCF.
         mesh_names: Names of a URDF's meshes by those in its text.
-        folders: Folders of an MJCF and of the models it attaches, for its meshes.
+        folders: Folders of an MJCF and of the models it attaches, for meshes.
     """
 
     file: Path
@@ -87,7 +85,7 @@ class ModelSource:
     folders: tuple[Path, ...] = ()
 
     def spec(self) -> Spec:
-        """The model for editing, without what neither weighs nor has a shape.
+        """The model for editing, without what has neither mass nor shape.
 
         Raises:
             FootError: If MuJoCo cannot read the file.
@@ -157,10 +155,7 @@ class ModelSource:
             return self._shapes(name, most, read_all=True)
 
     def mass(self, name: str) -> tuple[float | None, str]:
-        """Mass in kg of the robot that a body belongs to, None where it cannot be given; and a note.
-
-        Bodies without a stated inertia have that of their shapes; so have links of a URDF of what collides.
-        """
+        """Mass in kg of the robot that a body belongs to, None if unknown; and a note."""
         import mujoco
 
         model, problem = None, ""
@@ -219,16 +214,16 @@ class ModelSource:
         return drawn, colliding
 
     def links_above(self, name: str, count: int) -> tuple[list[Array], list[tuple[float, float]], Poses]:
-        """Shapes of the links above a body, drawn ones or what collides where none are, and how the ankle moves them.
+        """Shapes of the links above a body, and how the ankle moves them.
 
         Args:
             name: The body.
-            count: Of links that move against each other; what is fixed next to the body is taken, too.
+            count: Number of moving links.
 
         Returns:
-            Triangles (n, 3, 3) in m of each shape; the ranges in rad of the last two hinges above the body; and what
-            gives each shape's rotation (3, 3) and place (3,) for angles of these, about the body's origin and turned as
-            at the zero pose.
+            Triangles (n, 3, 3) in m of each shape; ranges in rad of the last two hinges above the body; and a function
+            that gives each shape's rotation (3, 3) and place (3,) in the body's frame, turned as at the zero pose, for
+            angles of these.
 
         Raises:
             FootError: If a mesh cannot be read.
@@ -271,7 +266,7 @@ class ModelSource:
         return [_surface(model, g, str(self.file)) for g in geoms], ranges, poses
 
     def _few_enough(self, model: Any, name: str) -> None:
-        """Refuse shapes of too many triangles before they are made: a mesh may be used many times."""
+        """Refuse too many triangles before they are made: a mesh may be used many times."""
         meshes = model.geom_dataid >= 0
         faces = np.zeros(model.ngeom, dtype=np.int64)
         faces[meshes] = model.mesh_facenum[model.geom_dataid[meshes]]
@@ -283,7 +278,7 @@ class ModelSource:
             )
 
     def _give_meshes(self, spec: Spec, read_all: bool) -> None:
-        """Take out meshes that no shape is made of; hand those to MuJoCo that it does not read itself."""
+        """Remove unused meshes; hand those to MuJoCo that it does not read itself."""
         used = {g.meshname for g in spec.geoms if g.meshname}
         for mesh in list(spec.meshes):
             if mesh.name not in used:
@@ -312,7 +307,6 @@ class ModelSource:
         return named_file(found, folders_of_model(self.file), FootError, where)
 
     def _placed(self, spec: Spec) -> tuple[Any, Any]:
-        """The compiled model and its data at the zero pose."""
         import mujoco
 
         try:
@@ -329,10 +323,10 @@ class ModelSource:
 
 
 def read_model_source(file: Path) -> ModelSource:
-    """A robot's model, its outermost element looked at and the names of files in it found allowed.
+    """A robot's model, once its outermost element and the names of its files are allowed.
 
     Raises:
-        FootError: If it is neither, or names files that lie where they may not.
+        FootError: If it is neither MJCF nor URDF, or names files outside its folders.
     """
     root = parsed_model(file, FootError)
     check_model_size(root, FootError, str(file))
@@ -355,12 +349,11 @@ def read_model_source(file: Path) -> ModelSource:
 
 
 def _compiler(spec: Spec, element: Any) -> Any:
-    """Settings by which MuJoCo reads an element: those of the file that it came with; older MuJoCo has one for all."""
+    """Compiler settings for an element: those of its own file; older MuJoCo has one set for all."""
     return getattr(element, "compiler", spec.compiler)
 
 
 def _mesh_folder(spec: Spec, mesh: Any) -> str:
-    """Folder that a mesh is looked for in, as its file states it."""
     return str(getattr(_compiler(spec, mesh), "meshdir", spec.meshdir))
 
 
@@ -372,7 +365,6 @@ def _fixed_to(body: Any) -> Iterator[Any]:
 
 
 def _hinges_above(model: Any, body: int) -> list[int]:
-    """The last two hinges above a body, the nearest first."""
     import mujoco
 
     joints: list[int] = []
@@ -384,7 +376,6 @@ def _hinges_above(model: Any, body: int) -> list[int]:
 
 
 def _moving(body: Any) -> Any:
-    """The body that moves and that a body is fixed to, or is."""
     while not body.joints and body.parent is not None and body.parent.name != "world":
         body = body.parent
     return body
@@ -410,7 +401,6 @@ def _weighed_by_shapes(spec: Spec, body: Any) -> bool:
 
 
 def _surface(model: Any, geom: int, where: str) -> Array:
-    """Triangles (n, 3, 3) of a shape in its own frame in m."""
     import mujoco
 
     kind = mujoco.mjtGeom(int(model.geom_type[geom]))

@@ -1,4 +1,4 @@
-"""OBJ files: corners and faces; normals, textures, materials and names are passed over."""
+"""OBJ files: corners and faces alone."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["triangles_of_obj"]
 
 
 def triangles_of_obj(data: bytes, most: int, where: str) -> NDArray[np.float64]:
-    """Triangles (n, 3, 3) of all objects of an OBJ file; a face of more corners is a fan of triangles.
+    """Triangles of all objects of an OBJ file; a face of more corners is a fan.
 
     Args:
         data: The file.
@@ -24,11 +24,11 @@ def triangles_of_obj(data: bytes, most: int, where: str) -> NDArray[np.float64]:
         where: Name of the file, for messages.
 
     Returns:
-        The triangles, in the file's unit.
+        Triangles (n, 3, 3) in the file's unit.
 
     Raises:
         FootError: If it holds more.
-        ValueError: If a number is none, or a face names a corner that is not there.
+        ValueError: If a number is damaged, or a face names a missing corner.
     """
     corners, faces = array("d"), array("q")
     for line in _lines(data):
@@ -48,7 +48,6 @@ def triangles_of_obj(data: bytes, most: int, where: str) -> NDArray[np.float64]:
 
 
 def _lines(data: bytes) -> Iterator[bytes]:
-    """The lines; one that ends in a backslash goes on in the next."""
     begun: list[bytes] = []
     for line in io.BytesIO(data):
         if line.endswith((b"\\\n", b"\\\r\n")):
@@ -63,7 +62,7 @@ def _lines(data: bytes) -> Iterator[bytes]:
 
 
 def _add_fan(faces: array[int], line: bytes, known: int) -> None:
-    """The triangles of a face "f 1/1/1 2/2/2 -1": numbers from 1, or back from the last corner so far."""
+    """Triangles of a face "f 1/1/1 2/2/2 -1": numbers from 1, or back from the last corner so far."""
     named = [int(item.partition(b"/")[0]) for item in line.partition(b"#")[0].split()[1:]]
     if 0 in named:
         raise ValueError("a face names vertex 0")

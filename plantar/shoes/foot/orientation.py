@@ -1,4 +1,4 @@
-"""How a foot stands: which way is up, whether its sole is tilted, and where the toes are. Triangles (n, 3, 3) in mm."""
+"""Orientation of a foot: which way is up, whether its sole is tilted, where the toes are. Triangles (n, 3, 3) in mm."""
 
 from __future__ import annotations
 
@@ -68,20 +68,20 @@ def _direction(axis: Axis) -> Array:
 
 
 def rotation_up(up: Axis) -> Array:
-    """Rotation (3, 3) that turns an axis of the mesh up, to +z; x stays where it can."""
+    """Rotation (3, 3) that turns an axis of the mesh to +z; x stays where it can."""
     z = _direction(up)
     x = np.array([1.0, 0.0, 0.0]) if abs(z[0]) < 0.5 else np.array([0.0, 1.0, 0.0])
     return np.stack([x, np.cross(z, x), z])
 
 
 def rotation_forward(forward: Axis) -> Array:
-    """Rotation (3, 3) about z that turns a horizontal axis of the mesh forward, to +x."""
+    """Rotation (3, 3) about z that turns a horizontal axis of the mesh to +x."""
     x, z = _direction(forward), np.array([0.0, 0.0, 1.0])
     return np.stack([x, np.cross(z, x), z])
 
 
 def _thinned(points: Array) -> Array:
-    """Points without repetition; of very many the lowest in each column of a grid."""
+    """Unique points; of very many the lowest in each column of a grid."""
     if len(points) <= _MANY:
         return np.unique(points.round(6), axis=0)
     order = np.argsort(points[:, 2], kind="stable")
@@ -127,18 +127,18 @@ def _flat_area(triangles: Array, normal: Array) -> float:
 
 
 def flat_share(triangles: Array) -> float:
-    """Share of the silhouette from above, 0..1, that the plane has on which the foot would come to rest."""
+    """Share of the silhouette from above, 0..1, of the plane on which the foot would come to rest."""
     return _resting_plane(triangles)[1]
 
 
 def levelled(triangles: Array) -> tuple[Array, float]:
-    """A foot turned so that the plane it would rest on is level.
+    """Turn a foot so that its resting plane is level.
 
     Args:
         triangles: Triangles with z about up.
 
     Returns:
-        The triangles, and the tilt in degrees that was taken out: 0 below 1 degree, or where no plane is large enough.
+        The triangles, and the tilt removed in degrees: 0 below 1 degree, or without a plane large enough.
     """
     normal, share = _resting_plane(triangles)
     tilt = math.acos(min(1.0, -float(normal[2])))
@@ -153,10 +153,10 @@ def levelled(triangles: Array) -> tuple[Array, float]:
 
 
 def check_upright(triangles: Array, where: str) -> list[str]:
-    """Refuse a foot that lies on its side: one that could stand on a face much larger than what lies below.
+    """Refuse a foot that lies on its side: one with a face much larger than what lies below.
 
-    Faces are compared by the hull of what lies near them: along the axes, and along the largest plane of the
-    convex hull. Faces above are left out, since a foot's deck may be larger than its sole.
+    Faces are compared by the hull of the points near them, along the axes and along the largest plane of the convex
+    hull. Faces above do not count: a deck may be larger than the sole.
 
     Args:
         triangles: Triangles in mm with z taken to point up.
@@ -189,14 +189,14 @@ def check_upright(triangles: Array, where: str) -> list[str]:
 
 
 def check_told(triangles: Array, where: str) -> list[str]:
-    """Refuse a foot without a plane to rest on whose upper side is a tilted plane: the foot is tilted with it.
+    """Refuse a foot without a resting plane whose upper side is a tilted plane.
 
     Args:
         triangles: Triangles in mm with z taken to point up.
         where: Name of the file, for the message.
 
     Returns:
-        Notes of what nothing shows: whether a rounded or padded sole is level, and whether the foot is upside down.
+        Notes on what cannot be detected: a rounded sole's level, and a foot upside down.
 
     Raises:
         FootError: If the upper side is tilted by 3 to 25 degrees.
@@ -220,7 +220,6 @@ def check_told(triangles: Array, where: str) -> list[str]:
 
 
 def _is_face(triangles: Array, normal: Array) -> bool:
-    """Whether faces of the surface fill a plane of its hull by a share; over what juts out there are none."""
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     depth = triangles @ normal
     near = (depth.max() - depth.min(axis=1) < _NEAR) & (cross @ normal > _SAME_PLANE * np.linalg.norm(cross, axis=1))
@@ -229,7 +228,7 @@ def _is_face(triangles: Array, normal: Array) -> bool:
 
 
 def _face_area(points: Array, outward: Array, deep: float) -> float:
-    """Area in mm^2 of the hull of what lies within so many mm of the farthest point in a direction."""
+    """Area in mm^2 of the hull of the points within `deep` mm of the farthest one in a direction."""
     depth = points @ outward
     near = points[depth > depth.max() - deep]
     across = np.linalg.svd(outward[None])[2][1:]
@@ -237,7 +236,7 @@ def _face_area(points: Array, outward: Array, deep: float) -> float:
 
 
 def _largest_plane(points: Array) -> list[Array]:
-    """Outward normal (3,) of the largest plane of the convex hull that does not face upwards; none of a flat body."""
+    """Outward normal (3,) of the largest plane of the convex hull that does not face upwards."""
     with optional_library("scipy", "shoes"):
         from scipy.spatial import ConvexHull, QhullError
 
@@ -262,7 +261,7 @@ def check_one_body(triangles: Array, where: str) -> None:
         where: Name of the file, for the message.
 
     Raises:
-        FootError: If seen from above it falls into two bodies of about a size.
+        FootError: If it falls into two bodies of similar size seen from above.
     """
     with optional_library("scipy", "shoes"):
         from scipy.sparse import coo_array
@@ -291,21 +290,20 @@ def check_one_body(triangles: Array, where: str) -> None:
 
 
 def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list[str]]:
-    """A foot turned so that its length lies along x or y.
+    """Turn a foot so that its length lies along x or y.
 
-    The outline's long axis shows about where it points, its symmetry exactly: the direction within 25 degrees of the
-    long axis about which the outline is most like its mirror image. A foot that points along an axis of the mesh, or is
-    about as much like its mirror image there, stays.
+    The direction is the one within 25 degrees of the outline's long axis about which the outline is most like its
+    mirror image.
 
     Args:
         triangles: Triangles with z up.
         where: Name of the file, for the message.
 
     Returns:
-        The triangles, and a note where they were turned, or stand a little askew.
+        The triangles, and a note where they were turned, or are a little askew.
 
     Raises:
-        FootError: If it is about as wide as long, and askew by so much that it could point along either axis.
+        FootError: If it is about as wide as long, and askew so far that it could point along either axis.
     """
     hull = convex_outline(triangles.reshape(-1, 3)[:, :2])
     if hull.geom_type != "Polygon":
@@ -341,17 +339,13 @@ def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list
 
 
 def _likeness(outline: Any, degrees: float) -> float:
-    """Share of an outline, 0..1, that is covered by its mirror image about a line through its middle."""
     level = shapely.affinity.rotate(outline, -degrees, origin="centroid")
     image = shapely.affinity.scale(level, 1.0, -1.0, origin="centroid")
     return float(level.intersection(image).area / level.union(image).area)
 
 
 def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
-    """Which horizontal axis points to the toes: that along which the foot is longer, away from the ankle.
-
-    The ankle is nearer to the heel. It is the mesh's origin where that lies within the foot, and the middle of a block
-    on top of it. A foot whose ankle is about in its middle points along x, as usual, or y.
+    """Find the horizontal axis to the toes: the longer one, away from the ankle (the origin, or a block on top).
 
     Args:
         triangles: Triangles with z up.

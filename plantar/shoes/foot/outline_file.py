@@ -50,11 +50,11 @@ def foot_from_drawing(
     Args:
         path: DXF, SVG or GeoJSON file with one or more closed lines.
         mesh_side: Which foot it shows; a right foot is mirrored.
-        unit: Unit of the file; None takes what the file states, or detects it from the size.
-        forward: Axis of the drawing to the toes, its y axis upwards on the sheet; None takes the longer one.
+        unit: Unit of the file; None takes the stated one, or detects it from the size.
+        forward: Axis of the drawing to the toes; None takes the longer one.
 
     Returns:
-        The left foot; its origin is the drawing's where that lies within the sole, otherwise the sole's middle.
+        The left foot; its origin is the drawing's if inside the sole, otherwise the sole's middle.
 
     Raises:
         FootError: If the file cannot be read, or holds no closed line of a foot's size.
@@ -86,14 +86,10 @@ def foot_from_drawing(
 
 
 def read_outline(path: str | os.PathLike[str]) -> tuple[Lines, Unit | None, float]:
-    """Lines of a drawing.
-
-    Args:
-        path: DXF, SVG or GeoJSON file.
+    """Read the lines of a DXF, SVG or GeoJSON file.
 
     Returns:
-        Lines of points (k, 2), y upwards; the unit that the file states, or None; and how many of that unit (or of the
-        file's own, where it states none) a number of the file is.
+        Lines of points (k, 2), y upwards; the unit stated in the file, or None; and the size of a number in that unit.
 
     Raises:
         FootError: If the file cannot be read.
@@ -144,7 +140,7 @@ def _closed_area(lines: Lines, where: str) -> Any:
 
 
 def _refuse_tangle(lines: Lines, where: str) -> None:
-    """Refuse lines that meet each other almost everywhere: their crossings grow with the square of their number."""
+    """Refuse lines that meet almost everywhere: their crossings grow with the square of their number."""
     ends = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines])
     drawn = shapely.linestrings(ends)
     tree = shapely.STRtree(drawn)
@@ -158,7 +154,7 @@ def _refuse_tangle(lines: Lines, where: str) -> None:
 
 
 def _refuse_crossing(line: NDArray[np.float64], grid: float, where: str) -> None:
-    """Refuse a line that crosses itself and encloses two areas or more, as an eight does: no sole is meant by it."""
+    """Refuse a line that crosses itself and encloses two areas, as an eight does."""
     drawn = shapely.LineString(line)
     if drawn.is_simple:
         return
@@ -169,7 +165,6 @@ def _refuse_crossing(line: NDArray[np.float64], grid: float, where: str) -> None
 
 
 def _what_was_drawn(outline: Any, lines: Lines) -> list[str]:
-    """Notes on lines that are left out, and on a sole that lies askew on the sheet."""
     notes = []
     extent = max(np.ptp(np.array(outline.exterior.coords), axis=0))
     within = outline.buffer(-1e-3 * extent)
@@ -197,7 +192,6 @@ def _read_dxf(file: Path) -> tuple[Lines, Unit | None, float]:
 
 
 def _read_geojson(file: Path) -> tuple[Lines, Unit | None, float]:
-    """Rings of the polygons, and closed lines, of a GeoJSON object."""
     source = read_json(file, FootError, f"{file}:", "a readable GeoJSON drawing")
 
     def rings(item: Any, depth: int = 0) -> Iterator[Any]:

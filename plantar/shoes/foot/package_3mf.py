@@ -1,4 +1,4 @@
-"""3MF packages: the triangles of all build items, with their transforms, from all model parts that they name."""
+"""3MF packages: triangles of all build items, with transforms, from all model parts."""
 
 from __future__ import annotations
 
@@ -39,15 +39,13 @@ _Name = tuple[str, str]
 
 @dataclass
 class _Object:
-    """A mesh, or what components it is put together of."""
-
     corners: array[float] = field(default_factory=lambda: array("d"))
     faces: array[int] = field(default_factory=lambda: array("q"))
     components: list[tuple[_Name, str | None]] = field(default_factory=list)
 
 
 class _Model:
-    """The model parts of a package, read element by element: no tree of them is kept."""
+    """The model parts of a package, read element by element without a tree."""
 
     def __init__(self, most: int, where: str) -> None:
         self.unit = "millimeter"
@@ -60,7 +58,6 @@ class _Model:
         self._parts = self._corners = self._faces = 0
 
     def read(self, stream: IO[bytes], part: str) -> None:
-        """Read all of a part, the main one first; `named` are the parts that it and others name."""
         self._part = part
         parser = expat.ParserCreate(namespace_separator=" ")
         parser.StartElementHandler = self._start
@@ -108,7 +105,6 @@ class _Model:
             self.items.append(use)
 
     def triangles(self) -> Array:
-        """Triangles of all build items."""
         parts: list[Array] = []
         count = calls = 0
         queue = [(item, np.eye(4), 0) for item in reversed(self.items)]
@@ -131,18 +127,18 @@ class _Model:
 
 
 def triangles_of_3mf(path: Path, most: int) -> tuple[Array, str]:
-    """Triangles (n, 3, 3) of all build items of a 3MF package, and their unit.
+    """Read the triangles of all build items of a 3MF package.
 
     Args:
         path: The package.
-        most: Triangles that it may hold, a component that is used twice counted twice.
+        most: Triangles that it may hold, repeated components counted each time.
 
     Returns:
-        The triangles, and the name of their unit: m, cm, mm or in.
+        Triangles (n, 3, 3), and their unit: m, cm, mm or in.
 
     Raises:
         FootError: If it is no such package, or holds more.
-        ValueError: If a number is none.
+        ValueError: If a number is damaged.
         LookupError: If an attribute, a corner or the unit is missing.
         ExpatError: If its model is no XML.
     """
@@ -166,7 +162,6 @@ def triangles_of_3mf(path: Path, most: int) -> tuple[Array, str]:
 
 
 def _plain(part: str) -> str:
-    """A part's name as it is compared: without the root, in small letters."""
     return part.lstrip("/").lower()
 
 

@@ -1,4 +1,4 @@
-"""The outer geometry of a robot's foot, and the robot's mass, from its model: MJCF or URDF."""
+"""The outer geometry of a robot's foot, and the robot's mass, from an MJCF or URDF model."""
 
 from __future__ import annotations
 
@@ -30,14 +30,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class BodyGeometry:
-    """The surface of a body, its frame's origin at the origin and turned as in the model's zero pose.
+    """The surface of a body about its origin, turned as in the model's zero pose.
 
     Attributes:
         triangles: Triangles (n, 3, 3) in m, z up.
-        side: Side that the body's name shows, None where it does not.
-        mass: Mass of the robot in kg, None where it cannot be given.
-        notes: What was read.
-        links: Points (n, 3) in m of the links above it while the ankle moves; None where they are not known.
+        side: Side shown by the body's name.
+        mass: Mass of the robot in kg, None if unknown.
+        links: Points (n, 3) in m of the links above it while the ankle moves; None if unknown.
     """
 
     triangles: Array
@@ -48,7 +47,7 @@ class BodyGeometry:
 
 
 def side_of_name(name: str) -> Literal["left", "right"] | None:
-    """Side that a body's name shows.
+    """Side shown by a body's name.
 
     Example:
         >>> side_of_name("leg_left_6_link"), side_of_name("R_ANKLE_P_S"), side_of_name("LeftFoot"), side_of_name("sole")
@@ -64,20 +63,17 @@ def side_of_name(name: str) -> Literal["left", "right"] | None:
 
 
 def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeometry:
-    """Read the geometry of a robot's foot, and the robot's mass, from its model.
-
-    Classes, includes, frames, attached models and angles are MuJoCo's to read. What is drawn is taken (visual
-    geometry), or what collides where nothing is drawn. Bodies fixed to it count as part of it.
+    """Read the geometry of a robot's foot, drawn or else colliding, with what is fixed to it, and the robot's mass.
 
     Args:
-        path: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file; meshes are looked for as the model states.
+        path: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file.
         body: Name of the foot's body or link.
 
     Returns:
         The geometry.
 
     Raises:
-        FootError: If the file or one of its meshes cannot be read, or there is no such body, or it has no geometry.
+        FootError: If the file or a mesh cannot be read, the body is missing, or has no geometry.
         DependencyError: If MuJoCo is not installed.
     """
     source = read_model_source(Path(path))
@@ -98,13 +94,12 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
 
 
 def _names_shown(bodies: dict[str, BodyPlace], wanted: str) -> str:
-    """The bodies that are most like the wanted one and like feet, for a message."""
     likely = _like_feet(bodies, wanted)
     return (", ".join(likely[:_SHOWN]) + (", ..." if len(likely) > _SHOWN else "")) or "there is none"
 
 
 def _like_feet(bodies: dict[str, BodyPlace], wanted: str) -> list[str]:
-    """Names of bodies with a shape, those most like a foot first: like the name that was asked for, then low ends."""
+    """Names of bodies with a shape, those like the wanted name first, then by words for a foot and low ends."""
     shaped = [name for name, body in bodies.items() if body.shaped and name]
     alike = get_close_matches(wanted, shaped, 4, 0.75)
     called = {name: _called_foot(name) for name in shaped}
@@ -118,7 +113,6 @@ def _like_feet(bodies: dict[str, BodyPlace], wanted: str) -> list[str]:
 
 
 def _called_foot(name: str) -> int:
-    """Place of the first of the words for a foot that are in a name."""
     return next((i for i, words in enumerate(_WORDS) if re.search(words, name, re.IGNORECASE)), len(_WORDS))
 
 

@@ -1,4 +1,4 @@
-"""Where a foot comes from: a mesh, a robot's model, a drawing, a built-in robot, or the sizes of a box."""
+"""Where a foot comes from: a mesh, a robot's model, a drawing, a built-in robot, or dimensions."""
 
 from __future__ import annotations
 
@@ -28,18 +28,17 @@ _ALLOWED = {
 
 
 def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None]:
-    """Read the foot from where it comes.
+    """Read the foot from its source.
 
     Args:
         source: One source, and how its file is to be read.
         sole_band: Height of the lowest part of a mesh that is its sole, in mm.
 
     Returns:
-        The left foot, and the number of taxels that a robot's file asks for; None where no one does.
+        The left foot, and the number of taxels in a robot's file; None without one.
 
     Raises:
-        InputError: If it is not one source, or an option is none of those allowed; the message names the option as the
-            command line does.
+        InputError: If it is not one source, or an option is not allowed; the message names the command's option.
         FootError: If what a file holds is no foot.
         RobotError: If a robot's file cannot be used.
 
@@ -69,7 +68,6 @@ def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None
 
 
 def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
-    """The foot of a mesh, a robot's model or a drawing, by the file's ending."""
     kind = path.suffix.lower()
     if kind not in (*MESH_FORMATS, *MODEL_FORMATS, *OUTLINE_FORMATS):
         check_input(path, FootError)  # a wrong path is given as such, no matter what it ends in
@@ -99,7 +97,6 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
 
 
 def _box_foot(text: str) -> Foot:
-    """The foot of --dimensions LxW or LxWxR in mm."""
     try:
         values = [float(v) / 1000.0 for v in text.lower().split("x")]
     except ValueError:
@@ -113,13 +110,13 @@ def _box_foot(text: str) -> Foot:
 
 
 def foot_of_robot(name: str) -> tuple[Foot, int | None]:
-    """The foot of a built-in robot; its file is read where the simulator keeps it, which is not loaded.
+    """The foot of a built-in robot, from its file alone: the simulator is not loaded.
 
     Returns:
-        The left foot, and the number of taxels that the robot's file asks for; None where it asks for none.
+        The left foot, and the number of taxels in the robot's file; None without one.
 
     Raises:
-        InputError: If there is no such robot; the message names those that are there.
+        InputError: If there is no such robot; the message names all.
         RobotError: If its file cannot be used.
 
     Example:

@@ -1,8 +1,4 @@
-"""STEP and IGES files through OpenCascade: called in its own process, see `plantar.files.confined`.
-
-Of OpenCascade's Python modules only those are loaded that read a file: cadquery, which loads them all, takes twice the
-time and memory.
-"""
+"""STEP and IGES files through OpenCascade, called in a process apart; cadquery would take twice the time and memory."""
 
 from __future__ import annotations
 
@@ -20,10 +16,7 @@ _CHORD, _ANGLE = 0.05, 0.2  # share of an edge, and rad: how far triangles may l
 
 
 def triangles_of_step(path: Path) -> dict[str, NDArray[Any]]:
-    """Triangles in mm of all shapes of a STEP or IGES file; its own unit is converted while it is read.
-
-    Returns:
-        "triangles" (n, 3, 3).
+    """Triangles (n, 3, 3) in mm of all shapes of a STEP or IGES file, as "triangles".
 
     Raises:
         DependencyError: If OpenCascade is not installed.
@@ -50,7 +43,6 @@ def triangles_of_step(path: Path) -> dict[str, NDArray[Any]]:
 
 
 def _triangles(shape: Any) -> list[NDArray[np.float64]]:
-    """Triangles of each face of a meshed shape, outward counter-clockwise."""
     from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_FACE, TopAbs_REVERSED
     from OCP.TopExp import TopExp_Explorer

@@ -1,4 +1,4 @@
-"""STL files, binary and text. What a file states is compared with what it holds before any of it is taken."""
+"""STL files, binary and text, checked against their stated size before they are read."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _VERTEX = re.compile(rb"\bvertex\s++(\S{1,64}+)\s++(\S{1,64}+)\s++(\S{1,64}+)", 
 
 
 def triangles_of_stl(data: bytes, most: int, where: str) -> NDArray[np.float64]:
-    """Triangles (n, 3, 3) of an STL file.
+    """Triangles of an STL file.
 
     Args:
         data: The file.
@@ -26,11 +26,11 @@ def triangles_of_stl(data: bytes, most: int, where: str) -> NDArray[np.float64]:
         where: Name of the file, for messages.
 
     Returns:
-        The triangles, in the file's unit.
+        Triangles (n, 3, 3) in the file's unit.
 
     Raises:
         FootError: If it is cut short or foreign, or holds more.
-        ValueError: If a number of a text STL is none.
+        ValueError: If a number of a text STL is damaged.
     """
     if data.lstrip()[:5].lower() == b"solid" and b"facet" in data[:4000].lower():
         return _of_text(data, most, where)

@@ -42,11 +42,11 @@ def lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
     """Lines of an SVG's shapes, with the transforms of their groups.
 
     Returns:
-        Lines of points (k, 2), y upwards; the unit that the file states, or None; and how many of it a number is.
+        Lines of points (k, 2), y upwards; the unit stated in the file, or None; and the size of a number in it.
 
     Raises:
         FootError: If it cannot be read, or holds more than MOST_POINTS points.
-        ValueError: If a path or a transform is none.
+        ValueError: If a path or a transform is damaged.
         DependencyError: If fontTools is not installed.
     """
     with optional_library("fontTools", "shoes"):
@@ -107,7 +107,7 @@ def _plain_length(name: str, value: str) -> str:
 
 
 def _svg_unit(root: ElementTree.Element) -> tuple[Unit | None, float, NDArray[np.float64]]:
-    """Unit of an SVG's numbers as its size states it, how many of it one is, and the turn that points y upwards."""
+    """Unit of an SVG's numbers by its stated size, the size of one, and the turn that points y upwards."""
     upright = np.diag([1.0, -1.0, 1.0])
     box = [float(v) for v in re.split(r"[\s,]+", root.get("viewBox", "").strip()) if v]
     match = re.fullmatch(r"\s*([0-9.eE+-]+)\s*([a-z]*)\s*", root.get("width", ""))
@@ -121,7 +121,6 @@ def _svg_unit(root: ElementTree.Element) -> tuple[Unit | None, float, NDArray[np
 
 
 def _svg_transform(text: str | None) -> NDArray[np.float64]:
-    """Matrix (3, 3) of a transform attribute."""
     out = np.eye(3)
     if len(text or "") > _LONGEST_TRANSFORM:
         raise ValueError("a transform too long")
@@ -148,7 +147,6 @@ def _svg_transform(text: str | None) -> NDArray[np.float64]:
 
 
 def _flattened(commands: list[tuple[str, tuple[Any, ...]]], matrix: NDArray[np.float64]) -> Lines:
-    """Pen commands as lines of points."""
     lines: list[list[Any]] = []
     for name, arguments in commands:
         at = [np.array(a, dtype=float) for a in arguments if a is not None]

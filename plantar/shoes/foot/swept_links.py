@@ -1,4 +1,4 @@
-"""Where the robot's other links pass around its foot while the ankle moves: points in the frame of the foot's body."""
+"""Where the robot's other links pass around its foot while the ankle moves."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ Array = NDArray[np.float64]
 
 
 def swept_points(source: ModelSource, name: str, surface: Array) -> tuple[Array | None, str]:
-    """Points of the links above a foot over the range of its ankle: of its last two hinges.
+    """Points of the links above a foot over the range of its last two hinges.
 
     Args:
         source: The robot's model.
         name: The foot's body.
-        surface: Its triangles (k, 3, 3) in m; only what passes near them is kept.
+        surface: Its triangles (k, 3, 3) in m; only points near them are kept.
 
     Returns:
-        Points (n, 3) in m about the body's origin, turned as at the zero pose, None where they cannot be read; a note.
+        Points (n, 3) in m about the body's origin, turned as at the zero pose, None if unknown; and a note.
     """
     try:
         surfaces, ranges, poses = source.links_above(name, _LINKS)

@@ -1,7 +1,4 @@
-"""PLY, OFF and COLLADA files through trimesh (and pycollada): called in its own process.
-
-See `plantar.files.confined`.
-"""
+"""PLY, OFF and COLLADA files through trimesh and pycollada, called in a process apart."""
 
 from __future__ import annotations
 
@@ -17,11 +14,8 @@ __all__ = ["triangles_of_trimesh"]
 
 
 def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
-    """Triangles of a mesh file that trimesh reads, by the file's ending.
-
-    Returns:
-        "triangles" (n, 3, 3), in the file's unit; of COLLADA (.dae) in m, its axes as they are: which of them the file
-        states is up is passed over, as viewers of robots do.
+    """Triangles (n, 3, 3) of a mesh file, as "triangles": in the file's unit; of COLLADA in m, its up axis ignored as
+    in viewers of robots.
 
     Raises:
         DependencyError: If trimesh is not installed.

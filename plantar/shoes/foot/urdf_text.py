@@ -1,4 +1,4 @@
-"""A URDF as MuJoCo reads it: link by link with what is drawn, meshes under names of their own."""
+"""A URDF as MuJoCo reads it: all links kept, meshes renamed."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ BELOW = "plantar_world"
 
 
 def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, str]]:
-    """The text of a URDF for MuJoCo's reader, which follows no mesh's name and keeps every link.
+    """The text of a URDF for MuJoCo's reader.
 
-    MuJoCo makes the root link a part of the world, its mass with it; a joint to a link above keeps it a body. It takes
-    meshes of the same file name in two folders for one, and knows no packages: each mesh gets a name.
+    MuJoCo merges the root link into the world, and meshes of the same file name in two folders; it knows no packages.
+    So the root hangs on a link above, and each mesh gets a name.
 
     Returns:
-        The text, None where every link hangs on another; and of each mesh's name in it the name that the URDF has.
+        The text, None where every link hangs on another; and the URDF's name of each mesh.
 
     Example:
         >>> link = '<link name="a"><visual><geometry><mesh filename="package://b/c.dae"/></geometry></visual></link>'
@@ -50,7 +50,7 @@ def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, st
 
 
 def _rename_world(root: ElementTree.Element) -> None:
-    """Give a link called "world", which MuJoCo keeps for its own, another name."""
+    """Rename a link called "world", a name that MuJoCo reserves."""
     places = [(e, "name") for e in root.findall("link")]
     places += [(e, "link") for tag in ("parent", "child") for e in root.iterfind(f"joint/{tag}")]
     for element, key in places:

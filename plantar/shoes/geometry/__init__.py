@@ -1,1 +1,1 @@
-"""Outlines, transforms and sections."""
+"""Outlines, surfaces and sections."""

@@ -1,7 +1,4 @@
-"""Outlines in the sole plane, in mm: of the lowest part of a foot, of a rounded rectangle, and their repair.
-
-Polygons are shapely polygons, counter-clockwise, without holes, on a grid of 1 micrometre.
-"""
+"""Outlines in the sole plane in mm: shapely polygons, counter-clockwise, without holes, on a grid of 1 micrometre."""
 
 from __future__ import annotations
 
@@ -45,14 +42,7 @@ _EXACT = 1e-9  # mm: what lies nearer to a line lies on it
 
 
 def tidy(polygon: Any) -> Any:
-    """A polygon on the grid, counter-clockwise and without repeated or collinear points.
-
-    Args:
-        polygon: A shapely polygon in mm; of several parts the largest is taken, holes are filled.
-
-    Returns:
-        The shapely polygon.
-    """
+    """A polygon on the grid, counter-clockwise and without collinear points: the largest part, holes filled."""
     shape = shapely.set_precision(polygon, GRID)
     parts = [p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon" and not p.is_empty]
     if not parts:
@@ -62,14 +52,8 @@ def tidy(polygon: Any) -> Any:
 
 
 def grown(shape: Any, distance: float) -> Any:
-    """A shape with its edges moved outwards: gentle corners stay one point, sharp ones are bevelled.
-
-    Args:
-        shape: Shapely polygon or multipolygon.
-        distance: How far, in mm, 0 or more; a corner moves at most CORNER times as far.
-
-    Returns:
-        The grown shape.
+    """Gives a shapely shape with its edges moved outwards by a distance in mm; a corner moves at most CORNER times as
+    far.
     """
     if distance <= 0.0:
         return shape
@@ -78,7 +62,6 @@ def grown(shape: Any, distance: float) -> Any:
 
 
 def _pointed(polygon: Any) -> Any:
-    """A polygon whose corners with a short bevel have a point instead, where that lies near."""
     points = ring(polygon)
     for i in range(len(points) - 1, -1, -1):
         a, b, c, d = (points[(i + k) % len(points)] for k in (-1, 0, 1, 2))
@@ -100,23 +83,15 @@ def ring(polygon: Any) -> NDArray[np.float64]:
 
 
 def apart(outer: Any, inner: Any) -> Any:
-    """What an outline has beyond another, without what is a hair wide; a hair more all around.
-
-    Args:
-        outer: A shapely polygon in mm.
-        inner: One that it takes in.
-
-    Returns:
-        A shapely geometry, empty where the two are about the same.
-    """
+    """Gives what an outer outline has beyond an inner one, hair-wide parts left out, grown by a hair."""
     return outer.difference(inner).buffer(-_HAIR).buffer(2.0 * _HAIR, quad_segs=1)
 
 
 def flush(outer: Any, inner: Any) -> Any:
-    """An outline that takes in another, and is the very same wherever both are about the same.
+    """An outline that takes in another, and is identical wherever both are about the same.
 
-    Walls that run along each other a hair apart, or meet a hair next to a corner, give faces and edges of no width,
-    which the CAD kernel loses. Where the two part the result lies on no grid: there they would part a hair elsewhere.
+    Walls a hair apart give faces of no width, which the CAD kernel loses. Where the two part, the result is not on the
+    grid.
 
     Args:
         outer: A shapely polygon in mm without holes.
@@ -156,7 +131,7 @@ def rounded_rectangle(length: float, width: float, centre: tuple[float, float], 
         length: Extent along x in mm.
         width: Extent along y in mm.
         centre: Middle (x, y) in mm.
-        radius: Corner radius in mm, 0 up to half the shorter extent.
+        radius: Corner radius in mm, up to half the shorter extent.
 
     Returns:
         The shapely polygon.
@@ -173,27 +148,27 @@ def rounded_rectangle(length: float, width: float, centre: tuple[float, float], 
 
 
 def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
-    """Outline of what a surface has below a height, seen from above.
+    """Outline of a surface below a height, seen from above.
 
     Args:
         triangles: Triangles (n, 3, 3) in mm with the sole plane at z = 0.
-        height: Height in mm; triangles that cross it are cut there.
+        height: Height in mm; crossing triangles are cut there.
 
     Returns:
         One shapely polygon in mm, see `single_outline`.
 
     Raises:
-        FootError: If nothing with an area lies below the height.
+        FootError: If it has no area.
     """
 
     return outline_of(cut_below(triangles, height), height)
 
 
 def outline_of(below: NDArray[np.float64], height: float) -> Any:
-    """Outline of the lowest part of a surface.
+    """Outline of triangles (n, 3, 3) in mm that lie below a height.
 
     Args:
-        below: Triangles (n, 3, 3) in mm: what lies below the height.
+        below: The triangles.
         height: The height in mm, for messages.
 
     Returns:
@@ -212,15 +187,7 @@ def outline_of(below: NDArray[np.float64], height: float) -> Any:
 
 
 def touching(triangles: NDArray[np.float64], height: float) -> Any:
-    """What a surface covers of the floor with its part below a height: a shapely polygon, multipolygon, or empty.
-
-    Args:
-        triangles: Triangles (n, 3, 3) in mm with the sole plane at z = 0.
-        height: Height in mm.
-
-    Returns:
-        The area, which may be in parts and have holes.
-    """
+    """Gives the area, in parts and with holes, that triangles (n, 3, 3) below a height in mm cover of the floor."""
     return _projected(cut_below(triangles, height))
 
 
@@ -229,13 +196,13 @@ def _projected(triangles: NDArray[np.float64]) -> Any:
 
 
 def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
-    """One sensible outline of a sole that may touch in patches or have grooves and holes.
+    """One outline of a sole that may touch in patches or have grooves and holes.
 
-    Several patches, or a shape that nearly fills its convex hull, give the hull; one patch with a marked waist or
-    notch keeps it, with holes filled and grooves bridged.
+    Several patches, or a nearly convex shape, give the hull; one patch with a waist or notch keeps it, with holes
+    filled and grooves bridged.
 
     Args:
-        union: The touching area: a shapely polygon or multipolygon in mm, possibly empty.
+        union: The touching area: a shapely geometry in mm, possibly empty.
         hull: Its convex hull.
         detail: Detail in mm that may be dropped.
 
@@ -251,15 +218,7 @@ def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
 
 
 def cut_below(triangles: NDArray[np.float64], height: float) -> NDArray[np.float64]:
-    """Parts of a surface at or below a height.
-
-    Args:
-        triangles: Triangles (n, 3, 3) in mm.
-        height: Height z in mm.
-
-    Returns:
-        Triangles (m, 3, 3); those that cross the height are cut there.
-    """
+    """Gives the parts (m, 3, 3) of triangles (n, 3, 3) at or below a height z, all in mm."""
     z = triangles[..., 2]
     inside = z <= height
     count = inside.sum(axis=1)

@@ -1,4 +1,4 @@
-"""Surfaces of the simple shapes that robot models are put together from."""
+"""Surfaces of the simple shapes of robot models."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ def primitive(kind: str, size: NDArray[np.float64], where: str) -> NDArray[np.fl
 
     Args:
         kind: "box", "sphere", "cylinder", "capsule" or "ellipsoid".
-        size: Half sizes as MJCF has them: box and ellipsoid (x, y, z), sphere (radius), cylinder and capsule (radius,
-            half length of the straight part).
+        size: Half sizes as in MJCF: box and ellipsoid (x, y, z), sphere (radius), cylinder and capsule (radius, half
+            length of the straight part).
         where: What it belongs to, for messages.
 
     Returns:

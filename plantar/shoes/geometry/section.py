@@ -27,7 +27,7 @@ def cut_segments(triangles: Array, height: float) -> tuple[Array, Array]:
         height: Height in mm.
 
     Returns:
-        Segments (m, 2, 2), and the direction (m, 3) of length 1 that points out of the solid at each.
+        Segments (m, 2, 2), and the outward unit normal (m, 3) at each.
     """
     z = triangles[..., 2]
     above = z > height
@@ -48,29 +48,14 @@ def cut_segments(triangles: Array, height: float) -> tuple[Array, Array]:
 
 
 def section(triangles: Array, height: float) -> Any:
-    """The solid's cross-section at z = height.
-
-    Args:
-        triangles: Closed surface (n, 3, 3) in mm; no corner lies at the height.
-        height: Height in mm.
-
-    Returns:
-        A shapely polygon or multipolygon in mm, empty where nothing is cut.
-    """
+    """Gives the section of closed triangles (n, 3, 3) at a height in mm where no corner lies: a shapely geometry."""
     segments, _ = cut_segments(triangles, height)
     return shapely.build_area(shapely.union_all(shapely.linestrings(segments))) if len(segments) else shapely.Polygon()
 
 
 def section_along(triangles: Array, axis: int, at: float) -> Any:
-    """The solid's cross-section in a plane x = at (axis 0) or y = at (axis 1).
-
-    Args:
-        triangles: Closed surface (n, 3, 3) in mm.
-        axis: 0 or 1.
-        at: Where to cut, in mm.
-
-    Returns:
-        A shapely polygon or multipolygon over (y, z) or (x, z) in mm.
+    """Gives the section of closed triangles (n, 3, 3) at x (axis 0) or y (axis 1), at a place in mm: shapely, over (y,
+    z) or (x, z).
     """
     return section(triangles[..., [1, 2, 0] if axis == 0 else [0, 2, 1]], at)
 
@@ -80,8 +65,8 @@ def wall_thickness(segments: Array, outwards: Array, leave_out: tuple[int, Bands
 
     Args:
         segments: Segments (m, 2, 2) of the section's border.
-        outwards: Direction (m, 3) of length 1 out of the solid at each, its last component across the section.
-        leave_out: Axis of the section, and bands of it in which nothing is measured; None for none.
+        outwards: Outward unit normal (m, 3) at each, its last component across the section.
+        leave_out: Axis of the section, and bands of it in which nothing is measured.
 
     Returns:
         The thickness in mm; infinite for no segments.
@@ -138,7 +123,7 @@ def thinnest_wall(triangles: Array, engraved: Bands = ()) -> float:
 
     Args:
         triangles: Closed surface (n, 3, 3) in mm, outward counter-clockwise.
-        engraved: Bands (low, high) of z in which only lines are engraved: what stands between these is no wall.
+        engraved: Bands (low, high) of z with engraved lines, between which no wall is meant.
 
     Returns:
         The thickness in mm.
@@ -156,7 +141,7 @@ def thinnest_wall(triangles: Array, engraved: Bands = ()) -> float:
 
 
 def _heights(triangles: Array, count: int | None) -> list[float]:
-    """Heights to cut at: so many, evenly, or one between each two levels at which flat faces lie."""
+    """Heights to cut at: `count` of them, evenly, or one between each two levels of flat faces."""
     z = triangles[..., 2]
     if count is not None:
         low, high = float(z.min()), float(z.max())

@@ -1,8 +1,8 @@
-"""What surfaces of up to a million triangles are asked: whether they are closed, what they cover, and their hull.
+"""Surfaces of up to a million triangles: whether they are closed, what they cover, and their hull, on a grid of a
+micrometre.
 
-All of it is exact but for a grid of a micrometre. Corners are numbered by their place on the grid, and a covered area
-comes from the edges that are left when those that two triangles share in opposite directions cancel: their winding
-number about a point is the number of triangles over it, of a surface as of triangles that do not join.
+A covered area comes from the edges left when those shared in opposite directions cancel: their winding number about a
+point is the number of triangles over it.
 """
 
 from __future__ import annotations
@@ -30,10 +30,7 @@ Numbers = NDArray[np.int64]
 
 
 def corner_numbers(points: Array) -> Numbers:
-    """A number for each point, the same for points of the same place on a grid of a micrometre.
-
-    Args:
-        points: Points (..., 2) or (..., 3) in mm.
+    """A number for each point (..., 2) or (..., 3) in mm, equal for points of one place on the grid.
 
     Example:
         >>> corner_numbers(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1e-6]])).tolist()
@@ -51,11 +48,7 @@ def corner_numbers(points: Array) -> Numbers:
 
 
 def is_closed(triangles: Array) -> bool:
-    """Whether every edge of a surface belongs to exactly two triangles.
-
-    Args:
-        triangles: Triangles (n, 3, 3) in mm.
-    """
+    """Whether every edge of triangles (n, 3, 3) in mm belongs to exactly two of them."""
     corners = corner_numbers(triangles)
     start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
     long = start != end
@@ -64,14 +57,7 @@ def is_closed(triangles: Array) -> bool:
 
 
 def convex_outline(points: Array) -> Any:
-    """The convex hull of points in a plane; those inside of what the farthest of them span are left out first.
-
-    Args:
-        points: Points (n, 2) in mm.
-
-    Returns:
-        A shapely geometry: a polygon, or a line or point where they have no area.
-    """
+    """The convex hull of points (n, 2) in mm, a shapely geometry; inner points are left out first."""
     if len(points) > _FEW:
         x, y = np.ascontiguousarray(points[:, 0]), np.ascontiguousarray(points[:, 1])
         extreme: list[int] = []
@@ -87,16 +73,10 @@ def convex_outline(points: Array) -> Any:
 
 
 def covered_area(flat: Array) -> Any:
-    """What triangles in a plane cover together.
-
-    Args:
-        flat: Triangles (n, 3, 2) in mm, in any order and direction, over each other or not.
-
-    Returns:
-        A shapely polygon or multipolygon, possibly empty.
+    """What triangles (n, 3, 2) in mm cover together, in any order and direction: a shapely geometry.
 
     Raises:
-        FootError: If they do not join and cover the same area many times: a crowd is no surface.
+        FootError: If they do not join and overlap many times.
     """
     flat = np.rint(flat / _GRID) * _GRID
     u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
@@ -168,15 +148,7 @@ def _winding(points: Array, edges: Array, times: Numbers) -> Numbers:
 
 
 def surface_points(triangles: Array, spacing: float) -> Array:
-    """Points (n, 3) all over a surface, about so far apart, its corners among them.
-
-    Args:
-        triangles: Triangles (k, 3, 3).
-        spacing: In their unit.
-
-    Returns:
-        The points.
-    """
+    """Gives points (n, 3) all over triangles (k, 3, 3), about `spacing` apart, their corners included."""
     size = np.linalg.norm(np.stack([triangles[:, i] - triangles[:, i - 1] for i in range(3)]), axis=-1).max(axis=0)
     steps = np.clip(np.ceil(size / spacing), 1, 120).astype(int)
     out = [triangles.reshape(-1, 3)]

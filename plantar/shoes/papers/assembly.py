@@ -42,11 +42,11 @@ code { overflow-wrap: anywhere; }
 
 
 def assembly_page(build: ShoeBuild, checks: Mapping[str, ShoeCheck], bills: Mapping[str, Sequence[Part]]) -> str:
-    """The page of a shoe, or of a pair; its pictures show the first side, which the other mirrors.
+    """The page of a shoe, or of a pair; its pictures show the first side.
 
     Args:
         build: The shoes, with their solids.
-        checks: What was measured of each side.
+        checks: Measures of each side.
         bills: Parts of each side.
 
     Returns:
@@ -81,7 +81,6 @@ def _parts(side: str, bill: Sequence[Part]) -> str:
 
 
 def _step(paragraphs: Sequence[str], view: bytes, caption: str, more: str = "") -> str:
-    """The content of a step: paragraphs (HTML) beside a picture, and what follows below both."""
     text = "".join(f"<p>{p}</p>" for p in paragraphs if p)
     return f'<div class="step"><div>{text}</div>{figure(view, caption)}</div>\n{more}'
 
@@ -348,8 +347,6 @@ def _tare(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views: 
 
 
 class _Views:
-    """Pictures of one shoe's solids, together and apart."""
-
     def __init__(self, shoe: Shoe, build: ShoeBuild) -> None:
         assert shoe.surface is not None
         self.shoe, self.build, self.surface = shoe, build, shoe.surface
@@ -364,16 +361,13 @@ class _Views:
         return rendered_png(bodies, azimuth=view["azimuth"], elevation=view["elevation"])
 
     def of_print(self) -> bytes:
-        """The print from above."""
         return self._shown([(self.surface, _PRINT)], _ABOVE)
 
     def of_cells(self, lifted: int | None = None) -> bytes:
-        """The taxels before their pockets, from below; or the first alone."""
         shown = self.taxels if lifted is None else [self.taxels[self.first]]
         return self._shown([(self.surface, _PRINT), *((t - 1.5 * self.apart, c) for t, c in shown)], _BELOW)
 
     def of_mould(self) -> bytes:
-        """The pad above its mould, both as the mould stands."""
         assert self.pad is not None
         mould = mould_surface(self.shoe.plan, self.build.parameters)
         turned = (self.pad * np.array([1.0, -1.0, -1.0])) + np.array([0.0, 0.0, float(mould[..., 2].max())])
@@ -387,11 +381,9 @@ class _Views:
         return [(prism_surface(s, low, high), _WIRE) for s in shapes if s.geom_type == "Polygon" and not s.interiors]
 
     def of_wires(self) -> bytes:
-        """The wires in the print, from below."""
         return self._shown([(self.surface, _PRINT), *self._cables()], {**_BELOW, "elevation": -70.0})
 
     def of_exit(self) -> bytes:
-        """The board above its rails, from behind; the cable's end from below where there is none."""
         heel, p = self.shoe.plan.heel, self.build.parameters
         if not heel.board:
             return self._shown([(self.surface, _PRINT), *self._cables()], {"azimuth": 160.0, "elevation": -35.0})
@@ -401,7 +393,6 @@ class _Views:
         return self._shown([(self.surface, _PRINT), (board, _BOARD)], _BEHIND)
 
     def of_pad(self) -> bytes:
-        """The pad before the taxels in their pockets."""
         assert self.pad is not None
         bodies = [(self.surface, _PRINT), *self.taxels]
         return self._shown([*bodies, (self.pad - 3.0 * self.apart, _PAD)], {**_BELOW, "elevation": -20.0})
@@ -411,11 +402,9 @@ class _Views:
         return [(self.surface, _PRINT), *self.taxels, *pad]
 
     def of_foot(self) -> bytes:
-        """The foot above the shoe."""
         return self._shown([*self._whole(), (self._foot() + 2.0 * self.apart, _FOOT)], _LOW)
 
     def of_all(self) -> bytes:
-        """The foot in the shoe."""
         return self._shown([*self._whole(), (self._foot(), _FOOT)], _LOW)
 
     def _foot(self) -> Array:

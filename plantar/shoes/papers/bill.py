@@ -23,16 +23,7 @@ WINDOW = 5.0
 
 @dataclass(frozen=True)
 class Part:
-    """One line of the bill.
-
-    Attributes:
-        part: What it is.
-        quantity: How many for one shoe.
-        material: Of what.
-        size: How large.
-        mass_g: Mass of all of them in g; None where it is not known.
-        note: What it is for, or how it is made.
-    """
+    """One line of the bill, for one shoe; mass in g of all its parts, None if unknown."""
 
     part: str
     quantity: int
@@ -43,16 +34,7 @@ class Part:
 
 
 def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
-    """The parts of one shoe.
-
-    Args:
-        shoe: The shoe.
-        build: What it belongs to.
-        weights: Its masses.
-
-    Returns:
-        The lines of the bill.
-    """
+    """Gives the parts of one shoe of a build with its weights."""
     p, plan, side = build.parameters, shoe.plan, shoe.side
     low_x, low_y, high_x, high_y = plan.contact.bounds
     outline = f"{high_x - low_x:.1f} x {high_y - low_y:.1f}"
@@ -101,20 +83,17 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
 
 
 def _window(plan: ShoePlan) -> str:
-    """What a pad needs for sensors that look through it."""
     proximity = "proximity" in plan.layout.modalities
     return f"holes of {WINDOW:g} mm at the taxels' centres where infrared looks out" if proximity else "no holes"
 
 
 def _cable(shoe: Shoe) -> float:
-    """Length in mm from the farthest connector to the heel."""
     x, y = shoe.plan.heel.x, shoe.plan.heel.y
     at = to_mm(shoe.layout.positions[list(shoe.plan.connectors), :2])
     return float(np.hypot(at[:, 0] - x, at[:, 1] - y).max()) + 20.0
 
 
 def _holding(build: ShoeBuild, width: float) -> list[Part]:
-    """What holds the shoe and is not printed with it."""
     p, retention = build.parameters, build.retention
     if retention is None or not retention.places:
         return []

@@ -40,9 +40,9 @@ def draw_shoe(shoe: Shoe, build: ShoeBuild, triangles: Array, paths: Sequence[st
 
     Args:
         shoe: The shoe.
-        build: What it belongs to.
+        build: Its build.
         triangles: Its surface (n, 3, 3) in mm, as exported.
-        paths: Where to write: .pdf, .svg, .png, .dxf.
+        paths: Files to write: .pdf, .svg, .png, .dxf.
 
     Returns:
         The paths.
@@ -52,7 +52,7 @@ def draw_shoe(shoe: Shoe, build: ShoeBuild, triangles: Array, paths: Sequence[st
 
 
 def sheet_of(shoe: Shoe, build: ShoeBuild, triangles: Array) -> Sheet:
-    """The sheet of a shoe of a build with its triangles, as `draw_shoe` writes it; gives the sheet."""
+    """Gives the sheet of a shoe of a build with its triangles, as `draw_shoe` writes it."""
     sheet, body = Sheet(), triangles.reshape(-1, 3)
     low, high = body.min(axis=0), body.max(axis=0)
     size = high - low
@@ -76,7 +76,6 @@ def sheet_of(shoe: Shoe, build: ShoeBuild, triangles: Array) -> Sheet:
 
 
 def _cuts(shoe: Shoe, build: ShoeBuild) -> tuple[float, float]:
-    """Where to cut: y through a row of taxels near the middle, x through what holds the shoe."""
     positions = to_mm(shoe.layout.positions)
     middle = 0.5 * (shoe.plan.contact.bounds[1] + shoe.plan.contact.bounds[3])
     cut_y = float(positions[np.argmin(np.abs(positions[:, 1] - middle)), 1])
@@ -86,7 +85,6 @@ def _cuts(shoe: Shoe, build: ShoeBuild) -> tuple[float, float]:
 
 
 def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cuts: tuple[float, float]) -> None:
-    """The shoe from above: outlines, hidden pockets with the ids of their taxels, cable, datums, cuts, sizes."""
     plan, sheet, p = shoe.plan, view.sheet, build.parameters
     flip = 1.0 if shoe.side == "left" else -1.0
     for pocket in plan.pockets:
@@ -136,7 +134,7 @@ def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cut
 
 
 def _section(view: View, shoe: Shoe, build: ShoeBuild, triangles: Array, axis: int, at: float, name: str) -> Any:
-    """A section with the foot as it is cut, taxels and pad; gives the print's area."""
+    """A section with the cut foot, taxels and pad; returns the print's area."""
     p, plan, sheet = build.parameters, shoe.plan, view.sheet
     cut, across = section_along(triangles, axis, at), 1 - axis
     line = shapely.LineString([(at, -1e4), (at, 1e4)] if axis == 0 else [(-1e4, at), (1e4, at)])
@@ -162,7 +160,7 @@ def _section(view: View, shoe: Shoe, build: ShoeBuild, triangles: Array, axis: i
 
 
 def _foot_section(shoe: Shoe, build: ShoeBuild, axis: int, at: float, top: float) -> Any:
-    """The foot in the shoe, cut where the shoe is; of an open surface, or of dimensions, its outlines by height."""
+    """The foot in the shoe, cut where the shoe is; without a closed surface its outlines by height."""
     floor, triangles = build.parameters.thickness, build.foot.triangles
     room = shapely.box(-1e4, floor, 1e4, top)
     if triangles is not None:
@@ -193,7 +191,6 @@ def _heights(view: View, build: ShoeBuild, cut: Any) -> None:
 
 
 def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild, triangles: Array, cut: Any) -> None:
-    """Pocket and rib, port, what holds the shoe, and the slot of the board: larger, and marked in their views."""
     plan, p, made = shoe.plan, build.parameters, build.parameters.made_by
     flat, half = 2.0 * made.scatter, p.bottom + 0.5 * p.pocket_depth
     cut_y, _ = _cuts(shoe, build)
@@ -231,7 +228,6 @@ def _details(top: View, along: View, across: View, shoe: Shoe, build: ShoeBuild,
 
 
 def _rib(cut: Any, height: float) -> float:
-    """Middle of the rib in a section that is nearest to the section's own."""
     low, _, high, _ = cut.bounds
     parts = shapely.get_parts(cut.intersection(shapely.LineString([(low, height), (high, height)])))
     middles = [0.5 * (q.bounds[0] + q.bounds[2]) for q in parts if q.length < 6.0] or [0.5 * (low + high)]
@@ -242,7 +238,6 @@ def _detail(
     letter: str, at: tuple[float, float], name: str, source: View, shape: Any, centre: Array,
     radius: float, texts: Sequence[str],
 ) -> None:  # fmt: skip
-    """What lies within a circle of a view, larger, with what is toleranced there."""
     sheet, scale = source.sheet, _DETAIL / radius
     circle = shapely.Point(centre).buffer(radius, quad_segs=24)
     view = View(sheet, scale, at, (float(centre[0]), float(centre[1])))
@@ -257,7 +252,6 @@ def _detail(
 
 
 def _features(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
-    """A table of every feature: its place from the datums, and the tolerance of that place."""
     plan = shoe.plan
     flip = 1.0 if shoe.side == "left" else -1.0
     rows = [
@@ -291,7 +285,6 @@ def _features(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
 
 
 def _inspection(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
-    """What is measured on the first print, with a place for what was found."""
     p, made, plan = build.parameters, build.parameters.made_by, shoe.plan
     flat = 2.0 * made.scatter
     rows = [
@@ -313,7 +306,6 @@ def _inspection(sheet: Sheet, shoe: Shoe, build: ShoeBuild) -> None:
 
 
 def _title(sheet: Sheet, shoe: Shoe, build: ShoeBuild, scale: str) -> None:
-    """The title block (ISO 7200), with general tolerances and the symbol of projection."""
     p = build.parameters
     low = (230.0, 10.0)
     sheet.box(low, (410.0, 62.0), "OUTLINE")

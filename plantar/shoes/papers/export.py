@@ -1,4 +1,4 @@
-"""Files of a shoe: STL, STEP, 3MF, layout, pad, drawing, picture, bill of parts, and what was checked on them."""
+"""Files of a shoe: STL, STEP, 3MF, layout, pad, drawing, picture, bill of parts, and the checks of them."""
 
 from __future__ import annotations
 
@@ -40,12 +40,11 @@ class ShoeReport:
     """What was exported and measured.
 
     Attributes:
-        build: The shoes.
-        checks: Measures of each shoe by side; empty where only layouts were asked for.
-        files: Names of the files written, in the folder given.
+        checks: Measures of each shoe by side; empty for layouts alone.
+        files: Names of the files in the folder.
         weights: Masses of each shoe by side.
         bills: Bill of parts of each shoe by side.
-        plan_checks: Checks of each layout by side, where only layouts were asked for.
+        plan_checks: Checks of each layout by side, for layouts alone.
     """
 
     build: ShoeBuild
@@ -110,7 +109,6 @@ class ShoeReport:
 
 
 def _extent(shoe: Shoe) -> NDArray[np.float64]:
-    """Length and width of the contact face in mm."""
     low_x, low_y, high_x, high_y = shoe.plan.contact.bounds
     return np.array([high_x - low_x, high_y - low_y])
 
@@ -131,7 +129,6 @@ def _plain(value: Any) -> Any:
 
 
 def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
-    """The layout file, with what a simulator and whoever wires the shoe want to know of it in SI units."""
     plan, ids = shoe.plan, shoe.layout.ids.tolist()
     extra: dict[str, Any] = {
         "thickness": round(to_m(build.parameters.thickness), 6),
@@ -158,10 +155,10 @@ def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
 
 
 def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: Progress | None = None) -> ShoeReport:
-    """Write the files of every shoe and check what was written.
+    """Write the files of every shoe and check them.
 
     Args:
-        build: The shoes; where they have no solid, only their layouts are written.
+        build: The shoes; without solids, only their layouts are written.
         folder: An existing folder; files of the same name are replaced.
         progress: Receives fraction and text.
 
@@ -208,7 +205,6 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
 
 
 def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[np.float64], StepSolid, list[str]]:
-    """Write a shoe's STL, STEP and 3MF and its pad; gives the triangles and the shape as read back, and the names."""
     assert shoe.surface is not None
     side, p = shoe.side, build.parameters
     names = [f"{build.kind}_{side}.stl", f"{build.kind}_{side}.step", f"{build.kind}_{side}.3mf"]
@@ -230,7 +226,6 @@ def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[n
 
 
 def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
-    """Write the outlines of the cells, and the assembly with its parts by name; gives the files' names."""
     assert shoe.surface is not None
     side, p = shoe.side, build.parameters
     names = [f"cells_{side}.dxf", f"assembly_{side}.3mf", f"board_{side}.kicad_pcb", f"board_{side}.net"]

@@ -1,7 +1,7 @@
 """A flexible board for a sole in KiCad's formats: its outline with a pad for each taxel, and the net list.
 
-The board lies in pockets, ports and channel, as far from their walls as parts that slide. Each taxel has a line of its
-own to the connector at the heel; of a sheet each row and each column has one. Lengths in mm; KiCad's y points down.
+The board lies in pockets, ports and channel with the gap of sliding parts. Each taxel, or of a sheet each row and
+column, has its own line to the connector at the heel. Lengths in mm; KiCad's y points down.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _LAYERS = '(0 "F.Cu" signal) (31 "B.Cu" signal) (37 "F.SilkS" user) (44 "Edge.Cu
 
 
 def board_nets(shoe: Shoe) -> dict[str, list[str]]:
-    """Nets by name, each with the references of the taxels on it; taxel k of the layout is T<k>."""
+    """Nets by name, each with the references of its taxels; taxel k of the layout is T<k>."""
     plan, ids = shoe.plan, shoe.layout.ids.tolist()
     if plan.lines is None:
         return {f"TAXEL_{k}": [f"T{k}"] for k in ids} | {"GND": [f"T{k}" for k in ids]}
@@ -36,13 +36,13 @@ def board_nets(shoe: Shoe) -> dict[str, list[str]]:
 
 
 def board_outlines(shoe: Shoe, parameters: ShoeParameters) -> list[Any]:
-    """The board's outlines of a shoe and its parameters; gives shapely polygons in mm, one for each patch."""
+    """Gives the board's outlines of a shoe and its parameters, shapely polygons in mm, one for each patch."""
     found = [q.buffer(-parameters.made_by.slide) for q in pocket_outlines(shoe.plan, parameters)]
     return [part for q in found for part in getattr(q, "geoms", [q]) if not part.is_empty]
 
 
 def board_text(shoe: Shoe, parameters: ShoeParameters) -> str:
-    """A shoe's board as .kicad_pcb, edges by its parameters, taxels and connector as footprints; returns text."""
+    """Gives a shoe's board by its parameters as .kicad_pcb, taxels and connector as footprints."""
     nets = board_nets(shoe)
     number = {name: i for i, name in enumerate(nets, start=1)}
     lines = [
@@ -65,7 +65,6 @@ def board_text(shoe: Shoe, parameters: ShoeParameters) -> str:
 
 
 def _connector(shoe: Shoe, p: ShoeParameters) -> tuple[float, float]:
-    """Where the lines leave the plate; the middle of the sole where there are no ways for a cable."""
     lines = channel_lines(shoe.plan, p)
     x, y = (lines[0][-1] if lines else np.array(shoe.plan.contact.centroid.coords[0])).tolist()
     return x, y
@@ -83,7 +82,7 @@ def _footprint(
 
 
 def net_list_text(shoe: Shoe) -> str:
-    """The nets as KiCad's .net file: which pin of which taxel goes to which pin of the connector J1."""
+    """The nets as KiCad's .net file: pins of taxels and of the connector J1."""
     nets = board_nets(shoe)
     on = {f"T{k}": [name for name, parts in nets.items() if f"T{k}" in parts] for k in shoe.layout.ids.tolist()}
     parts = [f'(comp (ref "{r}") (value "taxel") (footprint "plantar:taxel"))' for r in on]

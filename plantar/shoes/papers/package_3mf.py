@@ -30,14 +30,7 @@ _DATE = (2000, 1, 1, 0, 0, 0)  # the same input gives the same bytes
 
 @dataclass(frozen=True)
 class NamedBody:
-    """A body of an assembly.
-
-    Attributes:
-        name: Its name.
-        material: What it is made of.
-        colour: How it is shown, "#RRGGBB".
-        triangles: Closed surface (n, 3, 3) in mm, outward counter-clockwise.
-    """
+    """A body of an assembly: closed triangles (n, 3, 3) in mm, outward counter-clockwise, and its colour "#RRGGBB"."""
 
     name: str
     material: str
@@ -46,30 +39,14 @@ class NamedBody:
 
 
 def write_3mf(triangles: NDArray[np.float64], name: str, path: str | os.PathLike[str]) -> Path:
-    """Write a surface as a 3MF package with the unit millimetre.
-
-    Args:
-        triangles: Closed surface (n, 3, 3) in mm, outward counter-clockwise.
-        name: Name of the object.
-        path: File to write.
-
-    Returns:
-        The path.
-    """
+    """Write closed triangles (n, 3, 3) in mm with a name as a 3MF package; returns the path."""
     title = _plain(name)
     return _write(f'{_object(1, title, triangles)}</resources><build><item objectid="1"/></build></model>', title, path)
 
 
 def write_assembly(bodies: Sequence[NamedBody], name: str, path: str | os.PathLike[str]) -> Path:
-    """Write several bodies, each with its name and material, as one assembly in a 3MF package.
-
-    Args:
-        bodies: The bodies, in their places; one or more.
-        name: Name of the assembly.
-        path: File to write.
-
-    Returns:
-        The path.
+    """Write bodies, each with its name and material, as one named assembly in a 3MF package; name is the assembly's;
+    returns the path.
     """
     title, first = _plain(name), 2
     kinds = dict.fromkeys((b.material, b.colour) for b in bodies)
@@ -95,7 +72,6 @@ def _plain(name: str) -> str:
 
 
 def _object(number: int, title: str, triangles: NDArray[np.float64], attributes: str = "") -> str:
-    """A mesh as an element of a model; triangles without an area are left out."""
     vertices, index = np.unique(np.round(triangles.reshape(-1, 3), 5) + 0.0, axis=0, return_inverse=True)
     faces = index.reshape(-1, 3)
     faces = faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]

@@ -1,4 +1,4 @@
-"""A rendered picture of a shoe: its triangles seen in parallel projection, shaded, edges drawn, without a display."""
+"""A rendered picture of a shoe: its triangles in parallel projection, shaded, edges drawn, without a display."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ def render(
 
     Args:
         bodies: Triangles (n, 3, 3), outward counter-clockwise, and the colour (r, g, b) 0..1 of each body.
-        azimuth: Where the eye is, in degrees about z from +x.
-        elevation: How high the eye is, in degrees; negative looks from below.
+        azimuth: Of the eye, in degrees about z from +x.
+        elevation: Of the eye, in degrees; negative looks from below.
         width: Width of the picture in pixels.
         margin: Empty share of the picture at each side.
 
@@ -68,7 +68,7 @@ def render(
 
 
 def _nearest(pixel: Array, height: int, width: int) -> tuple[Array, NDArray[np.int64]]:
-    """Depth of the nearest triangle at each pixel, and which it is; -1 for none."""
+    """Depth of the nearest triangle at each pixel, and its number; -1 for none."""
     depth = np.full(height * width, -np.inf)
     which = np.full(height * width, -1, dtype=np.int64)
     y = pixel[..., 1]
@@ -101,13 +101,12 @@ def _nearest(pixel: Array, height: int, width: int) -> tuple[Array, NDArray[np.i
 
 
 def _spread(first: NDArray[np.int64], count: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """For each of so many numbers from a first on: of which it is, and the number."""
+    """Ranges of `count` numbers from `first` on: the number of the range, and the number in it."""
     which = np.repeat(np.arange(len(count)), count)
     return which, np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count) + first[which]
 
 
 def _edges(depth: Array, which: NDArray[np.int64], normal: Array, jump: float) -> NDArray[np.bool_]:
-    """Pixels where the surface bends or ends against the pixel to the right or below."""
     out = np.zeros(depth.size, dtype=bool)
     number = np.arange(depth.size).reshape(depth.shape)
     flat, face = np.where(which < 0, -1e6, depth).ravel(), which.ravel()
@@ -122,7 +121,6 @@ def _edges(depth: Array, which: NDArray[np.int64], normal: Array, jump: float) -
 
 
 def _halved(view: Picture) -> Picture:
-    """A picture of an even width at half the size, each pixel the mean of four."""
     height, width = view.shape[0] // 2, view.shape[1] // 2
     return np.asarray(view[: 2 * height].reshape(height, 2, width, 2, 3).mean(axis=(1, 3)))
 
@@ -130,16 +128,8 @@ def _halved(view: Picture) -> Picture:
 def rendered_png(
     bodies: list[tuple[Array, tuple[float, float, float]]], *, azimuth: float, elevation: float, width: int = 480
 ) -> bytes:
-    """Render triangles as a PNG file; the same triangles give the same bytes.
-
-    Args:
-        bodies: Triangles (n, 3, 3), outward counter-clockwise, and the colour (r, g, b) 0..1 of each body.
-        azimuth: Where the eye is, in degrees about z from +x.
-        elevation: How high the eye is, in degrees; negative looks from below.
-        width: Width of the picture in pixels.
-
-    Returns:
-        The file's bytes.
+    """Gives the bytes of a PNG of bodies seen from azimuth and elevation, of a width in pixels, as `render` does;
+    deterministic.
     """
     seen = render(bodies, azimuth=azimuth, elevation=elevation, width=2 * width)
     return png_of(_halved(seen).astype(np.float64))
@@ -153,8 +143,8 @@ def draw_picture(
     Args:
         surface: Triangles (n, 3, 3) of the printed part in mm.
         pad: Triangles of the pad in mm; None without one.
-        title: What it is.
-        path: Where to write; the ending gives the format.
+        title: Title of the picture.
+        path: File to write; the ending gives the format.
         width: Width of each view in pixels.
 
     Returns:

@@ -1,4 +1,4 @@
-"""A foot as it was read, with the axes that were found: a picture to look at before anything is built."""
+"""A foot as it was read, with the detected axes: a picture to look at before anything is built."""
 
 from __future__ import annotations
 
@@ -19,14 +19,8 @@ _RIM = 12.0  # mm: height up to which the outline is drawn
 
 
 def draw_preview(foot: Foot, path: str | os.PathLike[str]) -> Path:
-    """Draw a foot from above and from its right side, with toes, left side, sole plane and origin.
-
-    Args:
-        foot: The left foot.
-        path: Where to write; the ending gives the format.
-
-    Returns:
-        The path.
+    """Draw a foot to a path, from above and from its right side, with toes, left side, sole plane and origin; returns
+    the path.
     """
     figure, (top, side) = new_figure(9.0, 7.5, rows=2, height_ratios=(3.0, 2.0))
     outline = foot.passing(min(_RIM, foot.height))
@@ -58,7 +52,6 @@ def draw_preview(foot: Foot, path: str | os.PathLike[str]) -> Path:
 
 
 def _surface(foot: Foot, axes: Any, row: int) -> None:
-    """Corners of the foot's surface over x and y (row 1) or z (row 2)."""
     if foot.triangles is None:
         return
     points = np.unique(foot.triangles.reshape(-1, 3).round(1), axis=0)

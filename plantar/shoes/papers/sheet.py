@@ -1,6 +1,5 @@
-"""A drawing sheet: lines, areas and texts in mm on paper, written as PDF, SVG, PNG and DXF.
-
-Line widths and kinds are those of ISO 128 (0.5 and 0.25 mm), arrows and figures of dimensions those of ISO 129.
+"""A drawing sheet: lines, areas and texts in mm on paper, written as PDF, SVG, PNG and DXF (ISO 128 lines, ISO 129
+dimensions).
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ class Sheet:
         self.line([low, (high[0], low[1]), high, (low[0], high[1]), low], kind)
 
     def text(self, at: Point, text: str, height: float = 2.5, *, turn: float = 0.0, align: str = "left") -> None:
-        """A text of a height in mm, turn in degrees; align: whether it begins, ends, or has its middle at a place."""
+        """A text of a height in mm, turn in degrees; align: left, right or center at a place."""
         self.texts.append((at, text, height, turn, align))
 
     def arrow(self, tip: Point, way: Point) -> None:
@@ -147,7 +146,6 @@ class Sheet:
         return save_figure(figure, path)
 
     def _dxf(self) -> str:
-        """The sheet as DXF (R12, mm)."""
         out = [
             "0",
             "SECTION",
@@ -192,14 +190,7 @@ class Sheet:
 
 @dataclass(frozen=True)
 class View:
-    """A view at a scale: a point of the part lies at a place of the sheet.
-
-    Attributes:
-        sheet: The sheet.
-        scale: Paper over part.
-        origin: Place on the sheet, mm.
-        of: Point of the part that lies there, mm.
-    """
+    """A view of a part: its point `of` in mm lies at `origin` on the sheet, at a scale of paper over part."""
 
     sheet: Sheet
     scale: float

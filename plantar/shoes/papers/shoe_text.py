@@ -31,11 +31,7 @@ def shoe_text(summary: Mapping[str, Any]) -> str:
 
 
 def failed_checks(summary: Mapping[str, Any]) -> list[str]:
-    """The checks that do not hold, in words; empty where all do.
-
-    Returns:
-        A line each: side, what was checked, its value and what is allowed.
-    """
+    """A line for each check that does not hold: side, name, value and what is allowed."""
     return [
         f"{side}: {check['name']} is {check['value']}, allowed {check['allowed']}"
         for side, shoe in summary.get("sides", {}).items()

@@ -94,7 +94,6 @@ def _pad(plan: ShoePlan, p: ShoeParameters) -> Polyhedron:
 
 
 def _straps(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
-    """Straps from slot to slot over the foot, as a taut band lies."""
     retention, p = build.retention, build.parameters
     if retention is None or retention.kind != "straps":
         return []

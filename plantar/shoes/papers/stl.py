@@ -15,7 +15,7 @@ _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribut
 
 
 def write_stl(triangles: NDArray[np.float64], path: str | os.PathLike[str]) -> Path:
-    """Write triangles (n, 3, 3) in mm, outward counter-clockwise, as binary STL; returns the path."""
+    """Write triangles (n, 3, 3) in mm, outward counter-clockwise, to a path as binary STL; returns the path."""
     corners = np.asarray(triangles, dtype="<f4")
     normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     length = np.linalg.norm(normal, axis=1, keepdims=True)

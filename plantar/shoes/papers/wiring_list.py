@@ -1,4 +1,4 @@
-"""What whoever wires a shoe needs: a list of the cells, and a drawing of their boards as DXF. Lengths in mm."""
+"""A shoe's wiring: a list of the cells, and a drawing of their boards as DXF. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -30,10 +30,8 @@ def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
         parameters: Dimensions as used.
 
     Returns:
-        The text, a header first: of each cell its patch, place, area, how many hops it is from the connector, the cell
-        that its cable comes from (empty for a connector's), the middle of the port between the two, and the length of
-        the wire from that cell's centre through the port to its own, slack not counted (of a connector along its
-        channel); of a sheet's its row and column. Of cells without ways for a cable only place and area.
+        The text, a header first. A wire runs from the centre of the cell before it through the port to its own; of a
+        connector along its channel. Without ways for a cable only place and area.
     """
     rows: list[list[Any]] = []
     sheet = shoes[0].plan.lines is not None
@@ -64,12 +62,11 @@ def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
 
     Args:
         shoe: The shoe.
-        build: What it belongs to.
+        build: Its build.
 
     Returns:
-        The text; layers CELLS (heads), POCKETS (room for the bases), BASES, WINDOWS (holes of the pad), OUTLINE
-        (contact face), and KEEPOUT: ports, channel and hole of the cable, places of clips, lugs or screws, where no
-        board may be. Of a sheet ROWS and COLUMNS, its electrodes.
+        The text; layers CELLS (heads), POCKETS, BASES, WINDOWS (holes of the pad), OUTLINE (contact face), KEEPOUT
+        (where no board may be), and of a sheet ROWS and COLUMNS.
     """
     p, plan = build.parameters, shoe.plan
     flip = 1.0 if shoe.side == "left" else -1.0
@@ -112,7 +109,6 @@ def _electrodes(shoe: Shoe) -> dict[str, tuple[Any, ...]]:
 
 
 def _polyline(points: Any, layer: str) -> Iterator[str]:
-    """A closed polyline as DXF's pairs of code and value."""
     yield from ("0", "POLYLINE", "8", layer, "66", "1", "70", "1")
     for x, y in points.tolist():
         yield from ("0", "VERTEX", "8", layer, "10", f"{x:.4f}", "20", f"{y:.4f}", "30", "0.0")

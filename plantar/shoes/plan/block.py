@@ -19,10 +19,8 @@ class Block:
     """A body between two heights.
 
     Attributes:
-        low: Outline at the lower height, a shapely polygon; holes are allowed where `high` is None.
-        z_low: Lower height.
-        z_high: Upper height.
-        high: Outline at the upper height, with as many corners, each edge parallel to that below; None for a prism.
+        low: Outline at the lower height, a shapely polygon; holes only where `high` is None.
+        high: Outline at the upper height, with as many corners and parallel edges; None for a prism.
     """
 
     low: Any
@@ -33,13 +31,11 @@ class Block:
 
 @dataclass(frozen=True)
 class Groove:
-    """Half of a V groove along a closed line, on the line's inner side, open below.
+    """Half of a V groove along a closed line, on its inner side, open below.
 
     Attributes:
-        line: The line, a shapely polygon: the groove's upper edge.
-        edge: The groove's lower inner edge, with as many corners, each edge parallel to the line's.
-        z_low: Height of the lower edge.
-        z_high: Height of the upper edge.
+        line: The groove's upper edge, a shapely polygon.
+        edge: Its lower inner edge, with as many corners and parallel edges.
     """
 
     line: Any
@@ -50,14 +46,7 @@ class Groove:
 
 @dataclass(frozen=True)
 class Step:
-    """One step of building: blocks that are added to the body so far, or cut from it.
-
-    Attributes:
-        kind: "add" or "cut".
-        name: What they are.
-        blocks: The blocks.
-        within: Outline that they are limited to, a shapely polygon; None for no limit.
-    """
+    """Blocks that are added to the body so far, or cut from it, limited to an outline `within`."""
 
     kind: Literal["add", "cut"]
     name: str
@@ -66,20 +55,12 @@ class Step:
 
 
 def box_block(low: tuple[float, float, float], high: tuple[float, float, float]) -> Block:
-    """A box.
-
-    Args:
-        low: Its lower corner (x, y, z) in mm.
-        high: Its upper corner.
-
-    Returns:
-        The block.
-    """
+    """Gives the box with corners low and high (x, y, z) in mm."""
     return Block(shapely.box(low[0], low[1], high[0], high[1]), low[2], high[2])
 
 
 def mirrored_block(block: Block | Groove) -> Block | Groove:
-    """The block with y reversed, its outlines counter-clockwise again and in step with each other."""
+    """The block with y reversed."""
     if isinstance(block, Groove):
         return replace(block, line=_flipped(block.line), edge=_flipped(block.edge))
 
@@ -99,11 +80,11 @@ def _flipped(polygon: Any) -> Any:
 
 
 def moved_edges(points: NDArray[np.float64], distance: float) -> NDArray[np.float64] | None:
-    """A ring with each edge moved outwards, corner by corner, so that it keeps its number of corners.
+    """Move each edge of a ring outwards, so that it keeps its number of corners.
 
     Args:
         points: Corners (k, 2), counter-clockwise.
-        distance: How far, in mm; negative moves inwards.
+        distance: In mm; negative moves inwards.
 
     Returns:
         Corners (k, 2), or None where an edge would vanish or the ring cross itself.
@@ -129,17 +110,8 @@ def moved_edges(points: NDArray[np.float64], distance: float) -> NDArray[np.floa
 
 
 def tapered(polygon: Any, start: float, end: float, z_low: float, z_high: float) -> Block | None:
-    """A block whose outline is a polygon moved outwards by one distance below and by another above.
-
-    Args:
-        polygon: Shapely polygon without holes.
-        start: Distance of the lower outline outwards from the polygon.
-        end: Distance of the upper outline.
-        z_low: Lower height.
-        z_high: Upper height.
-
-    Returns:
-        The block, or None where an edge would vanish.
+    """Gives the block from z_low to z_high of a polygon moved outwards by start mm below and end mm above, or None
+    where an edge would vanish.
     """
     low, high = moved_edges(ring(polygon), start), moved_edges(ring(polygon), end)
     if low is None or high is None:

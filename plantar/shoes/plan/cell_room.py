@@ -1,4 +1,4 @@
-"""What a cell's body needs of the shoe: depth of its pocket, and room for its leads or its tail. Lengths in mm."""
+"""Room of a cell's body in the shoe: depth of its pocket, width for its leads or tail. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -20,13 +20,7 @@ _DEEPEST = 8.0  # mm: of a pocket that is deepened for leads
 
 @dataclass(frozen=True)
 class LeadRoom:
-    """A narrow place of the leads.
-
-    Attributes:
-        name: Where it is.
-        needed: Area in mm^2 that the leads take there, each a square of its diameter.
-        room: Area that there is.
-    """
+    """A narrow place of the leads: area in mm^2 that they need, each a square of its diameter, and area there is."""
 
     name: str
     needed: float
@@ -39,15 +33,7 @@ class LeadRoom:
 
 
 def cell_parameters(cell: Cell | None, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Dimensions for a cell: its pocket holds its body, and only tiles have grooves in their ribs.
-
-    Args:
-        cell: The cell; None of hexagons of skin, which change nothing.
-        parameters: Dimensions; a pocket of a depth that was set is deepened, never made flatter.
-
-    Returns:
-        The dimensions, and a note for what was changed.
-    """
+    """Gives parameters whose pockets hold a cell's body, grooves only for tiles, and notes on what was changed."""
     p = parameters
     if cell is None:
         return p, ()
@@ -71,7 +57,7 @@ def tail_lines(plan: ShoePlan) -> int:
 def led_parameters(
     plan: ShoePlan, parameters: ShoeParameters, *, deepen: bool = True
 ) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Dimensions whose channel, ports and pockets let a sheet's tail or the cells' own leads pass.
+    """Widen channel, ports and pockets so that a sheet's tail or the cells' own leads pass.
 
     Args:
         plan: The sole.
@@ -118,15 +104,7 @@ def led_parameters(
 
 
 def lead_rooms(plan: ShoePlan, parameters: ShoeParameters) -> tuple[LeadRoom, ...]:
-    """The fullest port, pocket and channel where cells have leads of their own.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-
-    Returns:
-        The places; none where a cable runs from cell to cell.
-    """
+    """Gives the fullest port, pocket and channel of a plan and its parameters where cells have their own leads."""
     p, cell = parameters, plan.cell
     if cell is None or not cell.leads or not plan.connectors:
         return ()

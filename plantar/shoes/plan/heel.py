@@ -1,4 +1,4 @@
-"""Where the cable leaves the shoe and the connection board stands: a place at the rear wall. Lengths in mm."""
+"""Where the cable leaves the shoe and the connection board is held: a place at the rear wall. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -31,9 +31,7 @@ class Heel:
     """A place on the outside of the rear wall, and a frame there: x into the shoe, y to the left of that.
 
     Attributes:
-        x: Of the place, in mm in the sole frame.
-        y: Of the place.
-        turn: Angle of the frame's x against the sole's in rad; 0 where the board stands straight behind the foot.
+        turn: Angle of the frame's x against the sole's in rad; 0 straight behind the foot.
         board: Whether the connection board has its holder there.
     """
 
@@ -48,15 +46,7 @@ class Heel:
         return shapely.affinity.translate(turned, self.x, self.y)
 
     def point(self, x: float, y: float) -> NDArray[np.float64]:
-        """A point of this frame in the sole frame.
-
-        Args:
-            x: Into the shoe, in mm.
-            y: To the left of that.
-
-        Returns:
-            The point (2,) in mm.
-        """
+        """Gives a point x, y of this frame, (2,) in mm in the sole frame."""
         c, s = math.cos(self.turn), math.sin(self.turn)
         return np.array([self.x + c * x - s * y, self.y + s * x + c * y])
 
@@ -66,7 +56,7 @@ class Heel:
 
 
 def holder_depth(parameters: ShoeParameters) -> float:
-    """How far the board's holder reaches behind the wall, in mm."""
+    """Reach of the board's holder behind the wall, in mm."""
     p = parameters
     return p.board_gap + p.board_thickness + 2.0 * p.made_by.slide + LIP
 
@@ -80,7 +70,7 @@ def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, st
         parameters: Size of the board.
 
     Returns:
-        The place; and a note where the holder is left out because it would reach farther than allowed.
+        The place; and a note where the holder is left out because it would reach too far.
     """
     half = 0.5 * parameters.board_length + POST + parameters.made_by.slide
     depth = holder_depth(parameters)

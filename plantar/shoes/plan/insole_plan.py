@@ -1,8 +1,7 @@
 """Plan of an insole: a flat sheet with cells below a person's foot, without walls, laid into a shoe. Lengths in mm.
 
-Foot and shoe are soft, so that nothing spreads the load over the cells: what presses next to them is not measured. The
-    cells
-go up to the edge therefore, and the share of the sole that they cover is the share of an even pressure that they carry.
+Foot and shoe are soft: pressure next to the cells is not measured. So the cells go up to the edge, and carry of an even
+pressure the share of the sole that they cover.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ _STATURE, _BODY_MASS_INDEX = 6.6, 24.0  # body height over foot length; kg/m^2
 
 
 def person_mass(length: float) -> float:
-    """Mass in kg that a person with feet of a length in mm is estimated to have: 6.6 feet tall, 24 kg/m^2.
+    """Estimated mass in kg of a person with feet of a length in mm: 6.6 feet tall, 24 kg/m^2.
 
     Example:
         >>> person_mass(260.0)
@@ -56,9 +55,8 @@ def person_mass(length: float) -> float:
 
 
 def insole_foot(foot: Foot) -> Foot:
-    """A foot whose sole is what an insole is cut to: the outline of its lowest 15 mm, arch and gaps of toes filled.
-
-    The lowest 5 mm of a scan are its footprint: without the arch, the toes apart.
+    """A foot whose sole is the outline of its lowest 15 mm, arch and gaps of toes filled: the lowest 5 mm lack the
+    arch.
     """
     if foot.triangles is None:
         return foot
@@ -72,18 +70,18 @@ def insole_foot(foot: Foot) -> Foot:
 def insole_parameters(
     foot: Foot, thickness: float, parameters: ShoeParameters
 ) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Dimensions of an insole of a thickness: what the parameters leave at their defaults is shared out.
+    """Dimensions of an insole: parameters left at their defaults share its thickness.
 
     Args:
-        foot: The foot, whose length the person's mass is estimated by.
+        foot: The foot, whose length gives the person's estimated mass.
         thickness: From the ground's face of the pad to the face below the foot, in mm.
-        parameters: Dimensions; the floor is what the others leave.
+        parameters: Dimensions; the floor takes what is left.
 
     Returns:
         The dimensions, and what was assumed.
 
     Raises:
-        InputError: If the thickness is out of its range, leaves no floor, or the material is none for an insole.
+        InputError: If the thickness is out of its range, leaves no floor, or the material is stiff.
 
     Example:
         >>> from plantar.shoes.foot.foot import foot_from_dimensions
@@ -122,14 +120,14 @@ def insole_parameters(
 def fit_insole(
     foot: Foot, parameters: ShoeParameters, *, cell_area: float, fine: bool, cell: Cell | None = None
 ) -> TaxelFit:
-    """Cells of an insole: up to its edge, which lies `clearance` within the foot's outline.
+    """Fit cells up to the edge of an insole, which lies `clearance` within the foot's outline.
 
     Args:
         foot: The left foot.
         parameters: Dimensions of `insole_parameters`.
         cell_area: Area of a cell in mm^2.
         fine: Whether a row of smaller cells follows the edge.
-        cell: Other cells than hexagons of skin; then the two before are not read.
+        cell: Other cells than hexagons of skin, in place of the two before.
 
     Returns:
         The cells.
@@ -160,21 +158,14 @@ def fit_insole(
 
 
 def even_share(cells: Iterable[Any], sole: Any) -> float:
-    """Share of an even pressure below a soft foot that cells carry: that of the sole which they cover.
-
-    Args:
-        cells: Polygons, or their corners (k, 2), in mm.
-        sole: Outline of the sole, a shapely polygon in mm.
-
-    Returns:
-        The share, 0..1.
+    """Gives the share, 0..1, of a sole that cells, polygons or their corners (k, 2), cover: that of an even pressure
+    which they carry.
     """
     covered = shapely.union_all([shapely.Polygon(c) for c in cells]).intersection(sole)
     return float(covered.area / sole.area)
 
 
 def _within(foot: Foot, distance: float) -> Any:
-    """What of the sole lies so far or farther within its outline."""
     room = foot.sole.buffer(-distance, join_style="mitre", mitre_limit=2.0)
     if room.geom_type != "Polygon" or room.is_empty:
         raise FootError(f"{foot.name}: the outline is too narrow for an insole that ends {distance:g} mm within it")
@@ -182,16 +173,7 @@ def _within(foot: Foot, distance: float) -> Any:
 
 
 def plan_insole(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
-    """Draw the left insole: its face is the foot's outline less the clearance to the shoe that it lies in.
-
-    Args:
-        foot: The left foot.
-        fit: Its cells.
-        parameters: Dimensions.
-        name: Name that the layout takes; None takes the foot's.
-
-    Returns:
-        The plan of the left insole; wall and foot's place are the face itself.
+    """Gives the plan of the left insole of a foot, fit and parameters; its layout takes a name or the foot's.
 
     Raises:
         FootError: If the cells leave no pocket between the ribs.

@@ -1,7 +1,7 @@
 """Where the robot's other links pass, and whether a strap, a lug or a clip would be in their way. Lengths in mm.
 
-Of a robot's model the links above the foot are swept over the ankle's range. Of a foot alone the shank is not known: it
-is taken to stand on the block on top of the foot, or on the ankle at the origin, and to lean by 20 degrees every way.
+Of a robot's model the links above the foot are swept over the ankle's range. Of a foot alone a shank is assumed on the
+block on top of the foot, or on the ankle at the origin, that leans by 20 degrees every way.
 """
 
 from __future__ import annotations
@@ -51,20 +51,12 @@ class KeepOut:
         return "" if self.known else "the shank is taken to stand on the ankle: no robot's model says where it passes"
 
     def meets(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> int:
-        """How many points lie in a box with a room of 2 mm around it.
-
-        Args:
-            low: Lowest corner in mm.
-            high: Highest corner in mm.
-
-        Returns:
-            Their number.
-        """
+        """Gives the number of points within 2 mm of the box with corners low and high (3,)."""
         a, b = np.array(low) - _ROOM, np.array(high) + _ROOM
         return int(((self.links > a) & (self.links < b)).all(axis=1).sum())
 
     def strap_meets(self, x: float, width: float, lugs: tuple[float, float], slot: float, thickness: float) -> int:
-        """How many points lie below or in a strap that is drawn over the foot.
+        """Count points below or in a strap drawn over the upper hull of slots and foot.
 
         Args:
             x: Middle of the strap along the foot.
@@ -74,7 +66,7 @@ class KeepOut:
             thickness: Of the strap.
 
         Returns:
-            The number; the strap lies on the upper hull of slots and foot.
+            The number.
         """
         half = 0.5 * width
         inside = (
@@ -96,7 +88,6 @@ def strap_path(surface: Array | None, x: float, width: float, lugs: tuple[float,
 
 
 def _upper_hull(points: Array) -> Array:
-    """The upper side of the convex hull of points (n, 2), from left to right."""
     hull: list[Any] = []
     for point in points[np.lexsort((points[:, 1], points[:, 0]))]:
         while len(hull) > 1 and _turns_left(hull[-2], hull[-1], point):

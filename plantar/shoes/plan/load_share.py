@@ -1,23 +1,22 @@
-"""Which share of the load the taxels carry: the print and the ground as rigid plates, springs between them.
+"""The share of the load on the taxels: print and ground as rigid plates, springs between them.
 
-Under a taxel the pad's sheet and the taxel are in series; next to the taxels the pad's rim takes its part as soon as it
-has closed the relief below the print, and where it is too narrow for a rim the sheet, once it meets the print. Each is
-a layer of rubber between two plates that it does not slide on: its apparent modulus is
+Under a taxel the pad's sheet and the taxel are in series; next to the taxels the pad's rim, or the sheet, carries once
+the relief below the print is closed. Each is a layer of rubber bonded between two plates with the apparent modulus
 
     E_c = E (1 + 2 k S^2)                                                        (Gent and Lindley 1959, eq. 11)
 
-with the shape factor S = loaded area / (perimeter x thickness), and with E from the hardness H in degrees Shore A
+with the shape factor S = loaded area / (perimeter x thickness), and for a hardness of H degrees Shore A
 
     E = 0.0981 (56 + 7.62336 H) / (0.137505 (254 - 2.54 H))  in MPa              (Gent 1958)
 
-k falls with the hardness (Lindley, "Engineering design with natural rubber", table 3). A pad of foam has no shape
-factor; its cells hold gas, so that it carries a pressure s at a compression per thickness of e with
+k falls with the hardness (Lindley, "Engineering design with natural rubber", table 3). Foam has no shape factor; its
+cells hold gas, so that a pressure s at a compression per thickness of e follows
 
-    s = E e / (1 - e)     and the secant modulus     s / e = E + s
+    s = E e / (1 - e)     with the secant modulus     s / e = E + s
 
-which fits the four figures of a polyethylene foam's data sheet (Plastazote LD33: 40, 75, 115, 175 kPa at 25, 40, 50,
-60 %) with E = 116 kPa to 4 %; E is three times the pressure at 25 %, by which foams are sold. Springs do not pull. The
-print sinks and tilts until forces and moments meet the load's; what is in the springs of the taxels is their share.
+which fits a polyethylene foam's data sheet (Plastazote LD33: 40, 75, 115, 175 kPa at 25, 40, 50, 60 %) to 4 % with E =
+116 kPa, three times the pressure at 25 %. Springs do not pull. The print sinks and tilts until forces and moments
+balance.
 
 Gent: "On the relation between indentation hardness and Young's modulus", Trans. IRI 34, 1958. Gent, Lindley: "The
 compression of bonded rubber blocks", Proc. IMechE 173, 1959.
@@ -64,11 +63,9 @@ class LoadShare:
 
     Attributes:
         flat: On flat ground, 0..1.
-        half: On the worst of four footholds that are half the sole: heel, toes, left, right; 0..1.
-        worst_half: Which of them that is.
-        compression: How far the print sinks on flat ground in mm.
-        rim_stiffness: Stiffness of what is next to the taxels, per area, over that of a taxel, as it comes to on flat
-            ground; 0 where the taxels carry all.
+        half: On the worst of four half footholds: heel, toes, left, right; 0..1.
+        compression: Travel of the print on flat ground in mm.
+        rim_stiffness: Effective stiffness next to the taxels, per area, over that of a taxel, on flat ground.
     """
 
     flat: float
@@ -89,13 +86,13 @@ def shore_modulus(hardness: float) -> float:
 
 
 def apparent_modulus(hardness: float, area: float, perimeter: float, thickness: float) -> float:
-    """Modulus in MPa of a rubber layer between two plates that it does not slide on.
+    """Modulus in MPa of a rubber layer bonded between two plates.
 
     Args:
         hardness: In degrees Shore A.
         area: Loaded area in mm^2.
-        perimeter: Its border, at which the layer may bulge, in mm.
-        thickness: Of the layer in mm, above 0.
+        perimeter: Its free border in mm.
+        thickness: Of the layer in mm.
 
     Returns:
         Pressure over compression per thickness.
@@ -106,17 +103,8 @@ def apparent_modulus(hardness: float, area: float, perimeter: float, thickness: 
 
 
 def pad_modulus(parameters: ShoeParameters, area: float, perimeter: float, thickness: float, pressure: float) -> float:
-    """Pressure in MPa over compression per thickness of a layer of the pad.
-
-    Args:
-        parameters: Hardness of the rubber, or pressure at 25 % of the foam.
-        area: Loaded area in mm^2.
-        perimeter: Its border in mm.
-        thickness: Of the layer in mm, above 0.
-        pressure: On it in MPa; of foam the modulus grows with it.
-
-    Returns:
-        The modulus in MPa.
+    """Gives the modulus in MPa of a layer of the pad by parameters, loaded area in mm^2, perimeter and thickness in mm,
+    and for foam the pressure in MPa.
     """
     if parameters.pad_foam > 0.0:
         return 3e-3 * parameters.pad_foam + pressure
@@ -124,16 +112,8 @@ def pad_modulus(parameters: ShoeParameters, area: float, perimeter: float, thick
 
 
 def taxel_stiffness(plan: ShoePlan, parameters: ShoeParameters, pressure: float) -> float:
-    """Pressure over compression of taxel and pad in series, of a median cell; of films and sheets the body, the pad's
-    land below it and the pad's sheet.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-        pressure: On the cells in MPa.
-
-    Returns:
-        The stiffness in N/mm^3.
+    """Gives pressure over compression, in N/mm^3, of a median taxel of a plan and the pad in series (of films and
+    sheets body, land and pad), by parameters and pressure in MPa.
     """
     p, blocks = parameters, plan.lands or plan.cells
     area = float(np.median([c.area for c in blocks]))
@@ -154,7 +134,7 @@ def taxel_stiffness(plan: ShoePlan, parameters: ShoeParameters, pressure: float)
 
 
 def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Parameters whose pad stays below the print until the taxels carry the load case, in steps of 0.1 mm.
+    """Raise the pad's relief until the taxels carry the load case, in steps of 0.1 mm.
 
     Args:
         plan: The sole.
@@ -182,15 +162,8 @@ def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tupl
 
 
 def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> LoadShare:
-    """The taxels' share of the load case's force on flat ground and on half footholds.
-
-    Args:
-        plan: The sole.
-        load: The load case; its force acts in the middle of what the ground holds.
-        parameters: Dimensions as used.
-
-    Returns:
-        The shares.
+    """Gives the taxels' share of a load in the middle of the ground on flat ground and half footholds, by plan and
+    parameters.
     """
     springs = _Springs.of(plan, parameters, load.force / sum(c.area for c in plan.cells))
     x, y = springs.points.T
@@ -207,7 +180,7 @@ def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters)
 
 @dataclass(frozen=True)
 class _Springs:
-    """Springs (n,) on a grid: where, whether of a taxel, the way until they carry in mm, stiffness in N/mm."""
+    """Springs (n,) on a grid: place, whether of a taxel, free travel in mm, stiffness in N/mm."""
 
     points: Array
     taxel: NDArray[np.bool_]
@@ -235,8 +208,9 @@ class _Springs:
         return cls(points[inside], taxel[inside], gap[inside], stiffness[inside])
 
     def share(self, held: NDArray[np.bool_], force: float) -> tuple[float, float]:
-        """Share of a force in N that the taxels carry where the ground holds some springs, and how far the print sinks
-        in mm: Newton's method on the convex energy of springs that do not pull, with a line search."""
+        """Share of a force in N on the taxels where the ground holds some springs, and the print's travel in mm:
+        Newton's method on the convex energy, with a line search.
+        """
         if not held.any():
             return 0.0, 0.0
         points, gap, k = self.points[held], self.gap[held], self.stiffness[held]

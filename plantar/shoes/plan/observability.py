@@ -1,7 +1,7 @@
-"""Whether the center of pressure can be seen: how far the taxels' centres reach over the face, in both directions.
+"""Whether the taxels observe the center of pressure in both directions. Lengths in mm.
 
-A load is reported within the hull of the centres. One on the face beyond it is off by as much as it lies beyond (the
-blind rim); taxels in a line, or close to one, see nothing across it. Lengths in mm.
+A load is reported within the hull of the taxels' centres; one beyond it is off by its distance (the blind rim). Taxels
+in a line observe nothing across it.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ ALONG, ACROSS, ERROR = 0.55, 0.45, 0.40
 
 @dataclass(frozen=True)
 class Observability:
-    """What the taxels see of the center of pressure.
+    """How well the taxels observe the center of pressure.
 
     Attributes:
         along: Longer side of the smallest rectangle around the centres, over the face's length.
         across: Its shorter side, over the face's width; 0 for taxels in a line.
-        error: Most that a load anywhere on the face is reported away from where it is, in mm.
+        error: Largest error in mm for a load anywhere on the face.
         width: Width of the face in mm.
     """
 
@@ -38,16 +38,12 @@ class Observability:
 
     @property
     def holds(self) -> bool:
-        """Whether it is seen in both directions, well enough."""
+        """Whether both directions are observed well enough."""
         return self.along >= ALONG and self.across >= ACROSS and self.error <= ERROR * self.width
 
 
 def observability(plan: ShoePlan) -> Observability:
-    """What the taxels of a sole see of the center of pressure.
-
-    Returns:
-        The shares and the error.
-    """
+    """How well the taxels of a sole observe the center of pressure."""
     low_x, low_y, high_x, high_y = plan.contact.bounds
     box = shapely.MultiPoint(to_mm(plan.layout.positions[:, :2])).minimum_rotated_rectangle
     corners = shapely.get_coordinates(box)

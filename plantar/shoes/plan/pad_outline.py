@@ -1,4 +1,4 @@
-"""Where the pad is thick: beside the taxels, below the printed part. Lengths in mm."""
+"""Where the pad is thick: next to the taxels, below the printed part. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -17,15 +17,8 @@ _LEAST = 2.0  # mm: a narrower rim is left out
 
 
 def pad_rim(plan: ShoePlan, parameters: ShoeParameters) -> Any:
-    """Where the pad has its rim: the contact face next to the taxels, where it is wide enough.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-
-    Returns:
-        A shapely polygon or multipolygon in mm, empty where the taxels reach the edge, or do not stand out farther than
-        the rim stays below the print.
+    """Gives the pad's rim by plan and parameters: the contact face next to the taxels where it is wide enough, a
+    shapely geometry, possibly empty.
     """
     if parameters.pad_rim_height <= 0.0:
         return shapely.Polygon()

@@ -1,11 +1,11 @@
 """How firmly clips, straps or screws hold a shoe, against its weight in swing and a scuff at the toe. Lengths in mm.
 
-- A clip's arm is a cantilever that the hook bends by its reach d; its retaining face stands at 45 degrees:
-  F = E b t^3 d / (4 L^3), pull-off P = F (mu + tan 45) / (1 - mu tan 45)          (Bayer, Snap-fit joints for plastics)
-  It snaps on over a lead-in of 45 degrees with the same force, which a person pushes with: 200 N at most (EN 1005-3)
-- A strap slips where its hooks and loops shear over the length they overlap, and pulls on both of its lugs at 45
-  degrees: P = 2 sin 45 x shear strength x width x overlap (7 N/cm^2, hook-and-loop tapes' data sheets)
-- A set screw presses with what two fingers tighten, 100 N, on a soft tip: P = mu 100 N
+- A clip's arm is a cantilever bent by the hook's reach d; its retaining face has 45 degrees: F = E b t^3 d / (4 L^3),
+  pull-off P = F (mu + tan 45) / (1 - mu tan 45)          (Bayer, Snap-fit joints for plastics) It snaps on over a
+  lead-in of 45 degrees with the same force: 200 N at most by hand (EN 1005-3)
+- A strap slips where its hooks and loops shear over their overlap, and pulls on both lugs at 45 degrees: P = 2 sin 45 x
+  shear strength x width x overlap (7 N/cm^2, hook-and-loop tapes' data sheets)
+- A set screw presses with 100 N, tightened by two fingers, on a soft tip: P = mu 100 N
 
 Needed are 5 g on the worn mass in swing, and at the toe, where the ground drags a tenth of the robot's weight over the
 contact face, a moment of mu 0.1 m g (thickness + rim / 3), which turns the shoe about the heel's edge off the toes.
@@ -33,13 +33,13 @@ SNAP_MOST = 200.0
 
 @dataclass(frozen=True)
 class PullOff:
-    """What holds against what pulls.
+    """Holding forces against needed ones.
 
     Attributes:
         force: Force in N that pulls the shoe off downwards.
-        swing: What is needed of it in N: 5 g on the worn mass.
+        swing: Needed force in N: 5 g on the worn mass.
         moment: Moment in N m about the heel's edge that the holders take.
-        scuff: What is needed of it in N m.
+        scuff: Needed moment in N m.
         snap: Force in N that snaps the stiffest clip on; 0 without clips.
     """
 
@@ -51,14 +51,7 @@ class PullOff:
 
 
 def clip_force(length: float, parameters: ShoeParameters) -> float:
-    """Force in N that pulls one clip off.
-
-    Args:
-        length: Free length of its arm in mm.
-        parameters: Its sizes and material.
-
-    Returns:
-        The force.
+    """Gives the force in N that pulls off one clip with an arm of a free length in mm, by parameters.
 
     Example:
         >>> round(clip_force(28.0, ShoeParameters()), 1)
@@ -70,7 +63,7 @@ def clip_force(length: float, parameters: ShoeParameters) -> float:
 
 
 def needed_force(worn: float) -> float:
-    """Force in N that a shoe of a worn mass in kg pulls with in swing."""
+    """Pull in N of a shoe of a worn mass in kg in swing."""
     return _SWING * GRAVITY * worn
 
 
@@ -90,7 +83,7 @@ def pull_off(
         parameters: Dimensions as used.
 
     Returns:
-        What holds and what is needed.
+        Holding and needed forces.
     """
     p = parameters
     strap = 2.0 * math.sqrt(0.5) * _SHEAR * width * _OVERLAP / 2.0  # at each of its two lugs

@@ -1,4 +1,4 @@
-"""The sole seen from above: contact face, rim, taxel pockets and the way the cable takes, in mm, and its layout."""
+"""The sole seen from above: contact face, rim, taxel pockets and the cable's way, in mm, and its layout."""
 
 from __future__ import annotations
 
@@ -40,22 +40,17 @@ class ShoePlan:
     """Outlines of one shoe in its sole frame, and its layout. Outlines are shapely polygons in mm.
 
     Attributes:
-        side: "left" or "right".
         foot: Outline of the foot below the rim's upper edge.
-        contact: Outline of the contact face: of the pad, and of the printed plate but for the heel's shelf and lugs.
+        contact: Outline of the pad, and of the printed plate but for heel shelf and lugs.
         cavity: Inside of the rim at its upper edge.
         rim: Outside of the rim.
-        cells: Cells of the layout, in the order of its taxels.
-        pockets: Taxel pockets: the cells moved in by half a rib, or the bodies with their play; of a sheet its recess.
+        cells: Cells in the order of the layout's taxels.
+        pockets: Cells moved in by half a rib, or bodies with their play; of a sheet its recess.
         route: Pairs of taxel indices that the cable joins, from the connectors outwards: a tree for each patch.
-        connectors: Index of the taxel of each patch at which its cable leaves; the first patch's leads to the heel.
-            Empty where there are no ways for a cable.
-        heel: Where the cable leaves the shoe.
-        layout: The sole layout, in m.
-        notes: What was decided.
-        cell: What a cell's body is; None of hexagons of skin.
-        lines: Row and column (n, 2) of a sheet's cells; else None.
-        crossings: Where (n, 2) in mm these cross; else None.
+        connectors: Index of the taxel of each patch at which its cable leaves, the heel's first; empty without ways for
+            a cable.
+        lines: Row and column (n, 2) of a sheet's cells.
+        crossings: Crossings (n, 2) in mm of these.
     """
 
     side: Side
@@ -76,7 +71,7 @@ class ShoePlan:
 
     @cached_property
     def lands(self) -> tuple[Any, ...]:
-        """What of the pad presses on films, or on a sheet: shapely polygons; none of tiles, which have heads."""
+        """Parts of the pad that press on films, or on a sheet: shapely polygons."""
         if self.cell is None or self.cell.kind == "tile":
             return ()
         if self.cell.kind == "film":
@@ -87,15 +82,11 @@ class ShoePlan:
         return tuple(shapely.geometry.polygon.orient(q) for q in parts if q.geom_type == "Polygon")
 
     def port(self, i: int, j: int) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-        """Where the cable passes from a cell to another.
-
-        Args:
-            i: Index of a taxel.
-            j: Index of one to which a cable leads.
+        """Where the cable passes from taxel i to taxel j.
 
         Returns:
-            Ends (2, 2) of the way through the rib between the two pockets, along which it passes; the unit vector (2,)
-            across it; and the most width in mm that it has there.
+            Ends (2, 2) of the way through the rib between the two pockets; the unit vector (2,) across it; and its most
+            width in mm.
         """
         if self.cell is None:
             edge = self.shared_edge(i, j)
@@ -121,27 +112,16 @@ class ShoePlan:
 
     @property
     def overhang(self) -> float:
-        """How far the contact face reaches beyond the foot, in mm."""
+        """Reach of the contact face beyond the foot, in mm."""
         return float(max(self.foot.distance(shapely.points(ring(self.contact)))))
 
     @property
     def blind_rim(self) -> float:
-        """Widest place of the contact face beyond the hull of the taxels' centres, in mm: a load there is asked to be
-        at that hull."""
+        """Widest place of the contact face beyond the hull of the taxels' centres, in mm."""
         return blind_rim(self.contact, to_mm(self.layout.positions[:, :2]))
 
     def shared_edge(self, i: int, j: int) -> NDArray[np.float64]:
-        """Ends (2, 2) in mm of the longest straight line that two neighbouring cells share.
-
-        One cell's corner may lie inside another's edge, where rounding would leave nothing about an exact intersection.
-
-        Args:
-            i: Index of a taxel.
-            j: Index of one of its neighbours in the layout.
-
-        Returns:
-            The ends.
-        """
+        """Gives the ends (2, 2) in mm of the longest line that neighbouring cells i and j share, up to rounding."""
         common = self.cells[i].exterior.intersection(self.cells[j].buffer(_TOUCH))
         lines = [shapely.get_coordinates(line) for line in shapely.get_parts(shapely.line_merge(common))]
         ends = [np.stack(pair) for line in lines for pair in pairwise(line)]
@@ -149,8 +129,9 @@ class ShoePlan:
 
     @property
     def fewest_taxels(self) -> tuple[int, str]:
-        """Taxels in the barest of the contact face's thirds along the foot and its bands on the left and on the right,
-        a third of the width or a taxel wide; and which of them it is."""
+        """Taxels in the barest of five places, and its name: thirds along the foot, and bands left and right, a third
+        of the width or a taxel wide.
+        """
         x, y = to_mm(self.layout.positions[:, :2]).T
         low_x, low_y, high_x, high_y = self.contact.bounds
         third, band = (high_x - low_x) / 3.0, max((high_y - low_y) / 3.0, float(self.cells[0].area) ** 0.5)
@@ -166,21 +147,19 @@ class ShoePlan:
 
 
 def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
-    """Draw the left sole around a foot and its taxels.
-
-    The contact face takes in the foot with clearance and rim, and the taxels with the border around them.
+    """Draw the left sole: its face takes in the foot with clearance and rim, and the taxels with their border.
 
     Args:
         foot: The left foot.
         fit: The cells.
         parameters: Dimensions of the shoe.
-        name: Name the layout takes; None takes the foot's.
+        name: Name of the layout; None takes the foot's.
 
     Returns:
         The plan of the left shoe.
 
     Raises:
-        FootError: If the cells are so small that no pocket is left between the ribs.
+        FootError: If the cells leave no pocket between the ribs.
     """
     outline = foot.passing(parameters.rim_height)
     cavity = tidy(grown(outline, parameters.clearance))
@@ -205,13 +184,13 @@ def plan_face(
         rim: Outside of the wall.
         fit: The cells.
         parameters: Dimensions.
-        name: Name that the layout takes.
+        name: Name of the layout.
 
     Returns:
         The left plan.
 
     Raises:
-        FootError: If the cells are so small that no pocket is left between the ribs.
+        FootError: If the cells leave no pocket between the ribs.
     """
     cells = tuple(shapely.Polygon(c) for c in fit.cells)
     if fit.pockets is not None:
@@ -240,7 +219,6 @@ def plan_face(
 
 
 def _crossed(pocket: Any, line: Any) -> NDArray[np.float64]:
-    """Where a line crosses the border of a pocket, (k, 2)."""
     return np.asarray(shapely.get_coordinates(pocket.exterior.intersection(line)))
 
 
@@ -253,7 +231,6 @@ def _linked(links: Sequence[tuple[int, int]], count: int) -> tuple[tuple[int, ..
 
 
 def _pocket(cell: Any, rib: float) -> Any | None:
-    """A cell with its edges moved in by half a rib; None where nothing is left."""
     moved = moved_edges(ring(cell), -0.5 * rib)
     if moved is not None:
         return shapely.Polygon(moved)
@@ -323,7 +300,7 @@ def _route(
 
 
 def _passable(layout: SoleLayout) -> tuple[tuple[int, ...], ...]:
-    """Neighbours of each cell over edges long enough for a cable; all of them where that leaves cells apart."""
+    """Neighbours over edges long enough for a cable; all of them where that leaves cells apart."""
     long: list[tuple[int, ...]] = []
     for i, own in enumerate(layout.neighbours):
         corners = layout.corners[i]
@@ -340,7 +317,6 @@ def _passable(layout: SoleLayout) -> tuple[tuple[int, ...], ...]:
 
 
 def _groups(neighbours: Sequence[Sequence[int]]) -> int:
-    """How many groups of cells there are that hang together."""
     left, count = set(range(len(neighbours))), 0
     while left:
         count += 1

@@ -1,16 +1,14 @@
 """Strength of the printed part: beams under 1.5 x body weight on a third of the sole, and the thickness they need.
 
-The plan takes the thickness from here before anything is built; the last check states the stresses that it comes to.
-
-The pressure p = load_factor m g / (load_share A) acts on the plate from below; the foot, which is stiff, carries it
-where it touches. Beams of 1 mm width, ribs and wall left out, so on the safe side:
+The pressure p = load_factor m g / (load_share A) acts on the plate from below; the stiff foot carries it where it
+touches. Beams of 1 mm width, without ribs and wall, so on the safe side:
 
 - beyond the foot, over a reach c: a cantilever, M = p c^2 / 2
 - between two places where the foot touches, over a span L: a beam with clamped ends, M = p L^2 / 12
-- the wall, pushed sideways with `friction` times the load over the foot's width b; the push falls off linearly to the
-  wall's upper edge, so it acts at a third of its height h: M = friction F / b x h / 3, across the layers
+- the wall, pushed sideways with `friction` times the load over the foot's width b, at a third of its height h (the push
+  falls off linearly upwards): M = friction F / b x h / 3, across the layers
 
-Stress is 6 M / t^2; it may be the material's strength over `safety`.
+Stress is 6 M / t^2, allowed the material's strength over `safety`.
 """
 
 from __future__ import annotations
@@ -38,7 +36,6 @@ class LoadCase:
 
     Attributes:
         mass: Mass of the robot in kg.
-        source: Where it is from.
         force: Load in N.
         pressure: On the share of the sole that carries it, in MPa.
     """
@@ -51,18 +48,7 @@ class LoadCase:
 
 @dataclass(frozen=True)
 class Member:
-    """One member of the part under the load.
-
-    Attributes:
-        name: What it is.
-        model: The beam it is treated as.
-        length: Its free length in mm.
-        thickness: Its thickness in mm.
-        needed: Thickness that it needs, in mm.
-        stress: Stress in MPa.
-        allowed: Stress that it may have, in MPa.
-        deflection: Of its end or middle in mm.
-    """
+    """One member of the part under the load: lengths in mm, stresses in MPa, deflection of its end or middle in mm."""
 
     name: str
     model: str
@@ -92,15 +78,7 @@ def estimated_mass(length: float) -> float:
 
 
 def load_case(foot: Foot, parameters: ShoeParameters) -> LoadCase:
-    """The load on one foot.
-
-    Args:
-        foot: The foot.
-        parameters: Load factor and share, and the robot's mass where it is given.
-
-    Returns:
-        The load.
-    """
+    """Gives the load on one foot: parameters may state the robot's mass."""
     p = parameters
     low, _, high, _ = foot.sole.bounds
     if p.robot_mass > 0.0:
@@ -157,7 +135,6 @@ def check_strength(foot: Foot, contact: Any, parameters: ShoeParameters) -> tupl
 
 
 def _unsupported_span(foot: Foot) -> float:
-    """Widest place of the sole where the foot does not touch, in mm: the diameter of the largest circle in it."""
     if foot.support is None or foot.support.is_empty:
         return 0.0
     free = foot.sole.difference(foot.support)
@@ -169,7 +146,7 @@ def _unsupported_span(foot: Foot) -> float:
 
 
 def strengthened(foot: Foot, contact: Any, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Parameters whose floor and wall carry the load, in steps of 0.1 mm.
+    """Raise floor and wall until they carry the load, in steps of 0.1 mm.
 
     Args:
         foot: The left foot.

@@ -1,9 +1,8 @@
 """How many taxels touch the ground when their seats scatter, and the pad that is soft enough for it. Lengths in mm.
 
-Print and ground are rigid. Each taxel, with the pad below it, is a spring that begins to carry where its own seat lets
-it: seats scatter by the process's standard deviation. The print sinks and tilts under half the robot's weight, which
-acts in the middle of the cells, until forces and moments balance. Over many such shoes it is counted which taxels carry
-what makes them active, what area they are, and how far the center of pressure of the active ones lies from the load.
+Print and ground are rigid. Each taxel with the pad below it is a spring, its seat's height scattered by the process's
+standard deviation. The print sinks and tilts under half the robot's weight in the middle of the cells until forces and
+moments balance.
 """
 
 from __future__ import annotations
@@ -49,10 +48,10 @@ class Touching:
     Attributes:
         scatter: Standard deviation of the seats' heights in mm.
         stiffness: Of a median taxel with its pad in N/mm.
-        active: Mean share of taxels above the force from which on they are active, 0..1.
-        touching: Mean share of those that carry anything, 0..1.
-        area: Mean share of the cells' area that the active ones have, 0..1.
-        cop_error: Distance in mm of the center of pressure of the active taxels from the load, 95 % of the shoes below.
+        active: Mean share of taxels above their threshold, 0..1.
+        touching: Mean share of those that carry any load, 0..1.
+        area: Mean share of the cells' area of the active ones, 0..1.
+        cop_error: Distance in mm of the active taxels' center of pressure from the load, 95th percentile.
     """
 
     scatter: float
@@ -69,16 +68,7 @@ class Touching:
 
 
 def check_touching(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> Touching:
-    """Draw shoes whose seats scatter and count.
-
-    Args:
-        plan: The sole.
-        load: The load case; its robot stands on both feet.
-        parameters: Pad, heads and process.
-
-    Returns:
-        The counts; the same for the same input.
-    """
+    """Gives what touches in drawn shoes whose seats scatter, by plan, load and parameters; deterministic."""
     force, area = 0.5 * load.mass * GRAVITY, np.array([c.area for c in plan.cells])
     points = np.array([c.centroid.coords[0] for c in plan.cells])
     bed = taxel_stiffness(plan, parameters, force / float(area.sum()))
@@ -130,12 +120,12 @@ def _forces(points: Array, stiffness: Array, heights: Array, force: float) -> Ar
 
 
 def softened(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Parameters with a pad so soft that enough taxels touch: the thinnest, and of that the firmest, foam that is.
+    """Soften the pad until enough taxels touch: the thinnest, and of that the firmest, foam available.
 
     Args:
         plan: The sole.
         load: The load case.
-        parameters: Dimensions; with `strengthen` no, a foam that is given, or without a pad they stay.
+        parameters: Dimensions; with `strengthen` no, a given foam, or no pad they stay.
 
     Returns:
         The parameters, and a note where the pad was changed.

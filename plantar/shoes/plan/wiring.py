@@ -35,15 +35,7 @@ _SQUARE_ENDS = 1.45  # ends of ribs at a right angle stay, sharper ones are cut 
 
 
 def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
-    """Pockets, joined where the cable passes a rib or runs to the heel.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-
-    Returns:
-        Shapely polygons, possibly with holes, from the printed lower face to the pockets' ceiling.
-    """
+    """Gives the pockets of a plan by parameters, joined where the cable passes: shapely polygons."""
     cable = cable_outlines(plan, parameters)
     openings = shapely.union_all([*plan.pockets, *cable])
     ways, wall = shapely.union_all(cable), parameters.wall_min
@@ -68,7 +60,7 @@ def _gathered(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDAr
 
 
 def _slivers(openings: Any, near: Any, thin: float, least: float) -> list[Any]:
-    """What would be left of ribs near the cable thinner than `thin` in mm, where it is larger than `least` in mm^2."""
+    """Parts of ribs near the cable thinner than `thin` mm and larger than `least` mm^2."""
     closed = openings.buffer(0.5 * thin, join_style="mitre")
     closed = closed.buffer(-0.5 * thin, join_style="mitre", mitre_limit=_SQUARE_ENDS)
     left = closed.difference(openings.buffer(1e-4)).intersection(near)
@@ -76,14 +68,8 @@ def _slivers(openings: Any, near: Any, thin: float, least: float) -> list[Any]:
 
 
 def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
-    """Where the cable passes: ports in the ribs, channels between patches, and the channel to the heel.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-
-    Returns:
-        Shapely polygons; none without connectors.
+    """Gives the cable's ways of a plan by parameters, shapely polygons: ports, channels between patches, and the
+    channel to the heel.
     """
     if not plan.connectors:
         return []
@@ -105,14 +91,8 @@ def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
 
 
 def channel_lines(plan: ShoePlan, parameters: ShoeParameters) -> list[NDArray[np.float64]]:
-    """Middle of each connector's channel: to the exit at the heel, or to the nearest pocket of a patch before it.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-
-    Returns:
-        Points (k, 2) in mm from the connector's pocket on, in the order of the connectors.
+    """Gives points (k, 2) in mm along the middle of each connector's channel, by plan and parameters: to the heel, or
+    to the nearest pocket of an earlier patch.
     """
     if not plan.connectors:
         return []
@@ -130,11 +110,7 @@ def channel_lines(plan: ShoePlan, parameters: ShoeParameters) -> list[NDArray[np
 
 
 def wire_lines(plan: ShoePlan) -> dict[int, NDArray[np.float64]]:
-    """The way of each wire between two cells: from one's centre through the middle of their port to the other's.
-
-    Returns:
-        Points (3, 2) in mm of each pair of `plan.route`, by the second of the pair.
-    """
+    """Way (3, 2) in mm of each wire of `plan.route`, by its second cell: from centre through port to centre."""
     centres = [np.array(c.centroid.coords[0]) for c in plan.cells]
     return {j: np.stack([centres[i], plan.port(i, j)[0].mean(axis=0), centres[j]]) for i, j in plan.route}
 
@@ -150,15 +126,7 @@ def length_of(line: NDArray[np.float64]) -> float:
 
 
 def hole_outline(plan: ShoePlan, parameters: ShoeParameters) -> Any:
-    """The hole between wall and board through which the cable comes up; a little wider than the channel.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-
-    Returns:
-        A shapely polygon, empty without a board.
-    """
+    """Gives the cable's hole behind the wall, by plan and parameters: a shapely polygon, empty without a board."""
     if not plan.heel.board:
         return shapely.Polygon()
 
@@ -179,14 +147,8 @@ def _patch_of(plan: ShoePlan, connector: int) -> list[int]:
 
 
 def wiring_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[list[Block], list[Step]]:
-    """The board's holder behind the heel, and what is cut for the cable.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-
-    Returns:
-        Blocks of the body, and the steps that cut it: the board's slot and the cable's hole.
+    """Gives the blocks of the board's holder behind the heel, and the steps that cut slot and hole, by plan and
+    parameters.
     """
     p, heel = parameters, plan.heel
     if not heel.board:

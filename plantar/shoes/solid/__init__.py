@@ -1,1 +1,1 @@
-"""The solids: body, kernel, arcs, STEP, pad, retention, lettering. The only room that builds with OpenCascade."""
+"""The solids, built with OpenCascade: body, arcs, STEP, pad, retention, lettering."""

@@ -1,7 +1,7 @@
 """Runs of narrow facets replaced by arcs: outlines of many corners become cylinders and cones. Lengths in mm.
 
-A wall of a round outline is a strip of upright facets between two polygons; on it may stand strips of a bevel. Where
-the corners of all of its outlines lie on circles, the strip becomes one curved face between the same end corners.
+A round wall is a strip of upright facets, possibly with strips of a bevel above. Where the corners of all its outlines
+lie on circles, the strip becomes one curved face between the same end corners.
 """
 
 from __future__ import annotations
@@ -32,13 +32,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Arc:
-    """A level arc between two corners.
-
-    Attributes:
-        centre: Point (2,).
-        radius: In mm.
-        middle: Point (3,) of the arc halfway.
-    """
+    """A level arc between two corners: centre (2,), radius, and its point (3,) halfway."""
 
     centre: tuple[float, float]
     radius: float
@@ -47,7 +41,7 @@ class Arc:
 
 @dataclass(frozen=True)
 class CurvedSolid:
-    """A solid some of whose edges are arcs.
+    """A solid with arcs.
 
     Attributes:
         body: Corners and loops; a curved face has four corners.
@@ -100,7 +94,6 @@ def _pair(a: int, b: int) -> tuple[int, int]:
 
 
 def _face_of(body: Polyhedron, a: int, b: int, above: int) -> int:
-    """The facet at an edge that reaches up to a corner."""
     one, other = body.neighbours[a, b], body.neighbours[b, a]
     return one if above in body.faces[one][0] and len(body.faces[one][0]) == 4 else other
 
@@ -143,7 +136,7 @@ def _chains(body: Polyhedron) -> Iterator[list[list[int]]]:
 
 
 def _column(body: Polyhedron, near: dict[int, list[int]], start: int) -> tuple[int, ...] | None:
-    """Corners above each other about which outlines bend gently, from below; None where one of them has to stay."""
+    """Corners above each other about which outlines bend gently, from below; None where one has to stay."""
     corners, found = body.corners, [start]
     for v in found:
         level = [u for u in near[v] if abs(corners[u, 2] - corners[v, 2]) < _LEVEL]
@@ -207,7 +200,7 @@ def _arcs(corners: Array, chain: list[list[int]]) -> Iterator[tuple[int, int, li
 
 
 def _arc(points: Array) -> Arc | None:
-    """The arc through the ends of a line of corners (k, 3), as near as can be to those between; None if not near."""
+    """The best arc through the ends of a line of corners (k, 3); None if those between are not near."""
     a, b, flat = points[0, :2], points[-1, :2], points[1:-1, :2]
     chord = b - a
     length = float(np.hypot(*chord))

@@ -1,4 +1,4 @@
-"""The printed body as steps of adding and cutting blocks: plate, wall, pockets, what holds it, cable and mark."""
+"""The printed body as steps of adding and cutting blocks: plate, wall, pockets, holders, cable and mark."""
 
 from __future__ import annotations
 
@@ -30,16 +30,8 @@ _MARK_OFF = 4.0  # mm from walls and from what rises below an arch
 
 
 def shoe_steps(foot: Foot, plan: ShoePlan, retention: Retention, parameters: ShoeParameters) -> tuple[Step, ...]:
-    """The left shoe's body, without its mark.
-
-    Args:
-        foot: The left foot.
-        plan: The left sole.
-        retention: What holds it.
-        parameters: Dimensions.
-
-    Returns:
-        The steps, in order; the first adds.
+    """Gives the steps of the left shoe's body of a foot, plan, retention and parameters, without its mark; the first
+    adds.
     """
     p = parameters
     holding, after = retention_steps(foot, plan, retention, p)
@@ -63,21 +55,12 @@ def shoe_steps(foot: Foot, plan: ShoePlan, retention: Retention, parameters: Sho
 
 
 def insole_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[Step, ...]:
-    """The left insole's body: a plate with pockets, without its mark.
-
-    Args:
-        plan: The left insole.
-        parameters: Dimensions.
-
-    Returns:
-        The steps, in order; the first adds.
-    """
+    """Gives the steps of the left insole's body of a plan and parameters, without its mark; the first adds."""
     plate = Block(plan.contact, parameters.bottom, parameters.thickness)
     return (Step("add", "plate", (plate,)), *_cell_steps(plan, parameters))
 
 
 def _cell_steps(plan: ShoePlan, p: ShoeParameters) -> tuple[Step, Step]:
-    """Pockets with the cable's way, and the groove that marks the cells."""
     pockets = [Block(outline, p.bottom - 1.0, p.ceiling) for outline in pocket_outlines(plan, p)]
     return (
         Step("cut", "pockets", tuple(pockets)),
@@ -86,10 +69,8 @@ def _cell_steps(plan: ShoePlan, p: ShoeParameters) -> tuple[Step, Step]:
 
 
 def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> list[tuple[float, float, Any]]:
-    """The place of the foot between the walls, which follow its sides.
-
-    A level holds all of the foot that passes it while the shoe is pushed on from below: the foot's outline up to the
-    level's upper height, grown by the clearance.
+    """The place of the foot between the walls, level by level: its outline up to the level's upper height, grown by the
+    clearance.
 
     Args:
         foot: The left foot.
@@ -97,7 +78,7 @@ def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> lis
         parameters: Dimensions.
 
     Returns:
-        Lower and upper height above the face that the foot stands on, and the outline, from below.
+        Lower and upper height above the foot's face, and the outline, from below.
     """
     p = parameters
     outlines = [plan.cavity]
@@ -119,7 +100,7 @@ def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> lis
 
 
 def _within(above: Any, outline: Any) -> Any:
-    """An outline within the one above it, and the same wherever they are about the same."""
+    """An outline within the one above it, and identical wherever they are about the same."""
     lower = above.difference(apart(above, outline).difference(outline))
     return max(getattr(lower, "geoms", [lower]), key=lambda g: float(g.area))
 
@@ -131,8 +112,9 @@ def _wall(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
 
 
 def _fillet(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
-    """The fillet where the plate reaches out beyond the wall: a quarter of a circle in three facets; smaller where a
-    bend of the wall has no room for it, as a facet without that below it would hang over."""
+    """A quarter of a circle in three facets between plate and wall; smaller where a bend of the wall has no room for
+    it.
+    """
     angles = np.radians([0.0, 30.0, 60.0, 90.0])
     for radius in min(p.fillet, 0.5 * p.rim_height) * np.array([1.0, 0.5, 0.25]):
         out, up = radius * (1.0 - np.sin(angles)), p.thickness + radius * (1.0 - np.cos(angles))
@@ -143,7 +125,7 @@ def _fillet(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
 
 
 def _scribe(cell: Any, p: ShoeParameters) -> Block | Groove:
-    """Half of the groove around a cell: its upper edge is the cell's border, its lower lies within the cell."""
+    """Half of the groove around a cell: its upper edge is the cell's border, its lower lies within."""
     for width in p.scribe * np.array([1.0, 0.5, 0.25, 0.125]):  # narrower in a cut cell with a short edge
         inner = moved_edges(ring(cell), -width)
         if inner is not None:
@@ -158,11 +140,7 @@ def mirrored_steps(steps: tuple[Step, ...]) -> tuple[Step, ...]:
 
 
 def bare_floor(steps: tuple[Step, ...]) -> Any | None:
-    """Where the floor is not covered by what rises below the foot's arch.
-
-    Returns:
-        A shapely polygon; None where no foot has a place in the body, and all of the plate is bare.
-    """
+    """The floor not covered by what rises below the arch, a shapely polygon; None if all is bare."""
     place = (b for s in steps if s.name == _PLACE for b in s.blocks)  # from below: the first stands on the floor
     return next((b.low for b in place if isinstance(b, Block)), None)
 

@@ -105,7 +105,6 @@ def _at(points: Points, z: float) -> list[tuple[float, float, float]]:
 
 
 def _sides(low: Points, high: Points) -> list[Any]:
-    """A face between each pair of edges of two rings with as many corners."""
     return [_face([low[i - 1], low[i], high[i], high[i - 1]]) for i in range(len(low))]
 
 
@@ -150,7 +149,6 @@ def _count(shape: Any) -> int:
 
 
 def _polyhedron(shape: Any) -> Polyhedron:
-    """Corners and loops of the kernel's solid, all of whose faces are flat."""
     ocp = load_kernel()
     found = ocp.TopTools.TopTools_IndexedMapOfShape()
     ocp.TopExp.TopExp.MapShapes_s(shape, ocp.TopAbs.TopAbs_VERTEX, found)

@@ -58,14 +58,8 @@ _LAND = 1.3  # mm: what is narrower between two strokes is filled
 
 
 def lettering(text: str, height: float) -> Any:
-    """A line of capitals, digits, - _ . and /; what the font does not have becomes a space.
-
-    Args:
-        text: The line.
-        height: Height of the letters in mm.
-
-    Returns:
-        A shapely multipolygon, its lower left corner at about the origin; empty for an empty line.
+    """Gives a line of text as outlines of a height in mm, a shapely multipolygon with its lower left corner at the
+    origin.
 
     Example:
         >>> outline = lettering("L", 6.0)

@@ -23,28 +23,16 @@ Array = NDArray[np.float64]
 
 
 def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
-    """Surface of the pad, its lower face at z = 0.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions; `pad_thickness` above 0.
-
-    Returns:
-        Closed surface (n, 3, 3) in mm, outward counter-clockwise.
+    """Gives the closed surface (n, 3, 3) of the pad of a plan and parameters, outward counter-clockwise, its lower face
+    at z = 0.
     """
     faces, tops = _faces(plan, parameters)
     return _height_field(faces, tops)
 
 
 def mould_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
-    """Surface of an open mould that the pad is cast in, its flat lower face up, level with the mould's edge.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions; `pad_thickness` above 0.
-
-    Returns:
-        Closed surface (n, 3, 3) in mm, outward counter-clockwise, standing on z = 0; turned about x against the pad.
+    """Gives the closed surface (n, 3, 3) of an open mould for the pad of a plan and parameters, on z = 0, turned about
+    x against the pad.
     """
     faces, tops = _faces(plan, parameters, _MOULD_WALL)
     height = max(tops) + _MOULD_FLOOR
@@ -53,7 +41,7 @@ def mould_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
 
 
 def _faces(plan: ShoePlan, p: ShoeParameters, around: float = 0.0) -> tuple[list[Any], list[float]]:
-    """The pad from above, and so much around it, as polygons that share their corners; how high the pad is in each."""
+    """The pad from above, with a room around it, as polygons that share their corners; and the pad's height in each."""
     rim, full = pad_rim(plan, p), p.pad_thickness + p.pad_rim_height
     # Borders cut each other where they meet, so that neighbouring faces share their corners.
     whole, pad, raised = plan.contact.buffer(around, join_style="mitre"), plan.contact.buffer(GRID), rim.buffer(GRID)
@@ -70,15 +58,7 @@ def _faces(plan: ShoePlan, p: ShoeParameters, around: float = 0.0) -> tuple[list
 
 
 def land_top(plan: ShoePlan, parameters: ShoeParameters) -> float:
-    """How high the pad's lands are, which press on the films, or on the sheet.
-
-    Args:
-        plan: The sole; of films or a sheet.
-        parameters: Dimensions.
-
-    Returns:
-        Their height above the sole frame in mm.
-    """
+    """Gives the height in mm above the sole frame of the lands under films or a sheet, by plan and parameters."""
     assert plan.cell is not None
     return parameters.ceiling - plan.cell.thickness
 
@@ -104,15 +84,8 @@ def _height_field(faces: Sequence[Any], tops: Sequence[float]) -> Array:
 
 
 def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
-    """Surface of each taxel: a head below the print, a base in the pocket; both closed. Of films and sheets the bodies;
-    lands are of the pad, where there is one.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-
-    Returns:
-        Surfaces (n, 3, 3) in mm, outward counter-clockwise, in the order of the cells.
+    """Gives the closed surfaces (n, 3, 3) of taxels (head below the print, base in the pocket) or of films and sheets,
+    by plan and parameters.
     """
     p = parameters
     if plan.lands:
@@ -131,21 +104,11 @@ def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
 
 
 def _shared_out(lands: list[Array], count: int) -> list[list[Array]]:
-    """A land for each of the bodies, or all of them for a sheet."""
     return [lands] if count == 1 else [[land] for land in lands]
 
 
 def prism_surface(polygon: Any, low: float, high: float) -> Array:
-    """Closed surface of a polygon without holes between two heights.
-
-    Args:
-        polygon: Shapely polygon in mm.
-        low: Lower height in mm.
-        high: Upper height.
-
-    Returns:
-        Surface (n, 3, 3) in mm, outward counter-clockwise.
-    """
+    """Gives the closed surface (n, 3, 3) of a shapely polygon without holes between low and high in mm."""
     flat = _triangles(polygon)
     a = ring(polygon)
     b = np.roll(a, -1, axis=0)
@@ -158,7 +121,6 @@ def prism_surface(polygon: Any, low: float, high: float) -> Array:
 
 
 def _triangles(face: Any) -> Array:
-    """Triangles (n, 3, 2) of a polygon, counter-clockwise, with its own corners only."""
     oriented = [shapely.geometry.polygon.orient(t) for t in shapely.constrained_delaunay_triangles(face).geoms]
     return np.array([np.array(t.exterior.coords)[:3, :2] for t in oriented])
 

@@ -22,12 +22,7 @@ Loops = tuple[tuple[int, ...], ...]
 
 @dataclass(frozen=True)
 class Polyhedron:
-    """A closed solid of flat faces that share their edges.
-
-    Attributes:
-        corners: Points (n, 3) in mm.
-        faces: Loops of each face.
-    """
+    """A closed solid of flat faces that share their edges: corners (n, 3) in mm, and loops of each face."""
 
     corners: Array
     faces: tuple[Loops, ...]
@@ -81,7 +76,6 @@ def _of_quads(corners: Array, quads: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def _triangles(corners: Array, face: Loops) -> NDArray[np.int64]:
-    """Corner numbers (k, 3) of a face's triangles."""
     if len(face) == 1 and len(face[0]) == 3:
         return np.array([face[0]])
     flat, up = _flattened(corners, face)
@@ -106,7 +100,7 @@ def _flattened(corners: Array, face: Sequence[Sequence[int]]) -> tuple[list[Arra
 
 
 def without_short_edges(body: Polyhedron, least: float) -> Polyhedron:
-    """A solid whose edges shorter than a length are contracted; faces that bend by it are cut into triangles.
+    """Contract edges shorter than a length; faces bent by it are cut into triangles.
 
     Args:
         body: The solid.
@@ -163,20 +157,18 @@ def _stand_in(stands: dict[int, int], corner: int) -> int:
 
 
 def _bend(corners: Array, normals: Array, faces: set[int], lost: int, kept: int) -> float:
-    """How far off their planes a corner's faces are bent when it moves to another."""
     way = corners[kept] - corners[lost]
     return max((abs(float(normals[i] @ way)) for i in faces), default=0.0)
 
 
 def _sound(corners: Array, face: list[list[int]]) -> bool:
-    """Whether a face has an area and its border does not cross itself."""
     flat, _ = _flattened(corners, face)
     polygon = shapely.Polygon(flat[0], flat[1:])
     return bool(polygon.is_valid and polygon.area > _SLIVER)
 
 
 def _contracted(face: list[list[int]], lost: int, kept: int) -> list[list[int]]:
-    """Loops with one corner in place of another, without edges that this leaves without a length."""
+    """Loops with one corner in place of another, without edges of no length."""
     out = []
     for loop in face:
         found: list[int] = []
@@ -195,7 +187,7 @@ def _contracted(face: list[list[int]], lost: int, kept: int) -> list[list[int]]:
 
 
 def _closed(faces: list[list[list[int]]], changed: dict[int, list[list[int]]], near: set[int]) -> bool:
-    """Whether no edge of faces is there twice, and none of their loops meets itself."""
+    """Whether no directed edge occurs twice, and no loop meets itself."""
     edges = set()
     for i in near:
         for loop in changed.get(i, faces[i]):

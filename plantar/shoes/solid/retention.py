@@ -48,11 +48,10 @@ class Retention:
     """How the shoe is held.
 
     Attributes:
-        kind: "clips", "straps", "screws" or "none".
-        places: Where, on the left shoe.
+        places: Places on the left shoe.
         width: Strap's or clip's width, or screw's diameter in mm.
         strain: Strain of a clip's arm while it snaps over the edge; 0 without clips.
-        note: What was chosen and why.
+        note: The choice and its reason.
     """
 
     kind: Literal["clips", "straps", "screws", "none"]
@@ -76,34 +75,17 @@ class Retention:
         return p.rim_height
 
     def pull_off(self, foot: Foot, worn: float, mass: float, parameters: ShoeParameters) -> PullOff:
-        """How firmly it holds.
-
-        Args:
-            foot: The left foot.
-            worn: Worn mass of the shoe in kg.
-            mass: Mass of the robot in kg.
-            parameters: Dimensions as used.
-
-        Returns:
-            Forces and moments.
-        """
+        """Gives the holding forces of a shoe of worn mass in kg on a foot of a robot of a mass in kg, by parameters."""
         arms = tuple((q.x, q.edge + 0.5 * _hook_height(parameters)) for q in self.places)
         return pull_off(self.kind, arms, self.width, foot.sole.bounds[0], worn, mass, parameters)
 
 
 def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> Retention:
-    """Choose what holds the shoe: clips where the foot has edges to clip over, lugs for straps otherwise.
-
-    Args:
-        foot: The left foot.
-        plan: The left sole.
-        parameters: Dimensions; `retention` may ask for one kind.
-
-    Returns:
-        The choice.
+    """Choose clips where a foot has edges for them, lugs for straps otherwise, or the kind in the parameters; plan is
+    the left sole, and it returns the choice.
 
     Raises:
-        FootError: If clips are asked for and the foot has no edge for them.
+        FootError: If clips are requested and the foot has no edge for them.
     """
     p = parameters
     length = plan.foot.bounds[2] - plan.foot.bounds[0]
@@ -136,7 +118,6 @@ def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> 
 
 
 def _screw_places(plan: ShoePlan, p: ShoeParameters) -> tuple[_Place, ...]:
-    """Two pairs, each where the wall runs most nearly along the foot."""
     low, _, high, _ = plan.foot.bounds
     return tuple(
         _straightest(plan, 0.5 * (low + high), high - low, share, side, p)
@@ -146,8 +127,7 @@ def _screw_places(plan: ShoePlan, p: ShoeParameters) -> tuple[_Place, ...]:
 
 
 def _strap_places(foot: Foot, plan: ShoePlan, width: float, p: ShoeParameters) -> tuple[_Place, ...]:
-    """Lugs of two straps, or one on a short foot, where neither they nor the straps are in the way of other links: at
-    the usual places, or else as far apart as the links leave room."""
+    """Lugs of two straps, or one on a short foot, at the usual places or as far apart as other links leave room."""
     low, _, high, _ = plan.foot.bounds
     length, middle = high - low, 0.5 * (low + high)
     two = length >= 6.0 * p.strap_width + 4.0 * _LUG_END
@@ -167,10 +147,10 @@ def _strap_places(foot: Foot, plan: ShoePlan, width: float, p: ShoeParameters) -
 
 
 def strap_meets(others: KeepOut, outline: Any, x: float, width: float, parameters: ShoeParameters) -> int:
-    """How many points of the robot's other links a strap and its lugs would be in the way of.
+    """Count points of the robot's other links in the way of a strap and its lugs.
 
     Args:
-        others: Where these pass.
+        others: The links.
         outline: Of the left foot below the wall's upper edge, a shapely polygon.
         x: Middle of the strap along the foot in mm.
         width: Of the strap in mm.
@@ -204,7 +184,6 @@ def _straightest(plan: ShoePlan, middle: float, length: float, share: float, sid
 
 
 def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | None, str]:
-    """Two pairs of clips on the long sides, or why there are none."""
     if foot.triangles is None:
         return None, "the foot's upper side is not known"
     low, _, high, _ = plan.foot.bounds
@@ -278,23 +257,14 @@ def _edge_height(samples: Any, outline: Any, p: ShoeParameters, x: float, side: 
 
 
 def _hook_height(p: ShoeParameters) -> float:
-    """Height of a clip's hook: its retaining face and its lead-in, both at 45 degrees, and a land between."""
     return 2.0 * (p.clip_hook + p.clearance) + 1.0
 
 
 def retention_steps(
     foot: Foot, plan: ShoePlan, retention: Retention, parameters: ShoeParameters
 ) -> tuple[list[Block], list[Step]]:
-    """What holds the left shoe, as blocks.
-
-    Args:
-        foot: The left foot.
-        plan: The left sole.
-        retention: What was chosen.
-        parameters: Dimensions.
-
-    Returns:
-        Blocks of the body, and the steps after the foot's place is cut.
+    """Gives the holders' blocks of the left shoe's body, and the steps after the foot's place is cut, by foot, plan,
+    retention and parameters.
     """
     if retention.kind == "straps":
         return _lugs(foot, plan, retention, parameters)
@@ -306,7 +276,6 @@ def retention_steps(
 
 
 def _lugs(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[list[Block], list[Step]]:
-    """Lugs with a slot; above the rim they leave room for the strap between lug and foot."""
     top = retention.top(p)
     outline = tidy(foot.passing(top).union(plan.foot))
     inner = tidy(grown(outline, p.clearance + p.strap_thickness))
@@ -334,7 +303,6 @@ def _one(shape: Any) -> Any:
 
 
 def _bevel(place: _Place, end: int, half: float, size: float, middle: float, top: float) -> Block:
-    """The wedge that takes off an upper corner of a lug."""
     y = sorted((middle, middle + place.side * 1000.0))
     at = place.x + end * half
 
@@ -385,7 +353,6 @@ def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
 
 
 def _bosses(plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[list[Block], list[Step]]:
-    """Bosses with a hole for a screw that presses on the foot's side, and a slot from above for its nut."""
     middle = plan.foot.centroid.y
     diameter = retention.width
     half, depth = diameter + 3.0, 0.8 * diameter + 2.0
@@ -408,7 +375,7 @@ def _bosses(plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[li
 
 
 def _hole(place: _Place, middle: float, radius: float, height: float) -> list[Block]:
-    """A horizontal hole outwards from the middle: eight-sided, so that its roof carries itself."""
+    """A horizontal hole outwards from the middle: eight-sided, so that its roof supports itself."""
     y = sorted((middle, middle + place.side * 1000.0))
     narrow = radius * math.tan(math.pi / 8.0)
 

@@ -35,8 +35,7 @@ class StepPart:
 
     Attributes:
         name: Of the product.
-        body: Its solid.
-        places: Where it lies: shifts (3,) in mm, each with the name of that instance.
+        places: Shifts (3,) in mm by the name of each instance.
     """
 
     name: str
@@ -51,17 +50,16 @@ class StepPart:
 
 @dataclass(frozen=True)
 class StepSolid:
-    """What a STEP file of one solid holds.
+    """The solid of a STEP file.
 
     Attributes:
-        solids: Number of solids.
         valid: Whether the kernel finds no fault.
         volume: In mm^3.
         corners: Points (n, 3).
         circles: Centre and radius (m, 4) of each arc.
         shortest: Length of the shortest edge.
-        flat: Area in mm^2 of flat facets of bent walls: upright, next to one turned by 1 to 20 degrees, and so short
-            that an arc would lie no farther off than `BULGE`.
+        flat: Area in mm^2 of flat facets of bent walls: upright, next to one turned by 1 to 20 degrees, within `BULGE`
+            of an arc.
         round: Area of cylinders and cones.
     """
 
@@ -78,8 +76,7 @@ class StepSolid:
 def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: str) -> None:
     """Write parts as STEP (mm), as products by name; the same parts give the same file.
 
-    The date in its header is that of the environment's SOURCE_DATE_EPOCH, or else the first of the year of Plantar's
-    release: a date of writing would make two files of one solid differ.
+    The header has SOURCE_DATE_EPOCH or the release's year as date, so that two files of one solid do not differ.
 
     Args:
         parts: One part alone is a product, several are an assembly.
@@ -122,14 +119,13 @@ def _plain(name: str) -> str:
 
 
 def release_date() -> str:
-    """Date and time of what is written, the same for the same release."""
+    """Date and time in written files, the same for the same release."""
     seconds = os.environ.get("SOURCE_DATE_EPOCH", "")
     when = datetime.fromtimestamp(int(seconds), UTC) if seconds.isdigit() else datetime(2026, 1, 1, tzinfo=UTC)
     return when.strftime("%Y-%m-%dT%H:%M:%S")
 
 
 def _solid(solid: CurvedSolid) -> Any:
-    """The kernel's solid: faces that share edges, edges that share corners."""
     ocp = load_kernel()
     vertices = [
         ocp.BRepBuilderAPI.BRepBuilderAPI_MakeVertex(ocp.gp.gp_Pnt(*p)).Vertex() for p in solid.body.corners.tolist()
@@ -187,7 +183,6 @@ def _flat_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple
 
 
 def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple[int, int], Any]) -> Any:
-    """A cylinder, a cone, or what lies between two arcs about different axes."""
     ocp = load_kernel()
     loop, corners = face[0], solid.body.corners
     around = tuple(zip(loop, (*loop[1:], loop[0]), strict=True))

@@ -1,4 +1,4 @@
-"""The text of a STEP file, with points, directions and lines that are equal stated once."""
+"""The text of a STEP file, with equal points, directions and lines stated once."""
 
 from __future__ import annotations
 
