@@ -1,4 +1,4 @@
-"""What a recording is of: walking, running or standing; and how a standing body sways."""
+"""Activity of a recording (walking, running or standing), and the sway of a standing body."""
 
 from __future__ import annotations
 
@@ -59,11 +59,11 @@ _SHORTEST = 5.0
 
 @dataclass(frozen=True)
 class Activity:
-    """What somebody does in a recording.
+    """Activity in a recording.
 
     Attributes:
-        name: "walking", "running", "standing", "walking up stairs", "walking down stairs", "toe walking",
-            "walking without heel strike" (stairs up, a slope or a forefoot gait: not known which) or "unknown".
+        name: "walking", "running", "standing", "walking up stairs", "walking down stairs", "toe walking", "walking
+            without heel strike" (stairs up, a slope or a forefoot gait: not known which), "hopping" or "unknown".
         why: The reason.
     """
 
@@ -72,17 +72,11 @@ class Activity:
 
 
 def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
-    """Classify a recording as walking, running or standing.
+    """Returns the activity of a recording with these feet.
 
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
-    Returns:
-        The activity. A foot that lands on its front and then lets the heel down walks down stairs (or on pointed toes);
-        one whose heel never carries walks on its toes; one that lands in front of its heel, stands for long and
-        pushes off more than it lands walks up stairs. Ramps, turns, and stairs up on whole feet load the feet as
-        walking does, and are called so.
+    A foot that lands on its front and then lets the heel down walks down stairs; one whose heel never carries walks on
+    its toes; one that lands in front of its heel, stands for long and pushes off more than it lands walks up stairs.
+    Ramps, turns, and stairs up on whole feet load the feet as walking does.
     """
     if any(step.activity == "hopping" for gait in feet.values() for step in gait.used or gait.steps):
         return Activity("hopping", "both feet land and lift together")
@@ -91,15 +85,7 @@ def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
 
 def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
-    """Warnings of feet that are rolled over from toes to heel, and of two feet that were not recorded at one time.
-
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
-    Returns:
-        The warnings.
-    """
+    """Returns warnings about feet of a recording that roll from toes to heel, or that were not recorded at one time."""
     out = []
     if _out_of_step(feet):
         out.append(
@@ -133,7 +119,7 @@ def _out_of_step(feet: Mapping[Side, FootGait]) -> bool:
 
 
 def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
-    """Where the CoP is at landing, at lift-off and hindmost, in shares of the sole (steps, 3)."""
+    """CoP at landing, at lift-off and hindmost, in shares of the sole (steps, 3)."""
     layout, cop = gait.foot.layout, gait.cop
     if layout is None or cop is None or recording.kind not in ("insole", "robot"):
         return np.zeros((0, 3))
@@ -149,7 +135,7 @@ def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
 
 
 def _by_landing(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity | None:
-    """What steps that land on the forefoot are; None of steps that land on the heel or flat."""
+    """Activity of steps that land on the forefoot; None for the heel or flat."""
     rolls = np.concatenate([_rolls(recording, gait) for gait in feet.values()])
     if len(rolls) < 3 or recording.kind != "insole":
         return None
@@ -166,7 +152,7 @@ def _by_landing(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
 
 def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activity:
-    """What steps that land in front of the heel are: up stairs where forces and times agree."""
+    """Activity of steps that land in front of the heel: up stairs where forces and times agree."""
     rows = [[s["second_peak_N"] / s["first_peak_N"], s["stance_percent"]] for g in feet.values() for s in g.used]
     known = [[v for v in column if np.isfinite(v)] for column in zip(*rows, strict=True)]
     humps, stance = (float(np.median(v)) if v else float("nan") for v in known)
@@ -180,7 +166,7 @@ def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activ
 
 
 def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
-    """Walking, running or standing, by how long the feet are on the ground; by all steps where none is in the means."""
+    """Activity by times on the ground; of all steps where none is in the means."""
     steps = [step for gait in feet.values() for step in gait.used or gait.steps]
     flights = [v for step in steps if np.isfinite(v := step["flight_time_s"])]
     stances = [v for step in steps if np.isfinite(v := step["stance_percent"])]
@@ -212,7 +198,7 @@ def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Ac
 
 
 def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:
-    """Whether a foot of a force (n,) in N is on the ground and off it again and again, next to a usual load in N."""
+    """Whether a foot of a force (n,) repeatedly leaves the ground, next to a usual load in N."""
     known = force[np.isfinite(force)]
     peak = float(np.percentile(known, 99.0)) if len(known) else 0.0
     if not peak > _CARRIES * usual:
@@ -222,17 +208,16 @@ def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:
 
 
 def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
-    """How far and how quickly a centre of pressure wanders in standing.
+    """Distance and speed of a centre of pressure in standing.
 
     Args:
         time: Times (n,) in s.
         points: Positions (n, 2) forward and to the left in m, NaN where there is none.
 
     Returns:
-        sway_ellipse_m2 (area of the 95 % prediction ellipse of a normal distribution with the points' covariance, pi
-        times 5.99 times the root of its determinant; Schubert & Kirchner 2014, Gait Posture 39:518), sway_path_m (in
-        chords, see `chords`), sway_velocity_m_s (path over time), sway_ap_m and sway_ml_m (standard deviations). Empty
-        for less than 5 s.
+        sway_ellipse_m2 (95 % prediction ellipse, pi times 5.99 times the root of the covariance's determinant; Schubert
+        & Kirchner 2014, Gait Posture 39:518), sway_path_m (see `chords`), sway_velocity_m_s, sway_ap_m and sway_ml_m
+        (standard deviations). Empty for less than 5 s.
 
     Example:
         >>> t = np.linspace(0.0, 10.0, 1001)

@@ -1,4 +1,4 @@
-"""The door to gait analysis: `analyse` measures any form of a recording."""
+"""The entry point of gait analysis: `analyse` measures any form of a recording."""
 
 from __future__ import annotations
 
@@ -36,16 +36,17 @@ def analyse(
         given: Path of a file; a folder of recordings (a study); a `PressureRecording`; an array (n, k) of n frames and
             k cells, or a mapping of arrays "left", "right" and "time"; a data frame with a column a cell.
         format: Name of a file's format; recognised from its content where None.
-        options: What else is known of the data; the three keywords below go before it.
+        options: What else is known of the data; the three keywords below override it.
         progress: Called with a fraction 0..1 and what is being done.
         choices: Which steps are in the means, and which events are used.
         subject: The person, as far as known.
         layout: Where the cells are: a layout or the path of its file; mirrored for the other foot.
         unit: Unit of the values, such as "kPa", "N" or "raw".
+        rate_hz: Frames a second.
 
     Returns:
         The analysis: `.steps` (columns of every measure), `.to_pandas()`, `.report()`, `.metrics`, `.feet`; of a folder
-        a `Study` with the same three.
+        a `Study` with the same first three.
 
     Raises:
         FormatError: If the data is no recording that can be read.

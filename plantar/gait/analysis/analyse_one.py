@@ -38,18 +38,15 @@ def analyse_one(
     choices: AnalysisOptions | None = None,
     subject: Subject | None = None,
 ) -> Analysis:
-    """Measure one recording in any form.
+    """Returns the analysis of one recording.
 
     Args:
-        given: What `plantar.formats.given.recording_of` takes.
+        given: A recording in any form of `plantar.formats.given.recording_of`.
         format: Name of a file's format; recognised from its content where None.
         options: What else is known of the data.
-        progress: Called with a fraction 0..1 and what is being done; it ends at 0.5.
+        progress: Called with a fraction 0..0.5 and what is being done.
         choices: Which steps are in the means, and which events are used.
         subject: The person, as far as known.
-
-    Returns:
-        The analysis.
 
     Raises:
         FormatError: If the data is no recording that can be read.
@@ -134,18 +131,7 @@ def analyse_recording(
 
 
 def with_layout(options: ReadOptions | None, layout: SoleLayout | str | os.PathLike[str] | None) -> ReadOptions:
-    """The options with a layout.
-
-    Args:
-        options: What is known of a file, or None.
-        layout: A layout, the path of its file, or None.
-
-    Returns:
-        The options.
-
-    Raises:
-        LayoutError: If the layout file is not valid.
-    """
+    """Returns the options with a layout, or the path of its file; LayoutError if that is not valid."""
     options = options or ReadOptions()
     if layout is None:
         return options

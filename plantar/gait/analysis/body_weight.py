@@ -1,4 +1,4 @@
-"""Whose weight a recording implies: over a stride the ground carries the body in any gait."""
+"""Weight that a recording implies: over a stride the ground carries the body in any gait."""
 
 from __future__ import annotations
 
@@ -25,14 +25,11 @@ _FULL = 1.05
 
 
 def implied_weight(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> float | None:
-    """Weight in N of the body that makes a recording's forces.
+    """Returns the weight in N of the body that makes a recording's forces on these feet; None of raw counts or if
+    unknown.
 
-    The mean vertical force over a stride is the body's weight: the impulses of a step of each foot over the stride time
-    (Newton's second law over a period). Of one foot alone twice its impulse is taken, without strides the largest force
-    of its steps over 1.1, and in standing the mean force of both feet.
-
-    Returns:
-        The weight; None of raw counts, or where the recording does not show it.
+    It is the impulses of a step of each foot over the stride time (of one foot twice its impulse); without strides the
+    largest force of its steps over 1.1; in standing the mean force of both feet.
     """
     if recording.raw:
         return None
@@ -56,11 +53,7 @@ def _median(gait: FootGait, key: str) -> float:
 
 
 def weight_doubts(recording: PressureRecording, weight: float | None) -> list[str]:
-    """Warnings where a recording implies no person's weight, or a robot's taxels read more than they are rated for.
-
-    Returns:
-        The warnings; none for a person of 20 to 200 kg.
-    """
+    """Returns warnings where a recording implies a weight in N of no person, or a robot's taxels exceed their range."""
     if recording.kind == "robot":
         return [line for foot in recording.feet.values() if (line := _overload(recording, foot.side))]
     if weight is None:
@@ -75,7 +68,7 @@ def weight_doubts(recording: PressureRecording, weight: float | None) -> list[st
 
 
 def _overload(recording: PressureRecording, side: Side) -> str:
-    """Note on a robot's foot whose taxels read more than their range; empty for nothing."""
+    """Note on a robot's foot whose taxels exceed their range, or empty."""
     foot = recording.feet[side]
     if foot.layout is None or recording.raw or "force" not in foot.layout.ranges or not len(foot.force):
         return ""

@@ -61,17 +61,17 @@ def compare_recordings(
     Args:
         a: The first recording.
         b: The second one.
-        out: Output folder; the whole analyses stand in its folders "a" and "b".
+        out: Output folder; the whole analyses are in its folders "a" and "b".
         format: Name of both files' format; recognised from their content where None.
         layout: Layout file for both.
         progress: Called with a fraction 0..1 and what is being done.
-        options: What else the user knows about both files.
-        choices: Which steps are in the means, and whose events.
-        subject: Who walks in both, as far as it is known.
+        options: What else is known of both files.
+        choices: Which steps are in the means, and which events are used.
+        subject: The person in both, as far as known.
 
     Returns:
-        "a" and "b": the metrics of each; "difference": of each foot that both have, or of A's foot and B's where each
-        has one, the mean and spread in both, B - A, that in percent of A, and Cohen's d; "files": the paths written.
+        "a" and "b": the metrics of each; "difference": see `difference_of`, of each foot that both have, or of the
+        single feet of A and B; "files": the paths written.
 
     Raises:
         FormatError: If a file is not a recording that can be read.
@@ -101,7 +101,6 @@ def compare_recordings(
 
 
 def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tuple[str, str]) -> dict[str, Any]:
-    """Write what two analyses show side by side, and give what comparison.json holds."""
     pairs = _pairs(analyses["a"], analyses["b"])
     difference = {name: difference_of(analyses, one, other) for name, (one, other) in pairs.items()}
     metrics: dict[str, Any] = {**{k: dict(v.metrics) for k, v in analyses.items()}, "difference": difference}
@@ -118,7 +117,7 @@ def _later(tell: Callable[[float, str], None], begin: float, share: float) -> Ca
 
 
 def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
-    """Which feet are put side by side: the same ones; or the only foot of each where these differ."""
+    """Feet that are compared: the same ones, or the only foot of each."""
     common: dict[str, tuple[Side, Side]] = {s: (s, s) for s in SIDES if s in a.feet and s in b.feet}
     if not common and len(a.feet) == 1 and len(b.feet) == 1:
         one, other = next(iter(a.feet)), next(iter(b.feet))
@@ -127,7 +126,7 @@ def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
 
 
 def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> dict[str, Any]:
-    """Each measure that both recordings have of a foot: its spread in both, and how they differ.
+    """Difference B - A of each measure that both recordings have of a foot.
 
     Args:
         analyses: "a" and "b".
@@ -135,7 +134,8 @@ def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> d
         other: The foot of B.
 
     Returns:
-        For each measure "a" and "b" (mean, sd, cv_percent, n), "difference", "percent" and "effect_size".
+        For each measure "a" and "b" (mean, sd, cv_percent, n), "difference", "percent" (of A) and "effect_size"
+        (Cohen's d).
     """
     first = analyses["a"].metrics["feet"][one]["measures"]
     second = analyses["b"].metrics["feet"][other]["measures"]
@@ -157,7 +157,6 @@ def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> d
 
 
 def _pooled_sd(x: Mapping[str, Any], y: Mapping[str, Any]) -> float | None:
-    """Standard deviation of two samples about their own means; None where one has none."""
     if x["sd"] is None or y["sd"] is None or x["n"] + y["n"] <= 2:
         return None
     return math.sqrt(((x["n"] - 1) * x["sd"] ** 2 + (y["n"] - 1) * y["sd"] ** 2) / (x["n"] + y["n"] - 2))
@@ -200,7 +199,7 @@ def _curves(a: Analysis, b: Analysis, pairs: Mapping[str, tuple[Side, Side]]) ->
 
 
 def _changes(difference: Mapping[str, Any]) -> dict[str, float]:
-    """By how many percent the main measures differ, as far as they are known."""
+    """Differences of the main measures in percent, where known."""
     found = {key: difference[key]["percent"] for key in _MAIN if key in difference}
     return {key: percent for key, percent in found.items() if percent is not None}
 

@@ -1,7 +1,7 @@
 """User-defined masks and measures: parts of the sole by polygons in foot coordinates, and functions of a step.
 
 Foot coordinates are shares: u from the back of the heel (0) to the front of the toes (1), v from the lateral (0) to the
-medial edge (1) of the sole, or on a platform of the footprint. A mask is the same part of a left and of a right foot.
+medial edge (1) of the sole, or on a platform of the footprint.
 """
 
 from __future__ import annotations
@@ -43,14 +43,11 @@ class StepView:
 def custom_measures(
     analysis: Analysis, measures: Mapping[str, Callable[[StepView], float]]
 ) -> dict[Side, dict[str, NDArray[np.float64]]]:
-    """Measure each complete step by user-defined functions.
+    """Returns the values (steps,) of user-defined functions for each complete step of each foot.
 
     Args:
         analysis: An analysis.
         measures: Functions by name; each gives a number, NaN for what is not known.
-
-    Returns:
-        Of each foot the values (steps,) of each measure, in the order of its steps.
     """
     out: dict[Side, dict[str, NDArray[np.float64]]] = {}
     for side, gait in analysis.feet.items():
@@ -60,14 +57,11 @@ def custom_measures(
 
 
 def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Side, list[dict[str, dict[str, float]]]]:
-    """The measures of regions, of user-defined masks.
+    """Returns, of each foot, for each complete step, the `REGION_MEASURES` of each mask that has cells.
 
     Args:
         analysis: An analysis.
         masks: Corners (n, 2) of a polygon in foot coordinates, by name. Masks may overlap.
-
-    Returns:
-        Of each foot, for each complete step, the measures (`REGION_MEASURES`) of each mask that has cells.
 
     Raises:
         InputError: If a mask is no polygon of three corners or more.
@@ -89,15 +83,12 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
 
 
 def mask_cells(analysis: Analysis, side: Side, corners: ArrayLike) -> NDArray[np.int64]:
-    """Cells whose centre lies in a mask.
+    """Returns the indices of the cells whose centre lies in a mask.
 
     Args:
         analysis: An analysis of insoles or soles.
         side: The foot.
         corners: Corners (n, 2) of the mask in foot coordinates.
-
-    Returns:
-        Indices of the cells.
 
     Raises:
         InputError: If the foot has no geometry, or the mask is no polygon.
@@ -116,7 +107,6 @@ def _ring(name: str, corners: ArrayLike) -> NDArray[np.float64]:
 
 
 def _views(analysis: Analysis, gait: FootGait) -> Sequence[StepView]:
-    """Each complete step of a foot."""
     loads = StepLoads(analysis.recording, gait.foot, gait.cell_threshold)
     cop = gait.cop
     return [

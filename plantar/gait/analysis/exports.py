@@ -26,17 +26,16 @@ _BLOCK = 4096
 
 
 def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Path]:
-    """Write a recording in another format, by the suffix of the path, and a sidecar (.json) next to it.
+    """Write a recording in another format, by the suffix of the path, and a sidecar (.json) with the keys of BIDS.
 
     Args:
-        analysis: The analysis: its recording as it was measured, baselines taken off, and the events of its feet.
+        analysis: The analysis: its recording as measured, baselines taken off, and the events of its feet.
         path: File ending in .npz (times, forces in N of each cell, layouts and events; `plantar analyze` reads it),
             .csv (a column a cell, `left 12 [N]`; the same), .c3d (a force platform of each foot, its CoP as a point,
             events in the group EVENT; needs ezc3d) or .mot (OpenSim, with its external loads as .xml).
 
     Returns:
-        The files written: the export and its sidecar, which is named after it (walk.c3d.json) and has the keys that
-        BIDS uses for recorded motion and physiology.
+        The files written; the sidecar of walk.c3d is walk.c3d.json.
 
     Raises:
         InputError: If the suffix is none of these, or the folder cannot be written to.
@@ -60,13 +59,11 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
 
 
 def exporter(formats: Sequence[str]) -> Callable[[Analysis, Path], None] | None:
-    """What writes a recording in some formats into the folder of its analysis, under the recording's own name.
+    """A function that writes an analysis in some formats into a folder, under the recording's own name; None for no
+    format.
 
     Args:
         formats: Formats by their suffix, "c3d", "csv", "mot" or "npz", with or without its dot.
-
-    Returns:
-        A function of an analysis and a folder; None for no format.
 
     Raises:
         InputError: If a format is none of these.
@@ -92,7 +89,7 @@ def _unit(analysis: Analysis) -> str:
 
 
 def _events(analysis: Analysis) -> list[tuple[str, str, float]]:
-    """Foot, what and time in s of each event, in order."""
+    """Foot, kind and time in s of each event, in order."""
     found: list[tuple[str, str, float | None]] = []
     for side, gait in analysis.feet.items():
         found += [(side, "heel_strike", c.heel_strike) for c in gait.contacts]
@@ -101,7 +98,7 @@ def _events(analysis: Analysis) -> list[tuple[str, str, float]]:
 
 
 def _sidecar(analysis: Analysis, target: Path) -> dict[str, Any]:
-    """What the export holds, in the keys of BIDS sidecars where it has them."""
+    """Contents of the export, in the keys of BIDS sidecars where it has them."""
     recording = analysis.recording
     return {
         "SamplingFrequency": recording.rate_hz,

@@ -21,11 +21,11 @@ __all__ = ["GroundReaction", "ground_reactions", "write_external_loads", "write_
 
 
 class GroundReaction(NamedTuple):
-    """What the ground does to one foot.
+    """The ground's reaction on one foot.
 
     Attributes:
         force: Force (n, 3) in N; horizontal parts 0 where they were not measured.
-        cop: Where it acts (n, 2) in m, 0 without load.
+        cop: Its point (n, 2) in m, 0 without load.
         free: Free moment (n,) about the vertical there in N m.
     """
 
@@ -35,11 +35,7 @@ class GroundReaction(NamedTuple):
 
 
 def ground_reactions(analysis: Analysis) -> dict[Side, GroundReaction]:
-    """The ground's force on each foot.
-
-    Returns:
-        The reactions, in the laboratory's axes of plates, in the sole frame of insoles and robots.
-    """
+    """The ground's force on each foot, in the laboratory's axes of plates, in the sole frame of insoles and robots."""
     out: dict[Side, GroundReaction] = {}
     for side, gait in analysis.feet.items():
         foot = gait.foot
@@ -57,14 +53,8 @@ def ground_reactions(analysis: Analysis) -> dict[Side, GroundReaction]:
 
 
 def write_mot(analysis: Analysis, path: Path) -> None:
-    """Write the ground's forces as a motion file (.mot) of OpenSim: force, point and torque of each foot.
-
-    Args:
-        analysis: The analysis.
-        path: The file.
-
-    Raises:
-        InputError: If the recording holds counts, which are no forces.
+    """Write the ground's forces of an analysis to a motion file (.mot) of OpenSim at a path; InputError of raw
+    counts.
     """
     if analysis.recording.raw:
         raise InputError("a recording of raw counts has no forces for OpenSim; allowed: npz, csv, c3d")

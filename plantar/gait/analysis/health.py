@@ -1,4 +1,4 @@
-"""Whether sensors and the walk are what measures take them to be: silent cells, gain that creeps, feet out of time."""
+"""Doubts about sensors and clocks: silent cells, gain that creeps, feet out of time."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _UNEQUAL, _STRIDES = 0.05, 4
 
 
 class SilentCells(NamedTuple):
-    """Cells that read nothing though load lies around them.
+    """Cells that read 0 though load lies around them.
 
     Attributes:
         cells: Their indices (m,).
@@ -46,16 +46,13 @@ class SilentCells(NamedTuple):
 
 
 def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> SilentCells:
-    """Cells of an insole that read 0 throughout while those around them carry load.
+    """Returns the cells of an insole that read 0 throughout while those around them carry load, and the missing force.
 
-    What a silent cell lacks is taken as the mean pressure of the neighbours that carry, at the frames of high load.
+    A silent cell lacks the mean pressure of its loaded neighbours, at the frames of high load.
 
     Args:
-        other: The other foot: of insoles that are each other's mirror image, its cell of the same number shows that a
-            part of the sole at an edge is loaded.
-
-    Returns:
-        The cells and the share of force that is missing.
+        foot: The foot.
+        other: The other foot: if its sole is the mirror image, its cell of the same number shows load at an edge.
     """
     layout = foot.layout
     none = SilentCells(np.zeros(0, dtype=np.int64), 0.0)
@@ -105,7 +102,6 @@ def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> Sil
 
 
 def _neighbours(layout: SoleLayout) -> list[NDArray[np.int64]]:
-    """Indices of the cells around each cell."""
     points = layout.positions[:, :2]
     away = np.hypot(*(points[:, None] - points[None]).transpose(2, 0, 1))
     np.fill_diagonal(away, np.inf)
@@ -117,7 +113,6 @@ def _neighbours(layout: SoleLayout) -> list[NDArray[np.int64]]:
 
 
 def _mirrored(layout: SoleLayout, other: SoleLayout) -> bool:
-    """Whether cells of the same number lie mirror-wise in two soles."""
     if len(layout) != len(other):
         return False
     here, there = layout.positions[:, :2] * [1.0, -1.0], other.positions[:, :2]
@@ -152,11 +147,7 @@ def silent_cell_doubts(recording: PressureRecording) -> list[str]:
 
 
 def creep_doubts(feet: Mapping[Side, FootGait]) -> list[str]:
-    """A warning where a step's mean force changes steadily over the recording: body weight does not, gains do.
-
-    Returns:
-        The warnings, with the change from the first step to the last.
-    """
+    """A warning with the change from first to last step where a foot's mean force changes steadily: the gain creeps."""
     out = []
     for side, gait in feet.items():
         time = np.array([step.heel_strike_s for step in gait.used])
@@ -179,10 +170,10 @@ def creep_doubts(feet: Mapping[Side, FootGait]) -> list[str]:
 
 
 def unequal_strides(feet: Mapping[Side, FootGait]) -> float | None:
-    """How much longer the left foot's strides are than the right one's, relative to their mean.
+    """Difference of the left foot's strides from the right one's, relative to their mean, where it is too large for a
+    walk.
 
-    Returns:
-        The difference where it is more than a walk has: two clocks, or two people; else None.
+    It shows two clocks, or two people; else None.
     """
     if len(feet) < 2:
         return None

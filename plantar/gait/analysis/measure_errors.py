@@ -1,4 +1,4 @@
-"""How far a step's measures may be off: by noise, frames, cells, thresholds and the place of events."""
+"""Standard errors of a step's measures: by noise, frames, cells, thresholds and the place of events."""
 
 from __future__ import annotations
 
@@ -21,17 +21,14 @@ _EDGE = 3.5
 
 
 def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, float]:
-    """Standard error of one step's value of each measure, as far as noise, rate, cells and events explain it.
+    """Returns standard errors of one step's measures by key in SI, by noise, rate, cells and events, without
+    calibration.
 
-    A mean over n steps errs by 1 / sqrt(n) of what noise and frames add, and by all of what cells and definitions do;
-    gains, fit and calibration of the sensor are not in it.
+    A mean over n steps errs by 1 / sqrt(n) of what noise and frames add, and by all of what cells and definitions do.
 
     Args:
         recording: The recording.
         gait: One foot of it, its steps measured.
-
-    Returns:
-        Errors by the measure's key, in its SI unit; none where nothing is known.
     """
     levels, used = gait.levels, gait.used
     if levels is None or not used:
@@ -92,7 +89,7 @@ def _forces(recording: PressureRecording, gait: FootGait, middle: Mapping[str, f
 
 
 def _fall_beside_peak(gait: FootGait) -> float:
-    """How much the force falls from its largest frame to those next to it, mean over some steps in N."""
+    """Mean fall in N of the force from its largest frame to those next to it."""
     falls = []
     for step in gait.used[:50]:
         force = gait.foot.vertical_force[step.contact.begin : step.contact.end]

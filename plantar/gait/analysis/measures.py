@@ -1,4 +1,4 @@
-"""What is measured of a step: name, title, unit and how readers are shown it. Definitions: docs/metrics.md."""
+"""Measures of a step: name, title, unit and heading. Definitions: docs/metrics.md."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ class Measure:
     """One measure.
 
     Attributes:
-        title: What it is, for people.
-        unit: Unit that people are shown.
+        title: Its name in reports.
+        unit: Unit in reports.
         factor: From SI to that unit.
-        group: Heading that it is listed under.
+        group: Its heading.
     """
 
     title: str
@@ -107,10 +107,7 @@ _RAW = (("_Pas", "_raw_s"), ("_Pa", "_raw"), ("_Ns", "_raw_s"), ("_N_s", "_raw_s
 
 
 def full_title(key: str) -> str:
-    """A measure's title that stands without the heading of its group.
-
-    Args:
-        key: Its key; of one that is not known the key itself is the title.
+    """Title of a measure's key without the heading of its group; the key itself where it is not known.
 
     Example:
         >>> full_title("cop_path_m"), full_title("peak_force_N"), full_title("mine")

@@ -1,4 +1,4 @@
-"""An analysis as the plain values that metrics.json holds."""
+"""An analysis as the plain values of metrics.json."""
 
 from __future__ import annotations
 
@@ -33,16 +33,14 @@ __all__ = ["metrics_of", "not_given"]
 def metrics_of(
     recording: PressureRecording, feet: Mapping[Side, FootGait], subject: Subject | None = None
 ) -> dict[str, Any]:
-    """The analysis as plain JSON values; None where a value is not known.
+    """Returns the analysis as plain JSON values (docs/metrics.md); None where a value is not known.
+
+    With raw counts the keys end in "_raw" instead of a unit of force or pressure.
 
     Args:
+        recording: The recording.
         feet: The gait of each of its feet.
-        subject: Who walks, as far as it is known.
-
-    Returns:
-        format, kind, subject, device, frames, rate_hz, duration_s, raw, grid, activity, feet, not_given, gait,
-        warnings; see docs/metrics.md. In a recording of raw counts the keys end in "_raw" where they would else name a
-        unit of force or pressure.
+        subject: The person, as far as known.
     """
     warnings = list(recording.warnings)
     activity = activity_of(recording, feet)
@@ -97,7 +95,6 @@ def metrics_of(
 
 
 def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
-    """Why no contact of a foot was found."""
     force, levels = gait.foot.vertical_force, gait.levels
     if levels is not None and find_contacts(recording.time, force, levels, minimum_stance=0.0):
         return f"has no contact of {MINIMUM_STANCE:g} s or longer"
@@ -105,7 +102,6 @@ def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
 
 
 def _segment(segment: Segment, feet: Mapping[Side, FootGait]) -> dict[str, Any]:
-    """One segment with the means of its steps."""
     steps = [s for side, own in segment.steps.items() for s in feet[side].steps if s.number in own]
     means = {
         key: spread([s[key] for s in steps]).mean
@@ -124,7 +120,7 @@ def _segment(segment: Segment, feet: Mapping[Side, FootGait]) -> dict[str, Any]:
 
 
 def _segment_notes(segments: Sequence[Segment], feet: Mapping[Side, FootGait]) -> list[str]:
-    """What to report where a recording holds several activities, or stops."""
+    """Note on a recording with several activities or stops."""
     kinds = list(dict.fromkeys(s.activity for s in segments))
     if len(segments) < 2 or (len(kinds) == 1 and len(segments) < 2):
         return []
@@ -146,7 +142,7 @@ def _lowest(gait: FootGait) -> str:
 
 
 def _sway(recording: PressureRecording, gait: FootGait, standing: bool) -> dict[str, float] | None:
-    """How a foot's CoP wanders in standing, and its share of the load; None of anything else."""
+    """Sway of a foot's CoP in standing, and its share of the load, else None."""
     if not standing:
         return None
     load = {side: float(np.nanmean(foot.vertical_force)) for side, foot in recording.feet.items()}
@@ -209,19 +205,18 @@ def _missing_percent(recording: PressureRecording, foot: FootRecording) -> float
 
 
 def _step(step: Step, named: Callable[[str], str]) -> dict[str, Any]:
-    """What the report's table shows of one step."""
+    """Row of a step in the report's table."""
     out = {"number": step.number, "used": step.used, "note": step.unused or step.odd}
     times = {"heel_strike_s": step.heel_strike_s, "toe_off_s": step.toe_off_s}
     return {**out, **times, **{named(key): _plain(step[key]) for key in EACH_STEP}}
 
 
 def _events(gait: FootGait, complete: bool) -> list[dict[str, float | None]]:
-    """Heel strike and toe off in s of the contacts that were recorded whole, or of those that were not."""
+    """Heel strike and toe off in s of the complete contacts, or of the others."""
     return [{"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if c.complete == complete]
 
 
 def _levels(gait: FootGait) -> dict[str, float | None]:
-    """Force levels of the events."""
     levels = gait.levels
     return {
         "event_level_N": None if levels is None else levels.release,

@@ -1,7 +1,6 @@
-"""Whether soles are seen mirrored, by where feet carry their load: the arch lies inside, and so does the hallux.
+"""Whether soles are mirrored, by their load: arch and hallux lie inside.
 
-Matrices of cells show it where left and right are swapped, or columns are counted from the other side. Insoles whose
-cells are numbered mirror-wise, such as pedar's, do not: swapped, each is a foot of the other side.
+Matrices of cells show swapped feet or columns; insoles with mirrored numbers, such as pedar's, do not.
 """
 
 from __future__ import annotations
@@ -25,14 +24,8 @@ _MIRRORED = -0.1
 
 
 def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
-    """A warning of two insoles in which the load lies as in the other foot.
-
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
-    Returns:
-        One warning, or none; none where a foot has no complete step or no geometry, and of platforms and robots.
+    """Returns a warning about a recording of two insoles whose feet are loaded as the other foot, where steps show
+    it.
     """
     if recording.kind != "insole" or len(feet) < 2 or not all(gait.steps for gait in feet.values()):
         return []
@@ -46,12 +39,7 @@ def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait])
 
 
 def inward_of_toes(gait: FootGait) -> float:
-    """How much farther inside the load of the toes lies than that of the midfoot.
-
-    Returns:
-        The distance in half widths of the sole, each load's from the middle of the cells there; NaN without load or
-        geometry.
-    """
+    """Distance of the toes' load inside of the midfoot's, in half widths of the sole; NaN without load or geometry."""
     layout, picture = gait.foot.layout, gait.picture
     if layout is None or picture is None:
         return float("nan")
@@ -66,7 +54,7 @@ def inward_of_toes(gait: FootGait) -> float:
 def _inward(
     y: NDArray[np.float64], areas: NDArray[np.float64], pressure: NDArray[np.float64], part: NDArray[np.bool_]
 ) -> float:
-    """How far inside in m the load of some cells lies from their middle; NaN where they carry none."""
+    """Distance in m of the load of some cells inside of their middle; NaN without load."""
     load = pressure[part] * areas[part]
     if not load.sum() > 0.0:
         return float("nan")

@@ -1,4 +1,4 @@
-"""What a reader of an analysis may decide: which steps count, whose events, and whether baselines are taken off."""
+"""Options of an analysis: which steps are in the means, which events, and whether baselines are taken off."""
 
 from __future__ import annotations
 
@@ -16,18 +16,17 @@ ACTIVITIES = ("walking", "running", "hopping")
 
 @dataclass(frozen=True)
 class AnalysisOptions:
-    """Decisions of an analysis.
+    """Options of an analysis.
 
     Attributes:
         steps: First and last number of the steps of each foot that are in the means; "steady" for those of steady
-        walking,
-            "all" for all complete ones.
+            walking, "all" for all complete ones.
         begin: Time in s before which no step counts.
         end: Time in s after which no step counts.
         segment: The activity whose steps are in the means, such as "walking"; the one with most steps where None.
         baseline: "auto" takes off what sensors read in swing where that is an offset; "keep" leaves it.
-        events: "own" finds the events in the force; "vendor" takes those that the file states; else the path of a file
-            of events, such as a vendor's report (see `plantar.formats.stated_events`).
+        events: "own" finds the events in the force; "vendor" uses the events stored in the file; else the path of a
+            file of events (see `plantar.formats.stated_events`).
     """
 
     steps: tuple[int, int] | Literal["steady", "all"] = "steady"
@@ -47,17 +46,12 @@ class AnalysisOptions:
 
     @property
     def events_file(self) -> str | None:
-        """Path of the file of events; None where they are found in the force, or stated by the recording."""
+        """Path of the file of events, if any."""
         return None if self.events in ("own", "vendor") else self.events
 
     def of_several(self, what: str) -> None:
-        """Refuse what can hold of one recording alone: a file of events has the times of one walk.
-
-        Args:
-            what: What takes several, the subject of the error.
-
-        Raises:
-            InputError: If the events are those of a file.
+        """Raise InputError if the events are those of a file, which is of one recording; `what` is the message's
+        subject.
         """
         if self.events_file is not None:
             text = f"a file of events is of one recording, and {what} several; allowed: own, vendor"
@@ -65,16 +59,7 @@ class AnalysisOptions:
 
 
 def steps_of_text(text: str | None) -> tuple[int, int] | Literal["steady", "all"]:
-    """Which steps a text names.
-
-    Args:
-        text: "3-14", "5", "steady" or "all"; None for "steady".
-
-    Returns:
-        The first and the last step, or the word.
-
-    Raises:
-        InputError: If it is none of these.
+    """First and last step, or "steady" or "all", of a text such as "3-14", "5" or None for "steady"; else InputError.
 
     Example:
         >>> steps_of_text("3-14"), steps_of_text("5"), steps_of_text(None)

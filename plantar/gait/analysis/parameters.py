@@ -1,4 +1,4 @@
-"""Gait parameters: what each step of a foot measures. Definitions: docs/metrics.md."""
+"""Gait parameters: the measures of each step of a foot. Definitions: docs/metrics.md."""
 
 from __future__ import annotations
 
@@ -48,15 +48,12 @@ BACKWARDS = -0.02
 def analyse_feet(
     recording: PressureRecording, prints: Sequence[PlatformPrint] = (), options: AnalysisOptions | None = None
 ) -> dict[Side, FootGait]:
-    """Find the contacts of every foot and measure its complete steps.
+    """Returns the gait of each foot, with the lengths that need both.
 
     Args:
-        recording: The recording; that of a platform as `told_apart` gives it.
+        recording: The recording; that of a platform with its feet separated.
         prints: The footprints of a platform.
         options: Which steps are in the means.
-
-    Returns:
-        The gait of each foot, with the lengths that need both.
     """
     known = options or AnalysisOptions()
     if known.events != "own" and not set(recording.feet) <= set(recording.events):
@@ -83,7 +80,7 @@ _CROSS = ("step_time_s", "double_support_percent", "single_support_percent", "fl
 
 
 def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:
-    """The feet without what takes both, where their strides differ as those of one walk do not."""
+    """The feet without measures of both, where their strides differ too much for one walk."""
     difference = unequal_strides(feet)
     if difference is None:
         return feet
@@ -112,7 +109,7 @@ def _check_clock(recording: PressureRecording) -> None:
 
 
 def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
-    """The gait of each foot, all of whose steps are in the means."""
+    """The gait of each foot, with all steps in the means."""
     events = {side: _events_of(recording, side, stated) for side in recording.feet}
     feet = {side: analyse_foot(recording, side, prints, stated, events) for side in recording.feet}
     places = {side: [_place(recording, gait, step, prints) for step in gait.steps] for side, gait in feet.items()}
@@ -124,7 +121,6 @@ def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint]
 
 
 def _with_measures(gait: FootGait, extra: Sequence[Mapping[str, float]]) -> FootGait:
-    """The gait with more measures of each of its steps."""
     steps = (replace(step, measures={**step.measures, **more}) for step, more in zip(gait.steps, extra, strict=True))
     return replace(gait, steps=tuple(steps))
 
@@ -136,17 +132,14 @@ def analyse_foot(
     stated: bool = False,
     events: Mapping[Side, tuple[Levels | None, list[Contact]]] | None = None,
 ) -> FootGait:
-    """Find the contacts of one foot and measure its complete steps.
+    """Returns the gait of one foot; measures that need the other foot use its contacts where it was recorded.
 
     Args:
         recording: The recording.
         side: A foot that it has.
         prints: The footprints of a platform.
-        stated: Whether the events that the file states are taken.
+        stated: Whether the events of the file are used.
         events: Levels and contacts of both feet, where they are known.
-
-    Returns:
-        The foot's gait. Measures that need the other foot use its contacts where it was recorded.
     """
     events = events or {s: _events_of(recording, s, stated) for s in recording.feet}
     gait = _with_events(recording, side, *events[side])
@@ -174,7 +167,6 @@ def analyse_foot(
 
 
 def _events_of(recording: PressureRecording, side: Side, stated: bool) -> tuple[Levels | None, list[Contact]]:
-    """Force levels and contacts of a foot."""
     levels = _levels(recording, side)
     return levels, _contacts(recording, side, stated, levels)
 
@@ -182,7 +174,7 @@ def _events_of(recording: PressureRecording, side: Side, stated: bool) -> tuple[
 def _with_events(
     recording: PressureRecording, side: Side, levels: Levels | None, contacts: Sequence[Contact]
 ) -> FootGait:
-    """One foot with its contacts and its CoP; no step is measured yet."""
+    """One foot with its contacts and its CoP, without steps."""
     foot = recording.feet[side]
     force = foot.vertical_force
     cop = foot.center_of_pressure(levels.release if levels is not None else np.inf)
@@ -194,14 +186,14 @@ def _with_events(
 def _other_foot(
     recording: PressureRecording, side: Side, events: Mapping[Side, tuple[Levels | None, list[Contact]]]
 ) -> OtherFoot | None:
-    """The contacts of the foot across; None where it was not recorded."""
+    """Contacts of the other foot; None where it was not recorded."""
     if other_side(side) not in recording.feet or not recording.metadata.get("sees_every_step", True):
         return None  # plates in a walkway do not see what the other foot does next to them
     return OtherFoot(recording, other_side(side), events[other_side(side)][1])
 
 
 def _contacts(recording: PressureRecording, side: Side, stated: bool, levels: Levels | None) -> list[Contact]:
-    """The contacts of a foot: found in its force, or those that the file states."""
+    """Contacts of a foot: found in its force, or stated by the file."""
     if stated:
         return stated_contacts(recording.time, recording.events[side])
     if levels is None:
@@ -213,8 +205,7 @@ def _contacts(recording: PressureRecording, side: Side, stated: bool, levels: Le
 
 
 def _levels(recording: PressureRecording, side: Side) -> Levels | None:
-    """Levels of a foot's force. Where the least that it carries is much, and no flat level of a sensor, the weight goes
-    from foot to foot and none is lifted."""
+    """Levels of a foot's force; where its least load is high and no flat sensor level, no foot is lifted."""
     force = recording.feet[side].vertical_force
     levels = force_levels(force, recording.kind)
     if levels is None or levels.rest <= _CARRIED * levels.peak or resting_level(force, recording.rate_hz) is not None:
@@ -225,14 +216,14 @@ def _levels(recording: PressureRecording, side: Side) -> Levels | None:
 def _regions(
     load: StepLoad, region: NDArray[np.int64] | None, lasts: Sequence[float]
 ) -> list[dict[str, dict[str, float]]]:
-    """Measures of each region of the foot in each contact of a load; none without geometry."""
+    """Measures of each region in each contact of a load; none without geometry."""
     if region is None or load.pressure is None:
         return [{} for _ in lasts]
     return region_measures(load, region, list(REGIONS), lasts)
 
 
 def _place(recording: PressureRecording, gait: FootGait, step: Step, prints: Sequence[PlatformPrint]) -> Place | None:
-    """Where a step is on the ground; None where the recording does not show it."""
+    """Place of a step on the ground; None where the recording does not show it."""
     placement = gait.foot.placement
     if placement is not None:
         middle = (step.contact.begin + step.contact.end) // 2
@@ -246,7 +237,7 @@ def _place(recording: PressureRecording, gait: FootGait, step: Step, prints: Seq
 
 
 def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
-    """What looks odd about a foot's steps."""
+    """Warnings about a foot's steps."""
     out: list[str] = []
     side = gait.foot.side
     if recording.kind != "insole":
@@ -280,17 +271,16 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
 
 
 def _release_share(levels: Levels) -> float:
-    """Where heel strikes are found, as a share of the range of force."""
+    """Level of heel strikes as a share of the range of force."""
     return (levels.release - levels.rest) / (levels.peak - levels.rest)
 
 
 def _raised_by_noise(levels: Levels, kind: Kind) -> bool:
-    """Whether noise raises the level of heel strikes so that events move."""
     return _release_share(levels) > _RAISED * EVENT_LEVELS[kind].strike
 
 
 def _travel_of_steps(gait: FootGait) -> list[float]:
-    """How far forward in m the CoP moves in each complete step in which it is known in 4 frames or more."""
+    """Travel forward in m of the CoP in each complete step with 4 known frames or more."""
     if gait.cop is None:
         return []
     ahead = [gait.cop[c.begin : c.end, 0] for c in gait.contacts if c.complete]

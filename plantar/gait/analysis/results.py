@@ -1,4 +1,4 @@
-"""What an analysis gives: the recording, its feet, tables of steps and regions, the metrics and the report."""
+"""Result of an analysis: the recording, its feet, tables of steps and regions, the metrics and the report."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ _LONG = 500
 
 @dataclass(frozen=True, eq=False)
 class Analysis:
-    """A recording, its feet and what was measured.
+    """A recording, its feet and their measures.
 
     Attributes:
         recording: The recording; a platform's with its footprints separated.
         feet: The gait of each foot.
-        metrics: What metrics.json holds.
+        metrics: Contents of metrics.json.
     """
 
     recording: PressureRecording
@@ -46,8 +46,8 @@ class Analysis:
     def steps(self) -> dict[str, NDArray[Any]]:
         """Every complete step of either foot, in the order of time, as columns (n,) by name.
 
-        side, number, heel_strike_s, toe_off_s, every measure of `MEASURES` (SI unit in its name, NaN where it is not
-        known), used (whether the step is in the means) and note (why not, or what is odd).
+        side, number, heel_strike_s, toe_off_s, every measure of `MEASURES` (NaN where not known), used (whether the
+        step is in the means) and note (why not, or what is odd).
         """
         steps = _in_order(self.feet)
         named = raw_name if self.recording.raw else str
@@ -67,19 +67,11 @@ class Analysis:
         return tuple(self.metrics["warnings"])
 
     def to_pandas(self) -> Any:
-        """The steps as a `pandas.DataFrame`.
-
-        Raises:
-            InputError: If pandas is not installed.
-        """
+        """The steps as a `pandas.DataFrame`; InputError if pandas is not installed."""
         return as_data_frame(self.steps)
 
     def report(self, path: str | Path | None = None) -> str:
-        """The report page as one HTML text, written to a file where one is named.
-
-        Args:
-            path: File to write; none where None.
-        """
+        """The report page as one HTML text, also written to a file at `path` if given."""
         with tempfile.TemporaryDirectory() as folder:
             write_analysis(self, Path(folder))
             page = (Path(folder) / "report.html").read_text(encoding="utf-8")
@@ -91,11 +83,7 @@ class Analysis:
 
 
 def as_data_frame(columns: Mapping[str, NDArray[Any]]) -> Any:
-    """Columns as a `pandas.DataFrame`.
-
-    Raises:
-        InputError: If pandas is not installed.
-    """
+    """Columns as a `pandas.DataFrame`; InputError if pandas is not installed."""
     try:
         import pandas
     except ImportError:
@@ -112,7 +100,8 @@ def write_analysis(
     """Write metrics.json, steps.csv and regions.csv of an analysis, its figures, report.html and summary.html.
 
     Args:
-        folder: Folder to write to, which exists.
+        analysis: The analysis.
+        folder: Existing folder to write to.
         progress: Called with a fraction 0..1 and what is being done.
         figures: Whether figures and the report are drawn.
     """
@@ -145,13 +134,11 @@ def _in_order(feet: Mapping[Side, FootGait]) -> list[Step]:
 
 
 def _steps_csv(columns: Mapping[str, NDArray[Any]]) -> str:
-    """One row a complete step; empty where a value is not known."""
     whole = {name: values.astype(int) if values.dtype == bool else values for name, values in columns.items()}
     return csv_text(list(whole), list(zip(*(values.tolist() for values in whole.values()), strict=True)))
 
 
 def _regions_csv(feet: Mapping[Side, FootGait], raw: bool) -> str:
-    """One row a region of a complete step."""
     named = raw_name if raw else str
     rows = [
         [s.side, s.number, region, *(values.get(name, math.nan) for name in REGION_MEASURES)]

@@ -23,15 +23,13 @@ class Spread:
 
 
 def spread(values: Sequence[float] | NDArray[np.float64], circular: bool = False) -> Spread:
-    """Mean, standard deviation, coefficient of variation and median of the values that are known.
+    """Returns mean, standard deviation, coefficient of variation and median of the known values.
 
     Args:
         values: The values, NaN where one is not known.
-        circular: Whether they are angles in degrees: their mean is the direction of the mean of their unit vectors, and
-            the rest is of their differences from it (Fisher 1993, Statistical Analysis of Circular Data, ch. 2).
-
-    Returns:
-        The spread; a coefficient of variation of angles is unknown.
+        circular: Whether they are angles in degrees: the mean is that of their unit vectors, the rest of their
+            differences from it (Fisher 1993, Statistical Analysis of Circular Data, ch. 2), without a coefficient of
+            variation.
 
     Example:
         >>> spread([1.0, 2.0, 3.0, float("nan")])

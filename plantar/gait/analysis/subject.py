@@ -1,4 +1,4 @@
-"""Who walks in a recording, what is known of the body, and with what it was measured: what a report is headed by."""
+"""Subject and device of a recording, for the heading of a report."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ misses, less than any unit is off that is mistaken for another."""
 
 @dataclass(frozen=True)
 class Subject:
-    """Who walks, as far as it is known.
+    """A person or robot, as far as known.
 
     Attributes:
-        name: Name or number of the person or robot; empty where none is named.
-        mass_kg: Mass of the body in kg; None where it is not known.
-        foot_length_m: Length of the foot in m; None where it is not known.
+        name: Name or number; empty where none is given.
+        mass_kg: Mass of the body in kg, or None.
+        foot_length_m: Length of the foot in m, or None.
 
     Raises:
         InputError: If the mass or the length is not possible.
@@ -53,15 +53,7 @@ class Subject:
 
 
 def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
-    """A warning where the forces of a recording are not those of a body of the stated mass.
-
-    Args:
-        subject: Who walks.
-        implied: Weight in N that the forces imply; None where they imply none.
-
-    Returns:
-        The warning, or nothing.
-    """
+    """Returns a warning where the implied weight in N of a recording is not that of the subject's stated mass."""
     weight = subject.weight
     if weight is None or implied is None or abs(implied / weight - 1.0) <= _DISAGREE:
         return []
@@ -73,11 +65,11 @@ def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
 
 
 def device_of(recording: PressureRecording) -> dict[str, Any]:
-    """What measured a recording, as far as the file states it.
+    """Device of a recording, as far as the file states it.
 
     Returns:
-        "name" (what the format is of), "sensor" (what the file calls it, or None), and for each foot with geometry its
-        "layout", "cells", and "length_m" and "width_m" of the sole or platform.
+        "name" (of the format), "sensor" (the file's name of it, or None), and for each foot with geometry its "layout",
+        "cells", and "length_m" and "width_m" of the sole or platform.
     """
     known, facts = formats().get(recording.format), recording.metadata
     stated = (facts.get(key) for key in ("sensor", "sensors", "sensor insoles", "robot"))

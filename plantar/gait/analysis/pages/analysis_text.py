@@ -9,15 +9,7 @@ __all__ = ["analysis_text"]
 
 
 def analysis_text(metrics: Mapping[str, Any], name: str = "") -> str:
-    """The main figures of an analysis for people; what was assumed is listed apart, under `metrics["warnings"]`.
-
-    Args:
-        metrics: What `analyse_recording` gave.
-        name: Which one of two; empty for one alone.
-
-    Returns:
-        Lines.
-    """
+    """Returns the main figures of an analysis as lines, from its metrics; with a name for one of two."""
     rate = "" if metrics["rate_hz"] is None else f" at {metrics['rate_hz']:.6g} Hz"
     lines = [f"{name + ': ' if name else ''}{metrics['format']}: {metrics['frames']} frame(s){rate}"]
     for side, foot in metrics["feet"].items():

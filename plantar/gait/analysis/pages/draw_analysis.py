@@ -27,7 +27,7 @@ def draw_figures(
     Args:
         recording: The recording.
         feet: The gait of its feet.
-        folder: Folder to write to, which exists.
+        folder: Existing folder to write to.
         progress: Called with a fraction 0..1 and what is being done.
 
     Returns:

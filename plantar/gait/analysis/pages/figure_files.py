@@ -18,7 +18,7 @@ def write_figures(
 
     Args:
         figures: Name, figure (None for one without data) and caption of each.
-        folder: Folder to write to, which exists.
+        folder: Existing folder to write to.
         progress: Called with a fraction 0..1 and what is being done.
 
     Returns:

@@ -19,7 +19,7 @@ __all__ = ["draw_footprints"]
 
 @dataclass(frozen=True)
 class _Scale:
-    """How lengths are drawn: mm where the image's scale is known, else pixels."""
+    """Scale of lengths in the figure: mm where the image's is known, else pixels."""
 
     name: str
     of_pixel: float
@@ -27,15 +27,7 @@ class _Scale:
 
 
 def draw_footprints(image: FootprintImage, prints: Mapping[Side, Footprint]) -> Any:
-    """Draw the footprints of an image on it.
-
-    Args:
-        image: The image.
-        prints: Its footprints, in the order of the image's.
-
-    Returns:
-        The figure.
-    """
+    """Returns a figure of the prints of an image, in its order, drawn on it."""
     scale = _Scale("pixels", 1.0, 1.0) if image.pixel is None else _Scale("mm", 1e3 * image.pixel, 1e3)
     height, width = image.picture.shape[:2]
     figure, axes = new_figure(min(9.0, 1.5 + 6.0 * width / height) if width < 1.6 * height else 9.0, 6.4)
@@ -63,7 +55,7 @@ def _draw_contours(axes: Any, part: Print, side: Side, height: int, scale: _Scal
 
 
 def _draw_lines(axes: Any, print_: Footprint, scale: _Scale) -> None:
-    """The thirds without toes, the axis and the toe line of a footprint."""
+    """Draw the thirds without toes, the axis and the toe line of a footprint."""
 
     def place(points: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.asarray(print_.from_foot(points)[:, ::-1] * (-scale.of_length, scale.of_length)).T

@@ -29,7 +29,7 @@ def footprint_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str
     """The page of a footprint image as text.
 
     Args:
-        metrics: What `analyse_image` returns.
+        metrics: Result of `analyse_image`.
         figures: PNG files to embed, with their captions.
         title: Title of the page, for example the file's name.
 
@@ -44,7 +44,6 @@ def footprint_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str
 
 
 def _table(metrics: Mapping[str, Any]) -> str:
-    """The measures of each footprint and the shares of its regions, as far as one of the feet has them."""
     feet = {side: foot["footprint"] for side, foot in metrics["feet"].items()}
     values = {
         titled(name, unit): [scaled(foot[key], factor) for foot in feet.values()]

@@ -33,10 +33,10 @@ def analyse_image(
 
     Args:
         path: The image.
-        folder: Folder to write to, which exists.
+        folder: Existing folder to write to.
         mm_per_pixel: Size of a pixel in mm; the image's own resolution where None.
-        side: Which foot a single footprint is of; inferred from its shape where None.
-        subject: Whose footprints they are, as far as it is known.
+        side: The foot of a single footprint; inferred from its shape where None.
+        subject: The person, as far as known.
 
     Returns:
         What metrics.json holds.
@@ -75,17 +75,12 @@ def analyse_image(
 
 
 def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
-    """The footprint that a mask shows.
-
-    The axis of most extent is the foot's, its narrower and rounder end the heel: the end whose third is narrower.
+    """Returns the footprint of a mask, with its toe line; along its longest axis, the narrower end is the heel.
 
     Args:
         part: The mask.
         pixel: Size of a pixel in m (or 1 for lengths in pixels).
         side: The foot.
-
-    Returns:
-        The footprint, with its toe line.
     """
     rows, columns = np.nonzero(part.mask)
     every = max(1, round(float(np.sqrt(len(rows) / _MOST_PIXELS))))
@@ -97,7 +92,7 @@ def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
 
 
 def _forward(centres: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Direction from heel to toes: along the longest extent, to the end that is wider."""
+    """Direction from heel to toes: along the longest extent, to the wider end."""
     values, vectors = np.linalg.eigh(np.cov((centres - centres.mean(axis=0)).T))
     axis = vectors[:, int(np.argmax(values))]
     if axis[0] < 0.0:
@@ -146,15 +141,11 @@ def _side_by_shape(print_: Footprint) -> Side:
 
 
 def measures_of_footprint(print_: Footprint, scaled: bool) -> dict[str, Any]:
-    """Measures of one footprint.
+    """Returns the measures of one footprint by key; axis_angle_deg is to the image's vertical, positive to the left.
 
     Args:
         print_: The footprint, in m or in pixels.
         scaled: Whether it is in m; lengths and areas are None where it is not.
-
-    Returns:
-        length_m, width_m, area_m2, toeless_length_m, toeless_area_m2, heel_width_m, forefoot_width_m, arch_index,
-        axis_angle_deg (of the foot's axis to the image's vertical, positive to the left) and areas of the regions.
     """
 
     def size(value: float) -> float | None:

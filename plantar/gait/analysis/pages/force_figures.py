@@ -52,15 +52,7 @@ _COMPARED = (
 
 
 def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any:
-    """Vertical force of each foot over time, with heel strikes and toe offs.
-
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
-    Returns:
-        The figure.
-    """
+    """Returns a figure of the vertical force of each of a recording's feet over time, with its events."""
     figure, axes = new_figure(10.0, 2.6 * len(feet) + 0.6, rows=len(feet), sharex=True, sharey=True, squeeze=False)
     for panel, (side, gait) in zip(axes[:, 0], feet.items(), strict=True):
         force = gait.foot.vertical_force
@@ -79,7 +71,7 @@ def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
 
 
 def _draw_events(panel: Any, gait: FootGait, levels: Levels) -> None:
-    """The levels of the events as lines, and each event as a mark on its level."""
+    """Draw the levels of the events as lines, and each event as a mark on its level."""
     for level in sorted({levels.release, levels.lift}):
         name = "event level" if level == levels.release else None
         panel.axhline(level, color=COLOURS["reference"], linewidth=0.8, linestyle="--", label=name)
@@ -102,14 +94,8 @@ def _shade_cut_contacts(panel: Any, recording: PressureRecording, gait: FootGait
 
 
 def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Force curves of the steps in the means over the stance, with their mean and standard deviation.
-
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
-    Returns:
-        The figure, or None where no foot has a step in the means.
+    """Returns a figure of a recording's force curves of its feet over the stance, with mean and SD; None without used
+    steps.
     """
     shown = {side: gait for side, gait in feet.items() if gait.used}
     if not shown:
@@ -130,11 +116,11 @@ def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
 
 
 def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
-    """The band of one standard deviation around the mean of curves (steps, 101) over the stance; none of one curve.
+    """Draw the band of one standard deviation around the mean of curves.
 
     Args:
         panel: Axes to draw on.
-        curves: What `stance_curves` gives.
+        curves: Curves (steps, 101) over the stance, of `stance_curves`.
         look: Colour, opacity and label of the band.
     """
     if len(curves) > 1:
@@ -143,15 +129,7 @@ def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
 
 
 def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
-    """Vertical force of each step that is in the means over its stance.
-
-    Args:
-        recording: The recording.
-        gait: One foot of it.
-
-    Returns:
-        Forces (steps, 101) in N at each percent of the stance.
-    """
+    """Returns forces (steps, 101) in N of a recording over the stance of each used step of a foot's gait."""
     known = np.isfinite(gait.foot.vertical_force)
     time, force = recording.time[known], gait.foot.vertical_force[known]
     moments = [s.heel_strike_s + 0.01 * STANCE * (s.toe_off_s - s.heel_strike_s) for s in gait.used]
@@ -159,15 +137,7 @@ def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.fl
 
 
 def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Wrench of each sole about its frame's origin over time.
-
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
-    Returns:
-        The figure, or None for recordings that are not of a robot.
-    """
+    """Returns a figure of the wrench of each sole of a robot's recording about its frame; None of others' feet."""
     if recording.kind != "robot" or recording.raw:
         return None
     shown = {side: gait.foot for side, gait in feet.items() if gait.foot.layout is not None}
@@ -191,14 +161,7 @@ def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -
 
 
 def figure_symmetry(symmetry: Mapping[str, float | None]) -> Any | None:
-    """Symmetry index of the measures that have one; None where there are fewer than two.
-
-    Args:
-        symmetry: Index in percent of each measure, by its key.
-
-    Returns:
-        The figure, or None.
-    """
+    """Figure of symmetry indices in percent by measure; None for fewer than two."""
     rows = [(MEASURES[k].title, value) for k in _COMPARED if (value := symmetry.get(k)) is not None]
     if len(rows) < 2:
         return None
@@ -217,5 +180,5 @@ def figure_symmetry(symmetry: Mapping[str, float | None]) -> Any | None:
 
 
 def force_label(recording: PressureRecording) -> str:
-    """Name of the axis of vertical force, with its unit."""
+    """Label of the axis of vertical force, with its unit."""
     return f"vertical force ({'counts' if recording.raw else 'N'})"

@@ -1,4 +1,4 @@
-"""What a report is headed by: of whom it is, what measured, which file, and by what it was analysed."""
+"""Heading of a report: subject, device, file and software."""
 
 from __future__ import annotations
 
@@ -14,15 +14,7 @@ __all__ = ["facts_of", "facts_of_image"]
 
 
 def facts_of(metrics: Mapping[str, Any], file: str) -> str:
-    """The heading of a recording's report.
-
-    Args:
-        metrics: What `analyse_recording` returns.
-        file: Name of the file.
-
-    Returns:
-        HTML of a list of facts.
-    """
+    """Returns the heading of a recording's report as HTML, from its metrics and the name of its file."""
     robot = metrics["kind"] == "robot"
     length = metrics["subject"]["foot_length_m"]
     facts = [
@@ -40,15 +32,7 @@ def facts_of(metrics: Mapping[str, Any], file: str) -> str:
 
 
 def facts_of_image(metrics: Mapping[str, Any], file: str) -> str:
-    """The heading of the report of a footprint image.
-
-    Args:
-        metrics: What `analyse_image` returns.
-        file: Name of the file.
-
-    Returns:
-        HTML of a list of facts.
-    """
+    """Returns the heading of a footprint image's report as HTML, from its metrics and the name of its file."""
     width, height = metrics["size_px"]
     scale = "" if metrics["mm_per_pixel"] is None else f", {metrics['mm_per_pixel']:.4g} mm a pixel"
     facts = [
@@ -61,7 +45,6 @@ def facts_of_image(metrics: Mapping[str, Any], file: str) -> str:
 
 
 def _listed(facts: Iterable[tuple[str, str]]) -> str:
-    """Facts that are known, as a list."""
     rows = "".join(f"<div><dt>{name}</dt><dd>{html.escape(text)}</dd></div>" for name, text in facts if text)
     return f'<dl class="facts">{rows}</dl>'
 

@@ -1,4 +1,4 @@
-"""The page that a clinician hands out: one sheet with the main measures, their norms, both feet's loads and trends."""
+"""One-page summary: main measures, their norms, both feet's loads and trends."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], ti
     """The sheet as text; a browser prints it on one page of A4.
 
     Args:
-        metrics: What metrics.json holds.
+        metrics: Contents of metrics.json.
         figures: The PNG file of `figure_summary`, with its caption.
         title: Title of the page, for example the file's name.
 
@@ -126,15 +126,7 @@ def _band(key: str, means: Mapping[str, float], factor: float) -> str:
 
 
 def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Mean force over the stance, the butterfly of both feet's CoP, and the trend over the steps.
-
-    Args:
-        recording: The recording.
-        feet: The gait of each foot.
-
-    Returns:
-        The figure, or None where no foot has a step in the means.
-    """
+    """Returns a figure of a recording's mean forces, butterfly of its feet's CoP and trend; None without used steps."""
     shown = {side: gait for side, gait in feet.items() if gait.used}
     if not shown:
         return None
@@ -164,7 +156,7 @@ def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
 
 
 def _draw_butterfly(panel: Any, recording: PressureRecording, feet: Mapping[Side, FootGait]) -> None:
-    """The CoP of both feet together; insoles are drawn next to each other, plates where they are."""
+    """Draw the CoP of both feet together; insoles next to each other, plates where they are."""
     known = {s: g for s, g in feet.items() if g.cop is not None}
     if len(known) < 2:
         panel.text(0.5, 0.5, "takes both feet with cells", ha="center", va="center", transform=panel.transAxes)

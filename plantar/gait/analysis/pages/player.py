@@ -1,4 +1,4 @@
-"""Frames of a recording, packed for the report's player: small enough to stand in the page."""
+"""Frames of a recording, packed for the report's player."""
 
 from __future__ import annotations
 
@@ -34,16 +34,11 @@ MOST_BYTES = 900_000
 
 
 def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> dict[str, Any] | None:
-    """What the player needs, as plain JSON values.
+    """Returns the player's data of a recording as plain JSON values; None where none of its feet has geometry.
 
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
-    Returns:
-        "times" (s) of the frames; for each foot its side, cells (rings of corners in mm, to the right and forward),
-        outline, pressure as bytes (0 for a cell that is not loaded, else 1 + 254 p / highest), deflated and in base64,
-        highest pressure, force and CoP; "events". None where no foot has geometry.
+    "times" (s) of the frames; for each foot its side, cells (rings of corners in mm, to the right and forward),
+    outline, pressure as bytes (0 for a cell that is not loaded, else 1 + 254 p / highest), deflated and in base64,
+    highest pressure, force and CoP; "events".
     """
     shown = {side: gait for side, gait in feet.items() if gait.foot.layout is not None}
     if not shown:
@@ -63,7 +58,7 @@ def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 def _packed(
     recording: PressureRecording, feet: Mapping[Side, FootGait]
 ) -> tuple[NDArray[np.int64], list[dict[str, Any]]]:
-    """The frames that are shown and what each foot shows of them: every other one until all of it is small enough."""
+    """Shown frames and each foot's data, thinned until all of it is small enough."""
     chosen = _frames(recording, feet)
     highest = max(_highest(recording, gait, chosen) for gait in feet.values())
     while True:
@@ -99,14 +94,14 @@ def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDAr
 
 
 def _highest(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64]) -> float:
-    """Largest value in some frames of a foot, in the unit that is shown: both feet have one scale."""
+    """Largest value in some frames of a foot, in the unit that is shown."""
     assert gait.foot.layout is not None
     force = np.nan_to_num(gait.foot.force[chosen])
     return float((force if recording.raw else force / gait.foot.layout.areas / 1e3).max(initial=0.0))
 
 
 def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64], most: float) -> dict[str, Any]:
-    """What the player shows of one foot; the largest value of both is the colours' upper end."""
+    """The player's data of one foot; the largest value of both is the colours' upper end."""
     layout = gait.foot.layout
     assert layout is not None
     force = gait.foot.force[chosen]
@@ -136,10 +131,10 @@ def _bytes(value: NDArray[np.float64], loaded: NDArray[np.bool_], highest: float
 
 
 def _seen(ring: NDArray[np.float64]) -> list[list[float]]:
-    """A ring as it is seen from above, toes up: to the right and forward, in mm."""
+    """A ring from above, toes up: to the right and forward, in mm."""
     return np.round(1e3 * ring[:, ::-1] * (-1.0, 1.0), 1).tolist()  # type: ignore[no-any-return]
 
 
 def _seen_point(x: float, y: float) -> list[float] | None:
-    """A point as it is seen from above, in mm; None where there is none."""
+    """A point from above, in mm; None where there is none."""
     return [round(-1e3 * float(y), 1), round(1e3 * float(x), 1)] if np.isfinite(x) else None

@@ -1,4 +1,4 @@
-"""The report: one HTML page that needs nothing else, for screen, keyboard, print and dark mode."""
+"""The report: one HTML page without other files, for screen, keyboard, print and dark mode."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ def report_page(
     """The page of one recording as text.
 
     Args:
-        metrics: What `analyse_recording` returns.
+        metrics: Result of `analyse_recording`.
         figures: PNG files to embed, each with a caption that also serves as its alternative text.
         title: Title of the page, for example the file's name.
-        player: What `player_data` gives; no player where None.
+        player: Result of `player_data`; no player where None.
 
     Returns:
         HTML that refers to no other file and no network.
@@ -63,7 +63,6 @@ def report_page(
 
 
 def _asset(name: str) -> str:
-    """Text of a file that stands next to this one."""
     return files("plantar.gait.analysis.pages").joinpath(name).read_text(encoding="utf-8")
 
 
@@ -76,7 +75,7 @@ def _with_figures(
 
 
 def summary_text(metrics: Mapping[str, Any]) -> str:
-    """The recording in two sentences: what it is of, and how the feet load."""
+    """The recording in two sentences: its activity, and the load of the feet."""
     activity = metrics.get("activity", {"name": "unknown"})["name"]
     counts = [f"{len(foot['steps_used'])} of {foot['steps']} {side}" for side, foot in metrics["feet"].items()]
     cadence = metrics["gait"].get("steady_cadence_steps_per_min")
@@ -108,7 +107,6 @@ def summary_text(metrics: Mapping[str, Any]) -> str:
 
 
 def _not_given(metrics: Mapping[str, Any]) -> str:
-    """Why some measures are not given."""
     reasons: dict[str, list[str]] = {}
     for key, reason in metrics.get("not_given", {}).items():
         reasons.setdefault(reason, []).append(MEASURES[key].title.lower())
@@ -119,10 +117,10 @@ def _not_given(metrics: Mapping[str, Any]) -> str:
 def comparison_page(
     comparison: Mapping[str, Any], figures: Sequence[tuple[Path, str]], names: tuple[str, str], links: tuple[str, str]
 ) -> str:
-    """The page that puts two recordings side by side.
+    """The page that shows two recordings side by side.
 
     Args:
-        comparison: What `compare_recordings` returns.
+        comparison: Result of `compare_recordings`.
         figures: PNG files to embed, with their captions.
         names: Names of the recordings.
         links: Files of their own reports, relative to this page.

@@ -36,7 +36,7 @@ REGION_COLOURS = ("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa337
 
 
 class _Cells(NamedTuple):
-    """The cells that a panel shows: a layout of them, and their indices in the foot's own layout."""
+    """The shown cells: a layout of them, and their indices in the foot's own layout."""
 
     layout: SoleLayout
     chosen: NDArray[np.int64]
@@ -63,12 +63,11 @@ def _panels(shown: Mapping[Side, _Cells], extra: float) -> tuple[Any, Any]:
 
 
 def _highest(feet: Iterable[FootGait]) -> float:
-    """The largest value of all pictures."""
     return max(float(gait.picture.max()) for gait in feet if gait.picture is not None)
 
 
 def _draw_picture(panel: Any, gait: FootGait, cells: _Cells, factor: float, highest: float) -> Any:
-    """A foot's maximum pressure picture; cells that are never loaded stay empty."""
+    """Draw a foot's maximum pressure picture; cells that are never loaded stay empty."""
     assert gait.picture is not None
     values = gait.picture[cells.chosen] * factor
     return draw_cells(panel, cells.layout, np.where(values > 0.0, values, np.nan), highest)
@@ -80,15 +79,7 @@ def _finish(figure: Any, axes: Any, drawn: Any, what: str, raw: bool) -> None:
 
 
 def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Maximum pressure picture of each foot with the CoP paths of its complete steps.
-
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-
-    Returns:
-        The figure, or None where no foot has geometry.
-    """
+    """Returns a figure of a recording's maximum pressure pictures and CoP paths of its feet; None without geometry."""
     pictured = {side: gait for side, gait in feet.items() if gait.picture is not None}
     if not pictured:
         return None
@@ -109,14 +100,14 @@ def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait])
 
 
 def _steps_of_picture(gait: FootGait) -> str:
-    """What a picture is of: the complete steps, or all that was measured where there is none."""
+    """Steps of a picture: the complete ones, or all frames where there is none."""
     if not gait.steps:
         return "no complete step:\nlargest of all frames"
     return f"{len(gait.steps)} step{'' if len(gait.steps) == 1 else 's'}"
 
 
 def _legend(figure: Any, panels: Iterable[Any], place: str, **look: Any) -> None:
-    """One legend for all panels, each entry once, next to them: it hides nothing, and prints."""
+    """Draw one legend for all panels, next to them, each entry once."""
     entries: dict[str, Any] = {}
     for panel in panels:
         handles, names = panel.get_legend_handles_labels()
@@ -126,7 +117,7 @@ def _legend(figure: Any, panels: Iterable[Any], place: str, **look: Any) -> None
 
 
 def _draw_paths(panel: Any, gait: FootGait) -> None:
-    """The CoP paths of the complete steps; of very many every n-th."""
+    """Draw the CoP paths of the complete steps; of very many every n-th."""
     complete: list[Contact] = [step.contact for step in gait.used]
     if gait.cop is None or not complete:
         return
@@ -156,14 +147,7 @@ def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | No
 
 
 def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side, FootGait]]]) -> Any | None:
-    """Maximum pressure pictures of several recordings next to each other, on one scale.
-
-    Args:
-        recordings: Name, recording and feet of each.
-
-    Returns:
-        The figure, or None where one has no geometry.
-    """
+    """Maximum pressure pictures of recordings (name, recording, feet) on one scale; None where one has no geometry."""
     if not all(any(gait.picture is not None for gait in feet.values()) for _, _, feet in recordings):
         return None
     panels = [(f"{n}, {s}", r, g) for n, r, feet in recordings for s, g in feet.items() if g.picture is not None]
@@ -181,7 +165,7 @@ def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side,
 
 
 class _Regions(NamedTuple):
-    """What the figure of regions shows of a foot: a footprint, and the region (k,) of each cell."""
+    """A footprint, and the region (k,) of each cell."""
 
     gait: FootGait
     print_: Footprint
@@ -189,14 +173,9 @@ class _Regions(NamedTuple):
 
 
 def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """The regions of each foot, its axis and the thirds of the print without toes.
+    """Returns a figure of the regions, axes and thirds of a recording's feet; of a platform each foot's first print.
 
-    Args:
-        recording: The recording; of a platform the first footprint of each foot is shown.
-        feet: The gait of its feet.
-
-    Returns:
-        The figure, or None where no foot has regions.
+    None where no foot has regions.
     """
     platform = recording.kind == "platform"
     found = {side: _regions(gait, platform) for side, gait in feet.items()}
@@ -218,7 +197,6 @@ def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
 
 
 def _regions(gait: FootGait, platform: bool) -> _Regions | None:
-    """The regions that are shown of a foot; None where it has none."""
     print_, region = gait.footprint, gait.region
     if platform and gait.steps and gait.steps[0].footprint is not None and gait.foot.layout is not None:
         print_, region = gait.steps[0].footprint, gait.steps[0].region
@@ -237,18 +215,14 @@ def _draw_axis_and_thirds(panel: Any, print_: Footprint) -> None:
 
 
 def axis_is_inside(print_: Footprint) -> bool:
-    """Whether a print's axis lies within the print from heel to toes; one next to the foot is not drawn.
-
-    Returns:
-        True where both ends and the middle of the axis are no farther outside its hull than a twentieth of its width.
-    """
+    """Whether both ends and the middle of a print's axis are at most a twentieth of its width outside its hull."""
     hull = convex_hull(print_.rings.reshape(-1, 2))
     places = np.array([0.02, 0.5, 0.98]) * print_.length
     return all(signed_margin(hull, np.array([u, 0.0])) >= -0.05 * print_.width for u in places)
 
 
 def _list_regions(panel: Any, used: set[int]) -> None:
-    """Entries of the legend: the regions that are there, the axis and the thirds."""
+    """Add legend entries of the used regions and the thirds."""
     for i, (colour, title) in enumerate(zip(REGION_COLOURS, REGIONS.values(), strict=True)):
         if i in used:
             panel.plot([], [], "s", color=colour, label=title)

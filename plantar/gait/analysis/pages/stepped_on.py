@@ -14,14 +14,11 @@ _FRAME = 0.01
 
 
 def stepped_on(layout: SoleLayout, hit: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """The cells that are stepped on and their neighbours, and a rectangle around them.
+    """Returns the indices (m,) of stepped-on cells and their neighbours, and the corners (4, 2) in m around them.
 
     Args:
         layout: A platform, k cells.
-        hit: Which cells (k,) are stepped on.
-
-    Returns:
-        Indices (m,) of the cells, all of them where none is stepped on, and the corners (4, 2) of the rectangle in m.
+        hit: Which cells (k,) are stepped on; all are returned where none is.
     """
     beside = np.array([any(hit[j] for j in near) for near in layout.neighbours])
     chosen = np.flatnonzero(hit | beside) if hit.any() else np.arange(len(layout))

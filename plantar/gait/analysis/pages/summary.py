@@ -1,4 +1,4 @@
-"""All steps together: mean and spread of each measure, symmetry, and the walk as a whole."""
+"""Means over steps: mean and spread of each measure, symmetry, and the walk as a whole."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _RESOLVED = {"_s": 2e-3, "_percent": 0.2, "_m": 5e-4, "_m2": 5e-6, "_N": 1.0, "_
 
 
 def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
-    """Each measure of a foot over the steps that are in the means."""
+    """Each measure of a foot over the used steps."""
     return {name: spread(gait.columns.get(name, ()), name.endswith("_deg")) for name in MEASURES}
 
 
 def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
-    """Each measure of each region over the steps in the means; regions that no step has are left out."""
+    """Each measure of each region over the used steps; regions that no step has are left out."""
     out: dict[str, dict[str, Spread]] = {}
     for region in REGIONS:
         rows = [step.regions[region] for step in gait.used if region in step.regions]
@@ -35,14 +35,10 @@ def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
 
 
 def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]:
-    """Measures of the walk as a whole.
+    """Measures of the walk as a whole; None where the recording does not show one.
 
-    Returns:
-        landings (heel strikes of all feet), stride_time_s (mean of all complete steps, of several
-        activities of those in the means),
-        cadence_steps_per_min (two steps in that stride), steady_cadence_steps_per_min (in that of the steps in the
-        means), double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
-        walking_speed_m_s (means); None where the recording does not show it.
+    landings are heel strikes of all feet, stride_time_s is of all complete steps (of several activities of the used
+    ones); all others are of the used steps.
     """
     several = len({step.activity for gait in feet.values() for step in gait.steps if step.activity}) > 1
     steps = [s for gait in feet.values() for s in gait.steps if s.used or not several]
@@ -63,20 +59,20 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
 
 
 def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
-    """Mean of a measure over the steps in the means of all feet; None where no step has it."""
+    """Mean of a measure over the used steps of all feet; None where no step has it."""
     return spread([value for gait in feet.values() for value in gait.columns.get(key, ())]).mean
 
 
 def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:
-    """Symmetry index of each measure in percent: 100 (L - R) / ((L + R) / 2) of the feet's means (Robinson 1987).
+    """Returns the symmetry index of named measures in percent: 100 (L - R) / ((L + R) / 2) of the feet's means
+    (Robinson 1987).
+
+    It is above 0 where the left foot's value is larger; None where a foot has no value, the two have opposite signs or
+    are below what is resolved, and of angles.
 
     Args:
         feet: The feet that were recorded.
         names: The measures.
-
-    Returns:
-        0 for symmetry, above 0 where the left foot's value is larger; None where a foot has no value, the two have
-        opposite signs or are below what is resolved, and of angles.
     """
     names = list(names)
     if "left" not in feet or "right" not in feet:

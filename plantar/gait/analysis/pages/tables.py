@@ -27,7 +27,7 @@ _UNITS_OF_COUNTS = {"_Ns": "counts·s", "_Pas": "counts·s", "_N_s": "counts/s",
 
 
 class _Shown(NamedTuple):
-    """How a measure is shown: its key in the metrics, its title with its unit, and the factor to that unit."""
+    """A measure's key in the metrics, its title with its unit, and the factor to that unit."""
 
     key: str
     title: str
@@ -35,7 +35,7 @@ class _Shown(NamedTuple):
 
 
 def shown_as(key: str, measure: Measure, raw: bool) -> _Shown:
-    """Gives how a measure of a key is shown, in a recording of counts if raw."""
+    """Gives the key, title and factor of a measure, in a recording of counts if raw."""
     if raw and raw_name(key) != key:
         unit = next((u for end, u in _UNITS_OF_COUNTS.items() if key.endswith(end)), "counts")
         return _Shown(raw_name(key), titled(measure.title, unit), 1.0)
@@ -48,7 +48,7 @@ def _mean_and_sd(spread: Mapping[str, Any], factor: float) -> str:
 
 
 def measures_table(metrics: Mapping[str, Any]) -> str:
-    """Every measure of the steps in the means of each foot, with its spread and the symmetry of both feet."""
+    """HTML table of every measure of each foot, with its spread and the symmetry of both feet."""
     feet: Mapping[str, Any] = metrics["feet"]
     both = len(feet) == 2
     rows = list(_rows_of_measures(metrics, both))
@@ -64,7 +64,7 @@ def measures_table(metrics: Mapping[str, Any]) -> str:
 
 
 def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
-    """A row for each measure that a foot has, under the heading of its group."""
+    """Rows of the measures that a foot has, under the headings of their groups."""
     feet = metrics["feet"].values()
     columns = 4 * len(feet) + 1 + both
     group = ""
@@ -83,7 +83,7 @@ def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
 
 
 def _rows_of_body_weight(metrics: Mapping[str, Any], columns: int, both: bool) -> Iterator[str]:
-    """The main forces once more, in percent of the stated body weight or of that which the forces imply."""
+    """Rows of the main forces in percent of the stated or implied body weight."""
     weight = metrics["gait"].get("body_weight_N")
     if not weight:
         return
@@ -111,11 +111,7 @@ def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str,
 
 
 def steps_table(metrics: Mapping[str, Any]) -> str:
-    """The complete steps of all feet in the order of time, each with its main measures and whether it is in the means.
-
-    Returns:
-        HTML, empty where there is no step.
-    """
+    """HTML table of the complete steps of all feet in the order of time; empty without steps."""
     raw = bool(metrics.get("raw"))
     steps = [(side, step) for side, foot in metrics["feet"].items() for step in foot.get("each_step", ())]
     steps.sort(key=lambda one: one[1]["heel_strike_s"])
@@ -139,11 +135,7 @@ def steps_table(metrics: Mapping[str, Any]) -> str:
 
 
 def regions_tables(metrics: Mapping[str, Any]) -> str:
-    """A table for each foot that has regions: the mean of each measure over its complete steps.
-
-    Returns:
-        HTML, empty where no foot has regions.
-    """
+    """HTML table for each foot with regions, of means over its complete steps."""
     shown = [shown_as(key, measure, bool(metrics.get("raw"))) for key, measure in REGION_MEASURES.items()]
     return "".join(
         table(
@@ -167,7 +159,7 @@ def _mean(values: Mapping[str, Any], key: str) -> float | None:
 
 
 def comparison_table(comparison: Mapping[str, Any]) -> str:
-    """Every measure that both recordings have, side by side."""
+    """HTML table of every measure that both recordings have, side by side."""
     raw = bool(comparison["a"].get("raw") or comparison["b"].get("raw"))
     shown = [shown_as(key, measure, raw) for key, measure in MEASURES.items()]
     rows: list[str] = []

@@ -1,7 +1,7 @@
 """The shape of a footprint: its axis, length and width, thirds, and the arch index.
 
-A footprint is a set of convex cells (of a sensor, or pixels of an image) that are loaded. The foot frame used here has
-its origin at the back of the heel: u runs along the foot's axis to the toes, v across it to the medial side.
+A footprint is a set of loaded convex cells. The foot frame's origin is the back of the heel: u runs along the foot's
+axis to the toes, v across it to the medial side.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ class Footprint:
 
     Attributes:
         side: "left" or "right".
-        origin: Back of the heel on the axis, in m in the frame that the cells came in.
+        origin: Back of the heel on the axis, in m in the cells' frame.
         axis: Unit vector (2,) of the axis in that frame, from heel to toes.
         rings: Corners (n, c, 2) of the cells as (u, v) in m; the last one is repeated where a cell has fewer than c.
-        areas: Area (n,) in m^2 that each cell stands for.
+        areas: Area (n,) in m^2 of each cell.
         pressure: Largest pressure (n,) of each cell, or 1 where none is known.
-        toe_line: u in m at which the toes begin, as (v, u) points from lateral to medial; None where no gap or
-            valley of pressure separates toes from forefoot.
+        toe_line: u in m at which the toes begin, as (v, u) points from lateral to medial; None where toes and forefoot
+            are not separated.
     """
 
     side: Side
@@ -76,14 +76,8 @@ class Footprint:
         return float(self.rings[~self.is_toe][:, :, 0].max()) if (~self.is_toe).any() else self.length
 
     def area_between(self, low: float, high: float) -> float:
-        """Area of the print without its toes between two lines across the axis, cells cut exactly.
-
-        Args:
-            low: u of the one line in m.
-            high: u of the other one in m.
-
-        Returns:
-            The area in m^2.
+        """Returns the area in m^2 of the print without toes between two lines across the axis at u = low and high
+        in m.
         """
         keep = ~self.is_toe
         rings, areas = self.rings[keep], self.areas[keep]
@@ -131,7 +125,7 @@ def footprint_of_cells(
     side: Side,
     forward: NDArray[np.float64] | None = None,
 ) -> Footprint | None:
-    """The footprint of a sensor's loaded cells.
+    """Returns the footprint of a sensor's loaded cells; None without one.
 
     Args:
         layout: The sensor, n cells.
@@ -140,9 +134,6 @@ def footprint_of_cells(
         side: The foot.
         forward: Direction (2,) from heel to toes, from which the print's own axis is found; the sole's x axis, as it
             is, where None.
-
-    Returns:
-        The footprint; None without a loaded cell.
     """
     chosen = np.flatnonzero(loaded)
     if len(chosen) == 0:
@@ -154,16 +145,13 @@ def footprint_of_cells(
 def footprint_of_pixels(
     centres: NDArray[np.float64], pixel: float, side: Side, forward: NDArray[np.float64]
 ) -> Footprint:
-    """The footprint of an image's pixels.
+    """Returns the footprint of an image's pixels.
 
     Args:
         centres: Middles (n, 2) of the pixels in m, x and y as in the sole frame.
         pixel: Their size in m.
         side: The foot.
-        forward: Direction (2,) from heel to toes, about.
-
-    Returns:
-        The footprint.
+        forward: Approximate direction (2,) from heel to toes.
     """
     box = 0.5 * pixel * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     rings = centres[:, None, :] + box
@@ -210,7 +198,7 @@ def _axis(
 def _middle_of_band(
     rings: NDArray[np.float64], axis: NDArray[np.float64], low: float, high: float
 ) -> NDArray[np.float64] | None:
-    """The point halfway between the medial-most and the lateral-most cell between two lines across an axis."""
+    """Midpoint of the medial-most and the lateral-most cell between two lines across an axis."""
     across = rings @ np.array([-axis[1], axis[0]])
     along = rings @ axis
     centre = 0.5 * (along.min(axis=1) + along.max(axis=1))
@@ -238,7 +226,7 @@ def _cut(ring: NDArray[np.float64], at: float, sign: float) -> NDArray[np.float6
 
 
 def _crossing(ring: NDArray[np.float64], u: float) -> tuple[float, float] | None:
-    """Where a line across the axis passes through a cell: lowest and highest v."""
+    """Lowest and highest v at which a line across the axis crosses a ring."""
     height = ring[:, 0] - u
     if height.min() > 0.0 or height.max() < 0.0:
         return None

@@ -1,8 +1,7 @@
-"""Platforms and walkways: which cells and frames are one footprint, of which foot, and in which direction it walks.
+"""Platforms and walkways: footprints, their feet, and the direction of walking.
 
-A platform measures every foot that steps on it. Cells that are loaded and touch, or lie a few centimetres apart and are
-loaded at the same time, are one footprint (`platform_parts`). Its foot and the direction come from the pass over the
-platform that it is part of (`platform_walk`).
+`platform_parts` joins cells into footprints; `platform_walk` finds the foot and the direction from the pass that a
+footprint is part of.
 """
 
 from __future__ import annotations
@@ -46,16 +45,10 @@ class PlatformPrint:
 
 
 def told_apart(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
-    """A platform's recording with its footprints separated.
+    """A platform's recording with the footprints of each foot under its side, and the footprints; others as they are.
 
-    The frame is turned so that the first pass walks along x. Frames without load are put before a first and after a
-    last frame that carry little: a platform records from the moment at which it is stepped on.
-
-    Args:
-        recording: A recording; one that is not of a platform is given back as it is.
-
-    Returns:
-        The recording, with the footprints of each foot under its side, and the footprints.
+    The frame is turned so that the first pass walks along x. Frames without load are added at ends that carry little: a
+    platform records from the moment at which it is stepped on.
     """
     whole = next(iter(recording.feet.values()), None)
     if recording.kind != "platform" or whole is None or whole.layout is None:
@@ -81,7 +74,7 @@ def told_apart(recording: PressureRecording) -> tuple[PressureRecording, tuple[P
 
 
 def _feet(force: NDArray[np.float64], layout: SoleLayout, prints: Sequence[PlatformPrint]) -> dict[Side, FootRecording]:
-    """The recording of each foot: what its footprints carried, on the whole platform."""
+    """Recording of each foot: the load of its footprints, on the whole platform."""
     feet: dict[Side, FootRecording] = {}
     for side in SIDES:
         own = [p for p in prints if p.side == side]
@@ -96,7 +89,7 @@ def _feet(force: NDArray[np.float64], layout: SoleLayout, prints: Sequence[Platf
 def _prints(
     load: PlatformLoad, cells: Sequence[PrintCells], stated: Side | None
 ) -> tuple[list[PlatformPrint], list[str]]:
-    """The footprints with their feet and directions, and what had to be assumed."""
+    """Footprints with their feet and directions, and what had to be assumed."""
     notes: list[str] = []
     out: list[PlatformPrint] = []
     for walk in passes_over(load, cells):
@@ -109,7 +102,7 @@ def _prints(
 def _with_quiet_ends(
     time: NDArray[np.float64], force: NDArray[np.float64], period: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]:
-    """Frames without load put in at the ends and at gaps in time where the neighbouring frame carries little."""
+    """Frames without load added at ends and gaps in time where the neighbouring frame carries little."""
     total = np.nansum(force, axis=1)
     little = (total > 0.0) & (total <= _TRIGGER * float(total.max(initial=0.0)))
     gaps = np.flatnonzero(np.diff(time) > 3.5 * period)
@@ -124,12 +117,11 @@ def _with_quiet_ends(
 
 
 def _rotation(forward: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation (2, 2) that takes a direction to x."""
+    """Rotation (2, 2) of a direction to x."""
     return np.array([[forward[0], forward[1]], [-forward[1], forward[0]]])
 
 
 def _turned(layout: SoleLayout, forward: NDArray[np.float64]) -> SoleLayout:
-    """The layout with a direction turned to x."""
     if forward[0] == 1.0:
         return layout
     whole = np.eye(3)

@@ -1,7 +1,7 @@
 """Which cells and frames of a platform are one footprint.
 
-Cells that are loaded and touch, or have one cell between them, are a piece; a piece that is unloaded for a while is
-stepped on again. Pieces that are loaded at the same time, and together are no larger than a foot, are one footprint.
+A piece is loaded cells that touch, or have one cell between them, until they are unloaded for a while. Pieces that are
+loaded at the same time, and together are no larger than a foot, are one footprint.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _LEAST_PIECE, _LEAST_PRINT = 0.005, 0.05
 
 @dataclass(frozen=True, eq=False)
 class PlatformLoad:
-    """What a platform's cells carried.
+    """Load of a platform's cells.
 
     Attributes:
         layout: The platform, k cells.
@@ -83,14 +83,12 @@ class PrintCells:
 
 
 def cells_of_prints(load: PlatformLoad, threshold: float) -> list[PrintCells]:
-    """The footprints on a platform, in the order in which they begin.
+    """Returns the pieces of each footprint on a platform by its load, in order; with 5 % of the largest piece's load or
+    more.
 
     Args:
-        load: What its cells carried.
+        load: Load of its cells.
         threshold: Force in N above which a cell counts as loaded.
-
-    Returns:
-        The pieces of each footprint; what carries less than 5 % of the largest piece is left out.
     """
     pieces = list(_pieces(load, load.force > threshold))
     top = max((p.load for p in pieces), default=0.0)
@@ -126,7 +124,7 @@ def _components(layout: SoleLayout, active: NDArray[np.bool_]) -> list[list[int]
 
 
 def _flooded(layout: SoleLayout, start: int, left: NDArray[np.bool_]) -> list[int]:
-    """The cells that are joined to one, itself included; they are taken out of those that are left."""
+    """Cells joined to one, itself included, which are removed from `left`."""
     stack, cells = [start], []
     while stack:
         cell = stack.pop()
@@ -139,7 +137,6 @@ def _flooded(layout: SoleLayout, start: int, left: NDArray[np.bool_]) -> list[in
 
 
 def _within_two(layout: SoleLayout, cell: int) -> Iterator[int]:
-    """The neighbours of a cell, and theirs."""
     for near in layout.neighbours[cell]:
         yield near
         yield from layout.neighbours[near]

@@ -1,7 +1,7 @@
-"""Which way a pass over a platform goes, and of which foot each of its footprints is.
+"""Direction of a pass over a platform, and the foot of each of its footprints.
 
-Of several footprints in a pass, those to the left of the line of walking are the left foot's; of a single one, the
-arch, which is open to the medial side, and the hallux show the side.
+Of several footprints, those to the left of the line of walking are the left foot's; of a single one, the arch, which is
+open to the medial side, and the hallux show the side.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class PlatformWalk:
     """One pass over a platform: its footprints, in the order in which they begin.
 
     Attributes:
-        load: What the platform's cells carried.
+        load: Load of the platform's cells.
         prints: The cells of each footprint.
         centres: Centroid (m, 2) of each footprint in m, weighted by the largest force of each cell.
     """
@@ -50,14 +50,8 @@ class PlatformWalk:
 
 
 def passes_over(load: PlatformLoad, prints: Sequence[PrintCells]) -> list[PlatformWalk]:
-    """The passes over a platform, each ended by a time without load.
-
-    Args:
-        load: What the platform's cells carried.
-        prints: Its footprints, in the order in which they begin.
-
-    Returns:
-        The passes, in order.
+    """Returns the passes over a platform, each ended by a time without load, by the load of its cells and its prints in
+    order.
     """
     passes: list[list[PrintCells]] = []
     for cells in prints:
@@ -69,14 +63,11 @@ def passes_over(load: PlatformLoad, prints: Sequence[PrintCells]) -> list[Platfo
 
 
 def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float64]:
-    """Direction (2,) of walking: from the first footprints to the last ones, or along the platform.
+    """Returns the direction (2,) of a walk: from the first footprints to the last ones, or along the platform.
 
     Args:
         walk: A pass.
-        notes: Takes what had to be assumed.
-
-    Returns:
-        A unit vector in the platform's frame.
+        notes: List to which assumptions are added.
     """
     centres = walk.centres
     if len(centres) >= 3 and np.hypot(*(centres[-1] - centres[0])) > _TRAVEL:
@@ -99,16 +90,13 @@ def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float6
 def sides_of_walk(
     walk: PlatformWalk, forward: NDArray[np.float64], stated: Side | None, notes: list[str]
 ) -> list[Side]:
-    """The foot of each footprint of a pass.
+    """Returns the foot of each footprint of a pass.
 
     Args:
         walk: A pass.
         forward: Direction (2,) of walking.
-        stated: The foot that the file names; it holds where the footprints lie in one line.
-        notes: Takes what had to be assumed.
-
-    Returns:
-        The sides, in the order of the footprints.
+        stated: The foot that the file names; used where the footprints lie in one line.
+        notes: List to which assumptions are added.
     """
     count = len(walk.prints)
     offset = walk.centres @ np.array([-forward[1], forward[0]])
@@ -131,7 +119,7 @@ def _centroid(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
 
 
 def _path(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
-    """From where to where the centre of pressure moves in a contact (2,)."""
+    """Displacement (2,) of the centre of pressure in a contact."""
     part = load.force[cells.begin : cells.end][:, cells.cells]
     total = part.sum(axis=1)
     part, total = part[total > 0.02 * total.max()], total[total > 0.02 * total.max()]
@@ -172,7 +160,7 @@ def _mean_where(chosen: NDArray[np.bool_], values: NDArray[np.float64], weights:
 
 
 def _hallux_offset(print_: Footprint, trunk: float) -> float:
-    """How far to the medial side of the ball the toes carry, as a share of the length; of the trunk without a ball."""
+    """Distance of the toes' load to the medial side of the ball (else the trunk), as a share of the length."""
     u, v = print_.centres.T / print_.length
     front, ball = u > _TOES, (u > _BALL[0]) & (u < _BALL[1])
     if not front.any():

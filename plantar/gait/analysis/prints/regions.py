@@ -1,8 +1,8 @@
 """Regions of the foot, found from the footprint: heel, midfoot, forefoot (medial, central, lateral), hallux and toes.
 
-The toes begin where, in front of the metatarsal heads, the footprint has a gap or its pressure a valley. The print
-without toes is cut into thirds of its length: heel, midfoot, forefoot (as for the arch index); the forefoot into thirds
-of its width; the hallux is the medial part of the toes.
+The toes begin at a gap, or a valley of pressure, in front of the metatarsal heads. The print without toes is cut into
+thirds of its length (as for the arch index), the forefoot into thirds of its width; the hallux is the medial part of
+the toes.
 """
 
 from __future__ import annotations
@@ -46,12 +46,9 @@ _TOES_OF_SOLE = 0.82
 def with_toe_line(print_: Footprint) -> Footprint:
     """The footprint with its toe line, where one is found.
 
-    The print is looked at in strips along the foot. In each, the largest pressure as a function of u is followed from
-    the highest point between 45 and 80 % of the length forwards; the lowest place beyond it counts if it is less than
-    60 % of what follows. Strips without a valley take the line of their neighbours.
-
-    Returns:
-        The same with `toe_line`, None where no strip has a valley.
+    In each strip along the foot, the largest pressure over u is followed forwards from its highest point between 45 and
+    80 % of the length; the lowest place counts if it is less than 60 % of what follows. Strips without a valley use
+    their neighbours' line.
     """
     extent = np.ptp(print_.rings[:, :, 0], axis=1)
     pitch = float(np.median(extent)) if len(extent) else 0.0
@@ -80,7 +77,7 @@ def _valleys(print_: Footprint, pitch: float) -> list[tuple[float, float]]:
 def _profile(
     print_: Footprint, strip: NDArray[np.bool_], pitch: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Largest pressure of the cells that lie over each place along a strip; 0 in gaps."""
+    """Largest pressure of the cells over each place along a strip; 0 in gaps."""
     places = np.arange(0.40 * print_.length, print_.length, 0.5 * max(pitch, print_.length / 200.0))
     rings, pressure = print_.rings[strip], print_.pressure[strip]
     first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)
@@ -114,22 +111,19 @@ def _is_valley(height: NDArray[np.float64], at: int, peak: int, beyond: float) -
 
 
 def _whole_gap(print_: Footprint, pitch: float) -> bool:
-    """Whether the toes stand apart from the rest over the whole width."""
+    """Whether a gap separates the toes over the whole width."""
     places, height = _profile(print_, np.ones(len(print_.areas), dtype=bool), pitch)
     front = height[places > 0.6 * print_.length]
     return bool(len(front) and (front[: -1 if len(front) > 1 else None] == 0.0).any())
 
 
 def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.int64]:
-    """The region of each cell of a footprint.
+    """Returns the index (n,) into `REGIONS` of each cell of a footprint.
 
     Args:
         print_: The footprint, with its toe line where it has one.
-        of_sole: Length in m of the insole from the print's origin, of a print whose toes no valley separates from the
-            forefoot: they begin at 82 % of it. None where such a print has no toes.
-
-    Returns:
-        Index (n,) into `REGIONS` of each cell.
+        of_sole: Length in m of the insole from the print's origin, of a print without a toe line: its toes begin at 82
+            % of it. None where such a print has no toes.
     """
     u, v = print_.centres.T
     toe = print_.is_toe

@@ -1,8 +1,7 @@
-"""What sensors read while the foot is in the air: offsets of a foot, and cells that a crease or a shoe keeps loaded.
+"""Readings of sensors in swing: offsets of a foot, and cells that a crease or a shoe keeps loaded.
 
-In swing nothing rests on a sole, yet capacitive cells have offsets that drift, a film in a shoe has creases, and
-single cells stick. A walk shows them: its force returns to the same flat level, for about half a second, again and
-again. Standing does not, whose force wanders about its mean. Only what is found so is taken off, and it is reported.
+In a walk the force returns to the same flat level, for about half a second, again and again; in standing it wanders
+about its mean. Only levels found in a walk are taken off, and they are reported.
 """
 
 from __future__ import annotations
@@ -65,7 +64,7 @@ _FRAMES = 4000
 
 @dataclass(frozen=True, eq=False)
 class RestingLevel:
-    """What a foot's force is in swing.
+    """A foot's force in swing.
 
     Attributes:
         level: Its level (n,) in each frame, in the force's unit.
@@ -81,15 +80,11 @@ class RestingLevel:
 
 
 def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
-    """The level to which a walking foot's force returns, with any offset of the sensor.
+    """Returns the level of a walking foot's force in swing, of each swing where it changes; None as in standing.
 
     Args:
         force: Vertical force (n,), NaN where it was not measured.
         rate: Frames a second.
-
-    Returns:
-        The level; None where the force returns to no flat level, as in standing. Where it changes, it is that of each
-        swing, as far as these are found.
 
     Example:
         >>> time = np.arange(0.0, 12.0, 0.01)
@@ -171,13 +166,8 @@ def _steps_show(course: NDArray[np.float64], near: NDArray[np.bool_], low: float
 
 
 def without_baselines(recording: PressureRecording) -> PressureRecording:
-    """The recording without the offsets of its feet and without what creases and stuck cells read in swing.
-
-    Args:
-        recording: The recording; that of a platform, on which nothing rests, stays as it is.
-
-    Returns:
-        The recording, with a warning for everything that was taken off.
+    """The recording without offsets of its feet and readings of creases and stuck cells in swing, each with a
+    warning.
     """
     if recording.kind == "platform":
         return recording
@@ -218,7 +208,7 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
 
 
 def _cells(ids: Sequence[int]) -> str:
-    """Names of a few cells, or how many there are."""
+    """Names of a few cells, or their number."""
     if len(ids) > 8:
         return f"{len(ids)} cells"
     return f"cell{'s' if len(ids) > 1 else ''} {', '.join(str(i) for i in ids)}"
@@ -233,7 +223,7 @@ def _frames(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
 
 
 def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Mean reading (k,) of each cell in some frames; 0 of one that measured nothing there."""
+    """Mean reading (k,) of each cell in some frames; 0 of one that measured none."""
     part = foot.force[frames]
     let_go(foot.force)
     known = np.isfinite(part)
@@ -241,7 +231,7 @@ def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.floa
 
 
 def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
-    """The foot without what each cell reads in swing, which follows the level where that drifts."""
+    """The foot without the readings of each cell in swing, which follow a level that drifts."""
     total = None if foot.total is None else foot.total - rest.level
     if foot.force.shape[1] == 0:
         return replace(foot, total=total)
@@ -256,7 +246,7 @@ def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
 
 
 def _between(index: NDArray[np.int64], at: NDArray[np.float64], table: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rows (n, k) of a table that is given at some places, on straight lines between them and level beyond them."""
+    """Rows (n, k) of a table at some places, on straight lines between them and level beyond them."""
     if len(at) == 1:
         return table
     after = np.clip(np.searchsorted(at, index), 1, len(at) - 1)
@@ -265,7 +255,7 @@ def _between(index: NDArray[np.int64], at: NDArray[np.float64], table: NDArray[n
 
 
 def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
-    """Places (frames) at which cells have a baseline of their own, and the stretch of frames that each is of."""
+    """Places (frames) at which cells have a baseline of their own, and the stretch of frames of each."""
     if rest.each is not None:
         return rest.each.places.tolist(), [(int(a), int(b)) for a, b in rest.each.spans]
     n = len(rest.level)
@@ -277,13 +267,13 @@ def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
 
 
 def _per_stretch(rest: RestingLevel) -> int:
-    """Frames of a stretch in which there are several swings: as many as hold a tenth of all, 20 at the most."""
+    """Frames of a stretch with several swings: a tenth of all, 20 at the most."""
     begins = np.flatnonzero(np.diff(rest.swing.astype(np.int8)) == 1)
     return len(rest.swing) // min(20, max(1, len(begins) // 5))
 
 
 def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
-    """Cells (k,) that read in swing more than a share of what they read under load, and more than their threshold."""
+    """Cells (k,) that read in swing more than a share of their load, and more than their threshold."""
     if foot.force.shape[1] == 0:
         return np.zeros(0, dtype=np.int64)
     air = _in_swing(foot, _frames(rest.swing))
@@ -296,7 +286,6 @@ def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
 
 
 def _without_hot(foot: FootRecording, rest: RestingLevel, hot: NDArray[np.int64]) -> FootRecording:
-    """The foot without what some cells read in swing."""
     force, air = room(*foot.force.shape), _in_swing(foot, _frames(rest.swing))[hot]
     for rows in blocks_of_frames(foot.force):
         force[rows] = foot.force[rows]

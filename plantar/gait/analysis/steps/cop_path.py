@@ -18,16 +18,12 @@ CHORD = 0.05
 
 
 def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
-    """Running mean of points (n, 2), weighted, over about so many frames; NaN stays NaN.
-
-    The window is centred and shrinks towards the ends of a span of points, so that an even motion keeps its ends.
+    """Returns the weighted running mean (n, 2) of points over a centred window, which shrinks at ends and gaps.
 
     Args:
-        points: Positions (n, 2); NaN where there is none.
+        points: Positions (n, 2); NaN where there is none, which stays.
         weight: Weights (n,), above 0 where there is a position.
-
-    Returns:
-        The averaged positions (n, 2).
+        frames: Width of the window.
     """
     known = np.isfinite(points[:, 0])
     n = len(known)
@@ -46,14 +42,11 @@ def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], fram
 
 
 def cop_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
-    """Length, range and speed of a path.
+    """Returns length, range and speed of a path by key; empty for fewer than two positions.
 
     Args:
         time: Times (m,) in s.
         points: Positions (m, 2), forward and to the left in m, NaN where there is none.
-
-    Returns:
-        The measures by their key; empty for fewer than two positions.
 
     Example:
         >>> t = np.linspace(0.0, 0.5, 51)
@@ -79,14 +72,12 @@ def cop_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict
 
 
 def chords(time: NDArray[np.float64], points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A path in straight pieces of up to 50 ms: between frames, noise would lengthen it.
+    """Returns lengths (k,) and times (k,) in s of straight pieces of a path of up to 50 ms: between frames, noise adds
+    length.
 
     Args:
         time: Times (m,) in s, 2 or more.
         points: Positions (m, 2).
-
-    Returns:
-        Length (k,) of each piece, and its time (k,) in s.
     """
     every = max(1, round(CHORD * (len(time) - 1) / float(time[-1] - time[0])))
     ends = [*points.argmin(axis=0), *points.argmax(axis=0), len(time) - 1]  # no path is shorter than its range
@@ -95,17 +86,14 @@ def chords(time: NDArray[np.float64], points: NDArray[np.float64]) -> tuple[NDAr
 
 
 def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
-    """Centre of pressure excursion index (Song et al. 1996) in percent.
+    """Returns the centre of pressure excursion index (Song et al. 1996) in percent; NaN short of the front third.
 
-    A line joins the first and the last point of the path. At the front third of the foot, the path's distance from it
-    across the foot, positive to the lateral side, is given as a share of the footprint's width there.
+    It is the path's distance, to the lateral side, from the line between its ends at the front third of the foot, over
+    the footprint's width there.
 
     Args:
         print_: The footprint.
         points: Positions (m, 2) in the frame that the print was made from, NaN where there is none.
-
-    Returns:
-        The index; NaN where the path does not reach the front third.
     """
     path = print_.in_foot(points[np.isfinite(points[:, 0])])
     at = 2.0 / 3.0 * print_.length
@@ -121,22 +109,14 @@ def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
 
 
 def margin_to_outline(layout: SoleLayout, points: NDArray[np.float64]) -> float:
-    """Smallest signed distance of points to the edges of a sole's convex outline.
-
-    Args:
-        layout: The sole.
-        points: Positions (m, 2) in the sole frame in m, 1 or more.
-
-    Returns:
-        The distance in m, positive where all points are inside.
-    """
+    """Returns the smallest signed distance in m of points (m, 2) to a sole layout's convex outline, positive inside."""
     normal, offset = _edges(layout)
     return float((points @ normal.T - offset).min())
 
 
 @lru_cache(maxsize=8)
 def _edges(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Inward normals (k, 2) of the edges of a sole's convex outline, and where along them each edge is (k,)."""
+    """Inward normals (k, 2) and offsets (k,) of the edges of a sole's convex outline."""
     hull = convex_hull(layout.outline)
     edge = np.roll(hull, -1, axis=0) - hull
     normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(edge[:, 0], edge[:, 1])[:, None]

@@ -1,13 +1,9 @@
-"""Gait events: when a foot strikes the ground and when it leaves it, from its vertical force.
+"""Gait events: heel strikes and toe offs of a foot, from its vertical force.
 
-A foot's load is measured against its own range: from the level it rests at in swing (shoes press on insoles, and
-noise that is clipped at zero has a mean) to its robust peak. A contact begins when the force rises above one share of
-that range and ends when it falls below another; two levels keep noise from splitting a contact, and where noise is
-large they are raised to 4 and 8 of its standard deviations. The time of an event is where the force crosses its level,
-between samples by a straight line, or midway where it jumps by half of the range. The toe off from an insole is where
-the fall of push-off, continued straight, ends: what the shoe still presses then is not the foot. Shares serve a child's
-insole and a robot alike. They depend on what measures (`EVENT_LEVELS`): a shoe presses on its insole after the foot has
-left the ground, a platform does not.
+Force is measured against its own range, from its level in swing to its robust peak. A contact begins when it rises
+above one share of that range (`EVENT_LEVELS`) and ends when it falls below another; noise raises both. The time of an
+event is where the force crosses its level, or midway in a jump of half of the range. The toe off from an insole is
+where the fall of push-off, continued straight, ends: the rest is the shoe's pressure.
 """
 
 from __future__ import annotations
@@ -135,7 +131,7 @@ class Contact:
         toe_off: Time in s at which it ended, None where the recording cuts it.
         begin: First frame in contact.
         end: Frame after the last one in contact.
-        standing: Whether it lasts too long for a step of those around it.
+        standing: Whether it is too long for a step.
     """
 
     heel_strike: float | None
@@ -151,15 +147,12 @@ class Contact:
 
 
 def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool = True) -> Levels | None:
-    """Levels of one foot's vertical force.
+    """Returns the levels of one foot's vertical force; None where it is never above its noise.
 
     Args:
         force: Vertical force (n,) in N; NaN where it was not measured.
-        kind: What measured it.
-        lifted: Whether the least that it carries is what it carries in swing; else it is never off the ground.
-
-    Returns:
-        The levels, or None where the foot never carries anything above its noise.
+        kind: Kind of sensor.
+        lifted: Whether its least load is that in swing; else it is never off the ground.
     """
     measured = force[np.isfinite(force)]
     if len(measured) < 3:
@@ -185,7 +178,7 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool 
 
 
 def smoothed(force: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The middle one of five frames of a force (n,): a single damaged frame is not a peak."""
+    """Median of five frames of a force (n,): a single damaged frame is not a peak."""
     padded = np.pad(force, 2, mode="edge")
     a, b, c, d, e = (padded[k : len(force) + k] for k in range(5))
     low, high = np.minimum(a, b), np.maximum(a, b)
@@ -206,7 +199,7 @@ def _peak_above_noise(measured: NDArray[np.float64], smooth: NDArray[np.float64]
 
 
 def _peak_of_contacts(smooth: NDArray[np.float64], floor: float) -> float:
-    """Middle one of the contacts' peaks in N: however long someone stands before a walk, its levels are the same."""
+    """Median of the contacts' peaks in N, independent of standing before a walk."""
     least = _LIGHT * float(np.median(smooth[smooth >= floor]))  # chatter about the floor is no contact
     loads = [smooth[a:b] for a, b in true_runs(smooth >= floor)]
     return float(np.median([np.percentile(load, 90.0) for load in loads if load.max() >= least]))
@@ -215,7 +208,7 @@ def _peak_of_contacts(smooth: NDArray[np.float64], floor: float) -> float:
 def _rest_and_noise(
     force: NDArray[np.float64], smooth: NDArray[np.float64], peak: float, contact: float, kind: Kind
 ) -> tuple[float, float]:
-    """What a foot carries in swing, and the standard deviation of that, in N."""
+    """Load of a foot in swing, and its standard deviation, in N."""
     rest = float(np.percentile(smooth, 5.0))
     if rest > 0.3 * peak or kind == "platform":  # never off the ground, or nothing rests on it when it is
         rest = 0.0
@@ -237,18 +230,15 @@ def find_contacts(
     minimum_stance: float = MINIMUM_STANCE,
     minimum_swing: float = MINIMUM_SWING,
 ) -> list[Contact]:
-    """Contacts of one foot, in order.
+    """Returns the contacts of one foot, in order.
 
     Args:
         time: Times (n,) in s, increasing.
-        force: Vertical force (n,) in N; NaN where it was not measured. Gaps of up to 0.1 s are interpolated; a
-            longer one cuts the contact it falls into, as the ends of the recording do.
+        force: Vertical force (n,) in N; NaN where it was not measured. Gaps of up to 0.1 s are interpolated; a longer
+            one cuts its contact, as the ends of the recording do.
         levels: Levels to use; those of `force_levels` where None.
         minimum_stance: Shortest contact in s.
         minimum_swing: Shortest swing in s.
-
-    Returns:
-        The contacts, none where the foot never carries load.
 
     Example:
         >>> time = np.arange(400) * 0.01
@@ -270,14 +260,11 @@ def find_contacts(
 
 
 def measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """Spans of frames without a gap longer than `LONGEST_BRIDGE`, in the measurements or in the times.
+    """Returns first and end frames of spans without a gap longer than `LONGEST_BRIDGE`, in force or time.
 
     Args:
         time: Times (n,) in s, increasing.
         force: Vertical force (n,) in N; NaN where it was not measured.
-
-    Returns:
-        First frame of each span and the frame after its last one; none where nothing was measured.
 
     Example:
         >>> measured_spans(np.arange(6) * 0.1, np.array([1.0, 2.0, np.nan, np.nan, np.nan, 0.0]))
@@ -351,7 +338,7 @@ def _contact(
 def _begin_of_rise(
     time: NDArray[np.float64], force: NDArray[np.float64], span: tuple[int, int], levels: Levels, strike: float
 ) -> float:
-    """Time at which the rise of a landing, continued back straight, begins: not before the force leaves its rest."""
+    """Begin of a landing's rise, continued back straight: not before the force leaves its rest."""
     begin, end = span
     assert levels.clear is not None
     at, heights = [strike], [levels.release]
@@ -375,7 +362,7 @@ def _begin_of_rise(
 def _end_of_push_off(
     time: NDArray[np.float64], force: NDArray[np.float64], span: tuple[int, int], levels: Levels, lift: float
 ) -> float:
-    """Time at which push-off, continued straight, ends: after `lift`, and not after the force is clear of the foot."""
+    """End of push-off, continued straight: after `lift`, and not after the force is clear of the foot."""
     begin, end = span
     assert levels.clear is not None
     after = force[end : int(np.searchsorted(time, time[end] + _BESIDE)) + 1]
@@ -424,16 +411,13 @@ def _crossing(
 
 
 def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contact: Contact) -> int:
-    """How many steps a contact seems to hold: one, or several that the sensor's offset joins.
+    """Returns the number of landings in a contact that an offset joins; 0 where the contact is short.
 
     Args:
         force: Vertical force (n,) of the foot in N.
         rate: Frames a second.
         levels: The foot's levels.
         contact: One of its contacts.
-
-    Returns:
-        How often the foot lands in it; 0 where the contact is short.
 
     Example:
         >>> time = np.arange(0.0, 10.0, 0.01)
@@ -458,13 +442,7 @@ def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contac
 
 
 def true_runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Runs of true values.
-
-    Args:
-        mask: Any mask (n,).
-
-    Returns:
-        First frame of each run, and the frame after its last one.
+    """First frame, and the frame after the last one, of each run of true values of a mask (n,).
 
     Example:
         >>> true_runs(np.array([True, False, True, True]))

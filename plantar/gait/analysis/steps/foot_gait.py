@@ -1,4 +1,4 @@
-"""What an analysis finds of one foot: its events, its steps and what they measure."""
+"""Analysis of one foot: its events, its steps and their measures."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ class Step:
         heel_strike_s: Time of heel strike.
         toe_off_s: Time of toe off.
         contact: The contact.
-        measures: Measures by their key in `plantar.gait.analysis.measures.MEASURES`; what is not in it is not known.
+        measures: Known measures by their key in `plantar.gait.analysis.measures.MEASURES`.
         regions: Measures of each region of the foot.
-        footprint: The footprint that lengths, arch index and regions are of; None without geometry.
+        footprint: The footprint of lengths, arch index and regions; None without geometry.
         region: Index (k,) into `REGIONS` of each cell, -1 for none; None without geometry.
         used: Whether it is in the means.
         unused: Why not; empty where it is.
-        odd: What is odd about it; empty for nothing.
+        odd: Why it is odd, or empty.
         activity: "walking", "running" or "hopping"; empty where it is not known.
     """
 
@@ -60,7 +60,7 @@ class FootGait:
     """One foot's recording with its events and steps.
 
     Attributes:
-        foot: What was measured.
+        foot: The measurements.
         levels: Force levels of its events, None where the foot carries no load.
         contacts: All contacts, also those cut by the recording.
         steps: The complete ones, measured.
@@ -69,11 +69,10 @@ class FootGait:
         cell_threshold: Force in N (k,) above which a cell counts as loaded.
         picture: Maximum pressure picture (k,) in Pa: the mean over the steps of each cell's largest pressure, of a
             platform the largest of all; None without geometry.
-        footprint: The footprint of that picture in an insole or sole; None without geometry, and of platforms.
+        footprint: Footprint of that picture in an insole or sole; else None.
         region: Index (k,) into `REGIONS` of each cell of the picture, -1 for none; None without geometry.
-        sole: The whole sole as a footprint, of which widths do not depend on what is loaded; None without geometry, and
-            of platforms.
-        warnings: What was found odd.
+        sole: The whole insole or sole as a footprint; else None.
+        warnings: Warnings about the foot.
     """
 
     foot: FootRecording
@@ -95,7 +94,7 @@ class FootGait:
 
     @cached_property
     def columns(self) -> Mapping[str, NDArray[np.float64]]:
-        """Each measure over the steps that are in the means, NaN where a step has none of it."""
+        """Each measure over the used steps, NaN where a step has none of it."""
         keys = dict.fromkeys(key for step in self.used for key in step.measures)
         used = [step.measures for step in self.used]
         return {key: np.array([measures.get(key, np.nan) for measures in used]) for key in keys}

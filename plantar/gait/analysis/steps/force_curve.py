@@ -36,18 +36,15 @@ _UNKNOWN = dict.fromkeys(
 def force_measures(
     time: NDArray[np.float64], force: NDArray[np.float64], strike: float, lift: float
 ) -> dict[str, float]:
-    """Measures of the force curve of one contact.
+    """Returns the measures of the force curve of one contact by key; NaN for peaks and valley without two peaks.
 
     The impulse runs from strike to lift; the pieces before the first and after the last frame count as triangles.
 
     Args:
-        time: Times (m,) in s of the frames in contact that were measured, 2 or more.
+        time: Times (m,) in s of the measured frames in contact, 2 or more.
         force: Vertical force (m,) in N.
         strike: Time of the heel strike in s.
         lift: Time of the toe off in s.
-
-    Returns:
-        The measures by their key; NaN for peaks and valley where the curve has no two peaks.
 
     Example:
         >>> t = np.linspace(0.0, 1.0, 201)
@@ -84,7 +81,7 @@ def force_measures(
 
 
 def _first_hump(force: NDArray[np.float64], least: float) -> int:
-    """The first place from which a force falls by a share before it rises above it."""
+    """Index of the first hump of at least `least` from which a force falls by a share."""
     width = max(1, 2 * (len(force) // 60) + 1)  # 3 % of the stance: noise makes no hump
     half = width // 2
     padded = np.concatenate([np.full(half, force[0]), force, np.full(half, force[-1])])
@@ -116,18 +113,13 @@ def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: floa
 
 
 def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> float:
-    """Largest vertical force in N within 50 ms of a heel strike; NaN where none was measured.
-
-    The force at the window's end counts, by a straight line between its frames: without it a window that begins between
-    frames holds now two of them and now three at 50 Hz, and the same steps differ by a third.
+    """Returns the largest vertical force in N within 50 ms of a heel strike, its interpolated end included; NaN if
+    unknown.
 
     Args:
         time: Times (n,) in s.
         force: Vertical force (n,) in N.
         strike: Time of the heel strike in s.
-
-    Returns:
-        The force in N.
     """
     end = strike + IMPACT_WINDOW
     after = int(np.searchsorted(time, end, side="right"))

@@ -1,7 +1,4 @@
-"""Values that cells did not measure: short gaps are filled between their ends, and what is missing is reported.
-
-The force of a foot is the sum of its cells, so that a value that is missing would lower it.
-"""
+"""Missing values of cells: short gaps are filled, and what is missing is reported."""
 
 from __future__ import annotations
 
@@ -23,11 +20,10 @@ _TOLD = 0.01
 
 
 def without_gaps(recording: PressureRecording) -> PressureRecording:
-    """The recording with the short gaps of each cell filled on straight lines in time.
+    """The recording with short gaps of each cell filled on straight lines in time, and warnings of cells that miss
+    values.
 
-    Returns:
-        The recording, with a warning for cells that never measure and for many missing values; `metadata` holds the
-        share of each foot's values that were missing, in percent, as "missing_percent".
+    `metadata["missing_percent"]` holds the missing share of each foot's values.
     """
     feet, notes, shares = dict(recording.feet), list(recording.warnings), {}
     most = int(LONGEST_GAP * recording.rate_hz)
@@ -57,7 +53,6 @@ def without_gaps(recording: PressureRecording) -> PressureRecording:
 
 
 def _filled_table(foot: FootRecording, most: int) -> NDArray[np.float64]:
-    """Forces (n, k) of a foot with its short gaps filled, block by block."""
     out = room(*foot.force.shape)
     for rows in blocks_of_frames(foot.force):
         begin = max(0, rows.start - most - 1)
@@ -68,14 +63,11 @@ def _filled_table(foot: FootRecording, most: int) -> NDArray[np.float64]:
 
 
 def filled(force: NDArray[np.float64], most: int) -> NDArray[np.float64]:
-    """Forces with short gaps of each cell filled on straight lines between their ends.
+    """Returns forces (n, k) with short gaps of each cell filled on straight lines between their ends.
 
     Args:
         force: Forces (n, k), NaN where not measured.
         most: Frames of the longest gap that is filled; gaps at the beginning or the end have one end and stay.
-
-    Returns:
-        Forces (n, k).
 
     Example:
         >>> filled(np.array([[1.0], [np.nan], [3.0], [np.nan], [np.nan], [6.0], [np.nan]]), 1).ravel().tolist()

@@ -19,15 +19,7 @@ _MOST_FRAMES = 200
 
 
 def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[str, float]]:
-    """Measures of a contact's pressures.
-
-    Args:
-        load: The contact, with pressures.
-        layout: Where the cells are; None where only the values are known.
-
-    Returns:
-        The measures by their key.
-    """
+    """Returns the measures of each contact of a load by key; areas only with a layout."""
     assert load.pressure is not None
     highest = load.pressure.max(axis=1)
     out = {
@@ -59,15 +51,13 @@ def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[st
 def region_measures(
     load: StepLoad, region: NDArray[np.int64], names: Sequence[str], durations: Sequence[float]
 ) -> list[dict[str, dict[str, float]]]:
-    """Measures of each region of the foot in each contact.
+    """Returns the `REGION_MEASURES` of each region with cells, in each contact.
 
     Args:
         load: The contacts, with pressures.
         region: Index (k,) into `names` of each cell, -1 for none.
+        names: Names of the regions.
         durations: Contact times (c,) of the whole foot in s.
-
-    Returns:
-        The measures of each region that has cells; those of `plantar.gait.analysis.measures.REGION_MEASURES`.
     """
     assert load.pressure is not None
     order = np.argsort(region, kind="stable")
@@ -102,16 +92,9 @@ def region_measures(
 
 
 def robot_measures(load: StepLoad, layout: SoleLayout) -> dict[str, float]:
-    """Wrench of a sole of taxels, and margin of its centre of pressure to the support polygon.
+    """Returns largest wrench components about the sole frame's origin, and margins of the CoP to the support polygon.
 
-    Both are of the loaded cells at one instant: forces that push keep their CoP inside the hull of their cells.
-
-    Args:
-        load: The contact.
-        layout: The sole.
-
-    Returns:
-        Largest magnitudes of the wrench's components about the sole frame's origin, and the smallest and mean margin.
+    Both are of the loaded cells of a robot's layout in a contact's load, frame by frame.
     """
     wrench = np.abs(load.force @ layout.wrench_map.T)
     fx, fy, _, tx, ty, tz = wrench.max(axis=0)

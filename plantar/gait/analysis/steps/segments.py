@@ -1,4 +1,4 @@
-"""Parts of a recording in which one thing is done: walking, running, hopping, standing between walks."""
+"""Parts of a recording with one activity: walking, running, hopping, standing between walks."""
 
 from __future__ import annotations
 
@@ -57,11 +57,7 @@ class Segment:
 
 
 def without_standing(contacts: Sequence[Contact]) -> list[Contact]:
-    """Contacts, those marked as standing that last too long for a step of the steps around them.
-
-    Args:
-        contacts: The contacts of a foot, in order.
-    """
+    """Contacts, with those marked as standing that are too long for a step among those around them."""
     known = [i for i, c in enumerate(contacts) if c.complete]
     lasts = {i: cast(float, contacts[i].toe_off) - cast(float, contacts[i].heel_strike) for i in known}
     out = list(contacts)
@@ -73,11 +69,7 @@ def without_standing(contacts: Sequence[Contact]) -> list[Contact]:
 
 
 def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
-    """The feet with the activity of each step: "walking", "running", "hopping", or empty where it is not known.
-
-    Args:
-        feet: The gait of each foot, all steps measured.
-    """
+    """The feet with the activity of each step: "walking", "running", "hopping", or empty where it is not known."""
     hops = _both_at_once(feet)
     rows = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
     raw = ["hopping" if hops else _activity(step) for step in rows]
@@ -97,7 +89,6 @@ def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
 
 
 def _both_at_once(feet: Mapping[Side, FootGait]) -> bool:
-    """Whether both feet land and lift together."""
     if len(feet) < 2:
         return False
     left, right = ([c for c in feet[s].contacts if c.complete] for s in SIDES)
@@ -123,20 +114,12 @@ def _activity(step: Step) -> str:
 
 
 def _most(names: Sequence[str]) -> str:
-    """The commonest name that is not empty."""
     known = [n for n in names if n]
     return max(dict.fromkeys(known), key=known.count) if known else ""
 
 
 def segments_of(feet: Mapping[Side, FootGait]) -> tuple[Segment, ...]:
-    """Segments of a recording, in the order of time.
-
-    Args:
-        feet: The feet with the activity of each step.
-
-    Returns:
-        The segments; standing between them where a foot stays on the ground for too long for a step.
-    """
+    """Segments of feet with activities, in the order of time; standing where a foot stays on the ground too long."""
     rows = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
     strides = [v for s in rows if np.isfinite(v := s["stride_time_s"])]
     pause = _PAUSE * float(np.median(strides)) if strides else np.inf
@@ -164,7 +147,7 @@ def segments_of(feet: Mapping[Side, FootGait]) -> tuple[Segment, ...]:
 
 
 def _common(spans: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Spans that overlap, as one each."""
+    """Spans joined where they overlap."""
     joined: list[tuple[float, float]] = []
     for begin, end in sorted(spans):
         if joined and begin <= joined[-1][1]:

@@ -1,4 +1,4 @@
-"""Events that a file states: contacts made of them, and how far they are from those found in the force."""
+"""Events that a file states: contacts made of them, and their differences from those found in the force."""
 
 from __future__ import annotations
 
@@ -18,15 +18,12 @@ _SAME = 0.25
 
 
 def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Contact]:
-    """Contacts from stated heel strikes and toe offs.
+    """Returns contacts of stated events, each from a heel strike to the toe off before the next one; incomplete at the
+    ends.
 
     Args:
         time: Times (n,) of the frames in s.
         events: The events.
-
-    Returns:
-        The contacts in order, each from a heel strike to the toe off before the next one; a toe off before the first
-        heel strike, and a heel strike without one, are of contacts that the recording cuts.
     """
     strikes, lifts = events.heel_strikes, events.toe_offs
     ends = np.append(strikes[1:], np.inf)[: len(strikes)]
@@ -49,15 +46,9 @@ def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Con
 
 
 def stated_beside_own(events: StatedEvents | None, gait: FootGait) -> dict[str, Any] | None:
-    """The stated events of a foot, and the times of those that were used less the stated ones.
+    """Returns the stated events of a foot and the times of those in its gait less the stated ones; None without events.
 
-    Args:
-        events: What the file states of the foot; None for nothing.
-        gait: The foot with its contacts.
-
-    Returns:
-        heel_strikes_s and toe_offs_s as stated; heel_strike_difference_s and toe_off_difference_s of those that were
-        found too, each in the order of the stated ones, None where none was found within 0.25 s. None without events.
+    Differences are None where no event was found within 0.25 s.
     """
     if events is None:
         return None

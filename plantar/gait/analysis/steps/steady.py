@@ -37,20 +37,16 @@ _WORDS = {
 def with_used_steps(
     gait: FootGait, options: AnalysisOptions, kind: str, raw: bool = False, activity: str = ""
 ) -> FootGait:
-    """The gait with each step marked: whether it is in the means and why not, and what is odd about it.
+    """Returns the gait with each step marked as used or not and why, and as odd, with warnings.
 
-    Steps at either end of a walk that are odd in time or force start and stop it: they are left out of the means unless
-    the options name steps. An odd step between others stays in the means.
+    Odd steps at either end of a walk start and stop it, and are left out unless the options name steps; others stay.
 
     Args:
         gait: One foot with its measured steps.
-        options: Which steps the reader wants.
-        kind: What measured; footprints on a platform are no walk of many steps, and none starts it.
+        options: Which steps are wanted.
+        kind: Kind of sensor; only insoles and robots have steps that start a walk.
         raw: Whether forces are counts.
         activity: Activity whose steps are in the means; every one where empty.
-
-    Returns:
-        The gait, with warnings.
     """
     others = [step for step in gait.steps if activity and step.activity not in ("", activity)]
     steps = [step for step in gait.steps if step not in others]
@@ -96,19 +92,11 @@ def with_used_steps(
 
 
 def _of_other(step: Step) -> Step:
-    """A step of another activity than the one that means are of."""
     return replace(step, used=False, unused=f"{step.activity}, which the means are not of")
 
 
 def in_one_window(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
-    """The feet with the same time in their means, so that left and right can be compared.
-
-    Args:
-        feet: The feet with the steps that are in the means of each.
-
-    Returns:
-        The feet; a step more than a stride outside the other foot's steps in the means is left out, and named.
-    """
+    """The feet without used steps more than a stride outside the other foot's, so that both cover the same time."""
     used = {side: gait.used for side, gait in feet.items()}
     if len(feet) < 2 or not all(used.values()):
         return dict(feet)
@@ -131,7 +119,6 @@ def in_one_window(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
 
 
 def _unused(chosen: bool, within: bool, reason: str) -> str:
-    """Why a step is not in the means, empty where it is."""
     return reason if not chosen else "" if within else "outside --from and --to"
 
 
@@ -141,7 +128,7 @@ def _within(step: Step, options: AnalysisOptions) -> bool:
 
 
 def _odd(steps: Sequence[Step], raw: bool) -> list[str]:
-    """What is odd about each step, empty for nothing."""
+    """Why each step is odd, empty for nothing."""
     out = [""] * len(steps)
     for key, least in _JUDGED.items():
         values = np.array([step[key] for step in steps])
@@ -158,18 +145,16 @@ def _odd(steps: Sequence[Step], raw: bool) -> list[str]:
 
 
 def _ends(odd: Sequence[str]) -> NDArray[np.bool_]:
-    """The odd steps at either end; none where they are more than half of all, for then nothing is usual."""
+    """The odd steps at either end; none where they are more than half of all."""
     bad = np.array([bool(text) for text in odd])
     ends = np.logical_and.accumulate(bad) | np.logical_and.accumulate(bad[::-1])[::-1]
     return ends if ends.sum() <= 0.5 * len(ends) else np.zeros(len(ends), dtype=bool)
 
 
 def _range(steps: Sequence[Step], kept: NDArray[np.bool_]) -> str:
-    """Numbers of the first and the last kept step."""
     numbers = [step.number for step, keep in zip(steps, kept, strict=True) if keep]
     return f"{numbers[0]}-{numbers[-1]}"
 
 
 def _names(steps: Sequence[Step], chosen: NDArray[np.bool_]) -> str:
-    """Numbers of some steps, as a list."""
     return ", ".join(str(step.number) for step, keep in zip(steps, chosen, strict=True) if keep)

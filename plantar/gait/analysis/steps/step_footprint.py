@@ -1,4 +1,4 @@
-"""The footprint that a step's lengths, arch index and regions are of: the foot's own, on a platform the step's."""
+"""The footprint of a step's lengths, arch index and regions: the foot's own, on a platform the step's."""
 
 from __future__ import annotations
 
@@ -21,15 +21,13 @@ __all__ = ["footprint_of_step", "print_of_contact", "with_picture"]
 
 
 def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> FootGait:
-    """The gait with its maximum pressure picture, and in an insole or sole that picture's footprint and regions.
+    """Returns the gait with its maximum pressure picture, and in an insole or sole that picture's footprint and
+    regions.
 
     Args:
         recording: The recording.
         gait: One foot of it.
-        loads: What its cells carried.
-
-    Returns:
-        The same with `picture`, `footprint`, `sole` and `region`, as far as there is geometry.
+        loads: Load of its cells.
     """
     layout = gait.foot.layout
     if layout is None:
@@ -74,17 +72,14 @@ def footprint_of_step(
     contact: Contact,
     prints: Sequence[PlatformPrint],
 ) -> tuple[Footprint | None, NDArray[np.int64] | None]:
-    """Footprint and regions of one step.
+    """Returns footprint and region (k,) of each cell (-1 for none) of one step; None without geometry.
 
     Args:
         recording: The recording.
         gait: One foot of it, with its picture.
-        loads: What its cells carried.
+        loads: Load of its cells.
         contact: The step.
         prints: The footprints of a platform.
-
-    Returns:
-        The footprint and the region (k,) of each cell, -1 for none; None without geometry.
     """
     layout = gait.foot.layout
     if recording.kind != "platform" or layout is None:
@@ -99,15 +94,6 @@ def footprint_of_step(
 
 
 def print_of_contact(contact: Contact, side: Side, prints: Sequence[PlatformPrint]) -> PlatformPrint | None:
-    """The footprint of a platform that shares most frames with a contact of its foot.
-
-    Args:
-        contact: The contact.
-        side: Which foot made it.
-        prints: Footprints that were found on the platform.
-
-    Returns:
-        The footprint; None where none shares a frame.
-    """
+    """Returns the footprint of a platform's prints that shares most frames with a contact of a side's foot, or None."""
     own = [p for p in prints if p.side == side and p.begin < contact.end and p.end > contact.begin]
     return max(own, key=lambda p: min(p.end, contact.end) - max(p.begin, contact.begin), default=None)

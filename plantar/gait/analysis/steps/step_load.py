@@ -1,4 +1,4 @@
-"""What the cells carried in one contact, and from which force on a cell counts as loaded."""
+"""Load of the cells in contacts, and the force above which a cell counts as loaded."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ NOISE_FRAMES = 5000
 
 @dataclass(frozen=True, eq=False)
 class StepLoad:
-    """What the cells carried in one contact, or in several, one after the other.
+    """Load of the cells in one contact, or in several, one after the other.
 
     Attributes:
         time: Times (m,) in s.
@@ -120,7 +120,7 @@ class StepLoads:
         return np.concatenate(out)
 
     def _count(self, contact: Contact) -> None:
-        """Let the contacts that were read before go, now and then."""
+        """Release the contacts that were read before, now and then."""
         self._read += (contact.end - contact.begin) * self.foot.force.shape[1] * 8
         if self._read > LARGE:
             let_go(self.foot.force)
@@ -139,7 +139,8 @@ def _filled(time: NDArray[np.float64], force: NDArray[np.float64]) -> NDArray[np
 def cell_threshold(
     recording: PressureRecording, foot: FootRecording, contacts: Sequence[Contact]
 ) -> NDArray[np.float64]:
-    """Force above which each cell counts as loaded: its layout's threshold, and 3 standard deviations of its noise.
+    """Returns the force (k,) in N above which each cell counts as loaded: its layout's threshold, and 3 SD of its
+    noise.
 
     A cell that reads something in most frames of swing, such as one that a shoe presses on, counts above that reading.
 
@@ -147,9 +148,6 @@ def cell_threshold(
         recording: The recording.
         foot: One foot of it, n frames of k cells.
         contacts: Its contacts; between them the noise is measured.
-
-    Returns:
-        Threshold of each cell (k,) in N.
     """
     n, k = foot.force.shape
     base = 1e-3 if foot.layout is None else 0.0 if recording.raw else foot.layout.force_threshold

@@ -1,4 +1,4 @@
-"""What one step measures without the steps around it: force, pressure, path of the CoP, wrench, footprint."""
+"""Measures of one step without the steps around it: force, pressure, path of the CoP, wrench, footprint."""
 
 from __future__ import annotations
 
@@ -28,18 +28,15 @@ def step_measures(
     pressures: Mapping[str, float],
     load: StepLoad | None = None,
 ) -> dict[str, float]:
-    """Everything of one step that does not need other steps.
+    """Returns the known measures by key of one step that do not need other steps.
 
     Args:
         recording: The recording.
         gait: One foot of it.
         contact: The step, complete.
-        print_: The footprint that lengths and regions are of; None without geometry.
+        print_: The footprint of lengths and regions; None without geometry.
         pressures: Measures of its pressures; empty where none are known.
-        load: What a robot's cells carried in the step.
-
-    Returns:
-        The measures by their key; what is not in it is not known.
+        load: Load of a robot's cells in the step.
     """
     foot, span = gait.foot, slice(contact.begin, contact.end)
     force, time = foot.vertical_force[span], recording.time[span]
@@ -67,7 +64,7 @@ def _cop_measures(
     cop: NDArray[np.float64],
     print_: Footprint | None,
 ) -> dict[str, float]:
-    """Measures of the CoP (m, 2) of one step: its path, and how far it stays from the edges."""
+    """Measures of the CoP (m, 2) of one step: its path, and its margins to the edges."""
     kind, layout = recording.kind, gait.foot.layout
     # On a platform the foot's own axis is forward, in a sole the sole's.
     out = cop_measures(time, print_.in_foot(cop) if print_ is not None and kind == "platform" else cop)

@@ -1,4 +1,4 @@
-"""When a foot's steps follow each other: strides, stance, swing, and the time on both feet."""
+"""Times of a foot's steps: strides, stance, swing, and the time on both feet."""
 
 from __future__ import annotations
 
@@ -23,36 +23,25 @@ _LONGEST_FLIGHT = 0.6
 
 
 def stride_times(contacts: Sequence[Contact]) -> list[float]:
-    """Stride time of each complete contact; NaN where the next heel strike is not the next step's.
+    """Stride time in s of each complete one of a foot's contacts; NaN where the next heel strike is not the next
+    step's.
 
-    Strides lead from one complete contact to another: a contact that the recording cuts may be standing. Where a foot
-    has no such stride, those to a cut contact are taken.
-
-    Args:
-        contacts: All contacts of the foot, in order.
-
-    Returns:
-        The time in s of each complete one's stride.
+    Strides lead from one complete contact to another, as a cut contact may be standing; without any, to cut ones.
     """
     raw, limit = _raw_strides(contacts), longest_stride(contacts)
     return [s if s <= limit else np.nan for s in raw]
 
 
 def longest_stride(contacts: Sequence[Contact]) -> float:
-    """The time in s from which a stride holds a pause or a step that was not recorded; inf of fewer than three strides.
-
-    Args:
-        contacts: All contacts of the foot, in order.
-
-    Returns:
-        The time in s.
+    """Time in s above which a stride between contacts holds a pause or a missing step; inf of fewer than three
+    strides.
     """
     known = [s for s in _raw_strides(contacts) if np.isfinite(s)]
     return PAUSE * float(np.median(known)) if len(known) >= 3 else np.inf
 
 
 def _raw_strides(contacts: Sequence[Contact]) -> list[float]:
-    """Time in s from each complete contact to the next, pauses and all."""
+    """Time in s from each complete contact to the next, pauses included."""
     raw = _strides(contacts, whole=True)
     return raw if np.isfinite(raw).any() else _strides(contacts, whole=False)
 
@@ -73,7 +62,8 @@ def _strides(contacts: Sequence[Contact], whole: bool) -> list[float]:
 def time_measures(
     contact: Contact, previous: Contact | None, stride: float, longest: float, others: OtherFoot | None
 ) -> dict[str, float]:
-    """Measures of time of one complete contact. What takes both feet is NaN where the other one was not measured.
+    """Returns the measures of time of one complete contact; NaN for those of both feet where the other was not
+    measured.
 
     Args:
         contact: The contact.
@@ -81,9 +71,6 @@ def time_measures(
         stride: Its stride time in s; NaN where it is not known.
         longest: Time in s from the contact before it that holds a pause, see `longest_stride`.
         others: The contacts of the other foot, None where it was not recorded.
-
-    Returns:
-        The measures by their key.
     """
     strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
     duration = lift - strike
@@ -109,9 +96,11 @@ def time_measures(
 
 
 class OtherFoot:
-    """The contacts of the other foot, as arrays that are searched quickly.
+    """The contacts of the other foot, as sorted arrays.
 
     Args:
+        recording: The recording.
+        side: The other foot.
         contacts: Its contacts, in order.
     """
 
@@ -125,40 +114,16 @@ class OtherFoot:
         self._begin, self._end = np.array(begin), np.array(end)
 
     def was_measured(self, begin: float, end: float) -> bool:
-        """Whether the foot was measured all the time: where it was not, it is not in the air.
-
-        Args:
-            begin: Begin of the time in s.
-            end: Its end in s.
-
-        Returns:
-            False where a gap that is too long to bridge falls into it.
-        """
+        """Returns whether the foot was measured from begin to end, in s, without a gap too long to bridge."""
         return any(first <= begin and end <= last for first, last in self._measured)
 
     def strikes_between(self, begin: float, end: float) -> NDArray[np.float64]:
-        """Heel strikes after one time and before another.
-
-        Args:
-            begin: The one time in s.
-            end: The other one in s.
-
-        Returns:
-            Their times (k,) in s.
-        """
+        """Returns the heel strikes (k,) in s after begin and before end, in s."""
         first, last = np.searchsorted(self.strikes, begin, "right"), np.searchsorted(self.strikes, end, "left")
         return self.strikes[first:last]
 
     def flight(self, lift: float) -> float:
-        """How long both feet are off the ground after this one leaves it.
-
-        Args:
-            lift: Its toe off in s.
-
-        Returns:
-            The time in s to the other foot's heel strike, 0 where that foot is on the ground; NaN where none follows,
-            or where it was not measured.
-        """
+        """Time in s from `lift` in s to the other foot's heel strike, 0 where it is on the ground; NaN if unknown."""
         if ((self._begin <= lift) & (self._end > lift)).any():
             return 0.0
         after = self.strikes[self.strikes > lift]
@@ -166,14 +131,8 @@ class OtherFoot:
         return float(after[0]) - lift if follows else float("nan")
 
     def overlap(self, strike: float, lift: float) -> float:
-        """How long of a contact the other foot is on the ground too.
-
-        Args:
-            strike: Begin of the contact in s.
-            lift: Its end in s.
-
-        Returns:
-            The time in s; NaN where that foot was not measured all the time.
+        """Returns the time in s of a contact from strike to lift in s with the other foot on the ground; NaN if not
+        measured.
         """
         if not self.was_measured(strike, lift):
             return float("nan")

@@ -1,9 +1,7 @@
 """The level of each single swing of a walk, for sensors whose offset changes from stride to stride.
 
-A capacitive insole that warms up, or one whose offset jumps, reads something else in each swing. What a walk shows all
-the same is that its force comes down quickly, stays for a moment, and rises quickly again. A morphological opening
-(Serra 1982, Image Analysis and Mathematical Morphology, ch. 2) takes contacts off and follows what lies under them;
-runs of frames at that level between quick flanks are swings.
+A morphological opening (Serra 1982, Image Analysis and Mathematical Morphology, ch. 2) removes contacts and follows the
+level under them; runs of frames at that level between quick flanks are swings.
 """
 
 from __future__ import annotations
@@ -78,14 +76,11 @@ class SwingLevels:
 
 
 def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
-    """The levels of the swings of a walking foot, each for itself.
+    """Returns the level of each swing of a walking foot; None for fewer than three swings between contacts.
 
     Args:
         force: Vertical force (n,), NaN where it was not measured.
         rate: Frames a second.
-
-    Returns:
-        The levels; None where fewer than three swings between contacts are found.
 
     Example:
         >>> time = np.arange(0.0, 12.0, 0.01)
@@ -119,13 +114,12 @@ def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
 
 
 def _middle(values: NDArray[np.float64]) -> float:
-    """The median of a few values."""
     ordered = np.sort(values)
     return 0.5 * float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2])
 
 
 def _measured(found: Sequence[tuple[int, int]], force: NDArray[np.float64], rate: float) -> list[tuple[int, int]]:
-    """What of the swings was measured: elsewhere the course goes on flat or straight, and is no swing."""
+    """The measured parts of swings: elsewhere the course is interpolated, and no swing."""
     out = []
     for a, b in found:
         known = a + np.flatnonzero(np.isfinite(force[a:b]))
@@ -179,7 +173,7 @@ def _opened(course: NDArray[np.float64], longest: float, rate: float) -> NDArray
 
 
 def _least(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
-    """Least value (n - width + 1,) of each run of `width` values, in a time that does not grow with the width."""
+    """Least value (n - width + 1,) of each run of `width` values, in a time independent of the width."""
     count = len(values)
     rows = -(-count // width)
     blocks = np.pad(values, (0, rows * width - count), constant_values=np.inf).reshape(rows, width)
@@ -189,7 +183,7 @@ def _least(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
 
 
 def _usual_range(course: NDArray[np.float64], rate: float) -> float:
-    """What the force ranges over in stretches of some strides."""
+    """Median range of the force in stretches of some strides."""
     rows = min(max(1, round(_STRETCH * rate)), len(course))
     parts = course[: len(course) // rows * rows].reshape(-1, rows)
     low, high = np.percentile(parts, (3.0, 92.0), axis=1)
@@ -205,8 +199,7 @@ def _range(under: NDArray[np.float64]) -> float:
 def _swings(
     under: NDArray[np.float64], course: NDArray[np.float64], span: float, rate: float
 ) -> tuple[list[tuple[int, int]], float]:
-    """Frames of each swing, without the parts at its ends in which the level is reached and left, and how many of the
-    gaps between contacts these are, as a share; no swing where these are not those of a walk."""
+    """Frames of each swing without its ends, and their share of the gaps between contacts; none where it is no walk."""
     n, near = len(under), under <= _NEAR * span
     if (~near & (under <= _ABOVE * span)).sum() > _SPARSE * near.sum():
         return [], 0.0
@@ -236,7 +229,7 @@ def _swings(
 
 
 def _level_at_end(course: NDArray[np.float64], a: int, b: int, span: float, least: int) -> tuple[int, int]:
-    """The frames a to b of a swing, at an end of the recording only as far as they are level next to the contact."""
+    """Frames a to b of a swing, at an end of the recording only as far as they are level next to the contact."""
     if a > 0 and b < len(course):
         return a, b
     beside = _middle(course[b - least : b] if a == 0 else course[a : a + least])

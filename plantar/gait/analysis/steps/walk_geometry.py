@@ -1,4 +1,4 @@
-"""Where steps are set: their length and width, the stride, and the angle of the foot to the line of walking."""
+"""Places of steps: their length and width, the stride, and the angle of the foot to the line of walking."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _LONGEST_STRIDE = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Place:
-    """Where one step stands.
+    """Place of one step.
 
     Attributes:
         time: Time of its heel strike in s.
@@ -37,19 +37,15 @@ class Place:
 
 
 def step_geometry(places: Mapping[Side, Sequence[Place]]) -> dict[Side, list[dict[str, float]]]:
-    """Measures of each step from where it stands and where those before it stood.
+    """Lengths and angles of each step from the places of each foot's steps, in order.
 
-    A stride begins with its step, as stride time does; a step ends with its heel strike. The line of walking of a step
-    joins the heels of this foot's footprint before it and of this one; without one, it is the direction that the place
-    states. Step length is measured along it from the other foot's last
-    heel, step width is that heel's distance from it (Huxham et al. 2006).
-
-    Args:
-        places: The steps of each foot, in order.
+    The line of walking joins the heels of this foot's footprint before and of this one, else it is the place's
+    direction. Step length is along it from the other foot's last heel, step width that heel's distance from it (Huxham
+    et al. 2006). A stride begins with its step.
 
     Returns:
-        step_length_m, step_width_m, stride_length_m, stride_velocity_m_s and foot_progression_deg (outward positive)
-        of each step, as far as they are known.
+        step_length_m, step_width_m, stride_length_m, stride_velocity_m_s and foot_progression_deg (outward positive) of
+        each step, as far as they are known.
 
     Example:
         >>> x = np.array([1.0, 0.0])
@@ -71,7 +67,6 @@ def step_geometry(places: Mapping[Side, Sequence[Place]]) -> dict[Side, list[dic
 
 
 def _step(side: Side, place: Place, before: Place | None, others: Sequence[Place]) -> dict[str, float]:
-    """Measures of one step from the one of the same foot before it, and the other foot's."""
     out: dict[str, float] = {}
     forward = place.forward if before is None else _stride(before, place)[1]
     if forward is None:

@@ -1,1 +1,1 @@
-"""A study: a folder of recordings, the table of who walked in which condition, and what differs between conditions."""
+"""A study: a folder of recordings, the table of its participants, and differences between conditions."""

@@ -1,4 +1,4 @@
-"""Conditions of a study compared: each participant counts once a condition, and pairs are taken where all are pairs."""
+"""Conditions of a study compared: each participant counts once a condition, as pairs where possible."""
 
 from __future__ import annotations
 
@@ -65,12 +65,12 @@ class Comparison:
         a: Name of the one.
         b: Name of the other.
         paired: Whether the same participants were measured in both.
-        effects: How each measure differs; B less A.
-        curve_unit: "N" or "% of body weight".
+        effects: Difference B - A of each measure.
+        curve_unit: "N", "counts" or "% of body weight".
         curves: Mean curves (participants, 101) of vertical force of A and of B; None where too few have them.
         curve_test: Where they differ.
         maps: Mean maps (participants, 36, 14) in Pa of A and of B; None where too few have them.
-        map_test: Where they differ, among the places of `places`.
+        map_test: Where they differ, among `places`.
         places: Which places (36, 14) of the map every participant has.
         note: Why nothing was compared; empty where it was.
     """
@@ -89,11 +89,7 @@ class Comparison:
 
 
 def compare_conditions(results: Sequence[RecordingResult]) -> list[Comparison]:
-    """Compare every two conditions, in the order in which they first appear.
-
-    Returns:
-        The comparisons, of six pairs at the most.
-    """
+    """Comparisons of every two conditions, in the order in which they first appear; six pairs at the most."""
     names = list(dict.fromkeys(r.who.condition for r in results if r.who.condition and not r.error))
     pairs = list(combinations(names, 2))[:MOST_PAIRS]
     return [_compared(results, a, b) for a, b in pairs]
@@ -121,7 +117,6 @@ def _compared(results: Sequence[RecordingResult], a: str, b: str) -> Comparison:
 
 
 def _by_participant(results: Sequence[RecordingResult], condition: str) -> dict[str, list[RecordingResult]]:
-    """The recordings of each participant in a condition that have steps."""
     out: dict[str, list[RecordingResult]] = {}
     for result in results:
         if result.who.condition == condition and not result.error and any(f["steps"] for f in result.feet.values()):
@@ -130,15 +125,7 @@ def _by_participant(results: Sequence[RecordingResult], condition: str) -> dict[
 
 
 def mean_of(recordings: Sequence[RecordingResult], key: str) -> float:
-    """A participant's mean of a measure over recordings and feet.
-
-    Args:
-        recordings: The participant's recordings in one condition.
-        key: The measure.
-
-    Returns:
-        The mean; NaN where none has it.
-    """
+    """Returns a participant's mean of a measure's key over recordings and feet; NaN where none has it."""
     values = [foot[key] for r in recordings for foot in r.feet.values() if key in foot]
     return float(np.mean(values)) if values else float("nan")
 
@@ -146,7 +133,6 @@ def mean_of(recordings: Sequence[RecordingResult], key: str) -> float:
 def _effects(
     a: Sequence[Sequence[RecordingResult]], b: Sequence[Sequence[RecordingResult]], paired: bool
 ) -> dict[str, Effect]:
-    """How each measure that all participants have differs."""
     keys = list(dict.fromkeys(k for name in COMPARED for k in (name, raw_name(name))))
     first, second = (np.array([[mean_of(own, key) for key in keys] for own in group]) for group in (a, b))
     kept = np.isfinite(first).all(axis=0) & np.isfinite(second).all(axis=0)
@@ -195,15 +181,11 @@ def _maps(
 
 
 def _chain(n: int) -> list[list[int]]:
-    """Neighbours of places in a row."""
     return [[j for j in (i - 1, i + 1) if 0 <= j < n] for i in range(n)]
 
 
 def grid_neighbours(places: NDArray[np.bool_]) -> list[list[int]]:
-    """Neighbours by their sides of the places of a grid that are kept, numbered row by row.
-
-    Returns:
-        For each of them the numbers of its neighbours.
+    """Numbers of the neighbours by side of each kept place of a grid, numbered row by row.
 
     Example:
         >>> grid_neighbours(np.array([[True, True], [False, True]]))
@@ -218,11 +200,7 @@ def grid_neighbours(places: NDArray[np.bool_]) -> list[list[int]]:
 
 
 def outliers(results: Sequence[RecordingResult]) -> list[Outlier]:
-    """Participants whose mean of a measure is far from the others' of the same condition.
-
-    Returns:
-        The outliers, the farthest first; none of conditions of fewer than five participants.
-    """
+    """Participants whose mean of a measure is far from that of their condition, farthest first; of five or more."""
     found: list[tuple[float, Outlier]] = []
     for condition in dict.fromkeys(r.who.condition for r in results):
         people = _by_participant(results, condition)

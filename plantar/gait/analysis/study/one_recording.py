@@ -56,21 +56,20 @@ _LENGTHS = (
 
 @dataclass(frozen=True, eq=False)
 class RecordingResult:
-    """What one recording adds to a study.
+    """Result of one recording in a study.
 
     Attributes:
         who: Its participant.
         digest: SHA-256 of the file.
-        key: What file, options and version it was measured with; a result of another key is measured again.
+        key: Digest of file, options and version; a result of another key is measured again.
         format: Name of its format; empty where it could not be read.
         error: Why it could not be measured; empty where it was.
         raw: Whether its values are counts.
-        rows: One row a step: side, step, used, note, heel_strike_s, toe_off_s and every measure; None for unknown
-        values.
-        feet: Of each foot the mean of each measure over the steps in the means, and "steps" of them.
+        rows: One row a step: side, step, used, note, heel_strike_s, toe_off_s and every measure; None if unknown.
+        feet: Of each foot the mean of each measure over the used steps, and "steps" of them.
         curves: Mean vertical force (101,) in N of each foot over the stance.
         maps: Mean maximum pressure picture `GRID` in Pa of each foot, heel to toes and lateral to medial, NaN off the
-        sole.
+            sole.
         warnings: What was assumed.
         walk: Measures of the walk as a whole.
     """
@@ -90,11 +89,7 @@ class RecordingResult:
 
 
 def digest_of(path: Path) -> str:
-    """SHA-256 of a file, in blocks.
-
-    Returns:
-        Its digest in hexadecimal digits; empty where it cannot be read.
-    """
+    """SHA-256 of a file in hexadecimal digits; empty where it cannot be read."""
     found = hashlib.sha256()
     try:
         with open_input(path, FormatError) as stream:
@@ -108,17 +103,14 @@ def digest_of(path: Path) -> str:
 def key_of(
     folder: Path, who: Participation, digest: str, choices: AnalysisOptions, options: ReadOptions | None = None
 ) -> str:
-    """What decides a result; of layouts it is their content, since a file of the same name may be another one.
+    """Returns a digest of all that decides a result, with the content of layout files and the version.
 
     Args:
         folder: The study's folder.
-        who: What the table states about the recording.
+        who: The recording's row in the table.
         digest: SHA-256 of its file.
-        choices: Which steps are in the means, and whose events.
+        choices: Which steps are in the means, and which events.
         options: What is known of all files.
-
-    Returns:
-        A digest of all of them and of the version.
     """
     given = options or ReadOptions()
     known = (given.unit, given.rate_hz, given.side, given.insole_size)
@@ -133,17 +125,14 @@ def key_of(
 def measure_recording(
     folder: Path, who: Participation, choices: AnalysisOptions, digest: str, options: ReadOptions | None = None
 ) -> RecordingResult:
-    """Measure one recording of a study.
+    """Returns the result of one recording of a study.
 
     Args:
         folder: The study's folder.
         who: The recording and its participant.
-        choices: Which steps are in the means, and whose events.
+        choices: Which steps are in the means, and which events.
         digest: SHA-256 of the file.
-        options: What is known of all files; what the table states about one goes before it.
-
-    Returns:
-        The result.
+        options: What is known of all files; the table overrides it.
 
     Raises:
         PlantarError: If the recording cannot be read.
@@ -179,7 +168,6 @@ def measure_recording(
 
 
 def _rows(gait: FootGait, who: Participation, raw: bool) -> list[dict[str, Any]]:
-    """One row a step of a foot."""
     out = []
     for step in gait.steps:
         measures = {raw_name(key) if raw else key: step[key] for key in MEASURES}
@@ -200,14 +188,9 @@ def _rows(gait: FootGait, who: Participation, raw: bool) -> list[dict[str, Any]]
 
 
 def normalised(measures: Mapping[str, float | None], who: Participation) -> dict[str, float | None]:
-    """Forces and impulses as shares of body weight, and lengths as shares of the foot's, where those are known.
+    """Returns measures in percent of body weight and foot length, where the participation (who) has these.
 
-    Args:
-        measures: Measures in SI.
-        who: With the mass and the foot's length.
-
-    Returns:
-        Keys with `_percent_bw` (of body weight), `_percent_bw_s` (body weights times seconds) and `_percent_foot`.
+    Keys end in `_percent_bw`, `_percent_bw_s` (impulses), `_percent_bw_per_s` (rates) and `_percent_foot`.
 
     Example:
         >>> normalised({"peak_force_N": 784.8}, Participation("a.asc", "a", mass_kg=80.0))
@@ -228,7 +211,7 @@ def normalised(measures: Mapping[str, float | None], who: Participation) -> dict
 
 
 def _means(rows: list[dict[str, Any]], side: Side) -> dict[str, float]:
-    """Mean of each measure over the steps of a foot that are in the means."""
+    """Mean of each measure over the used steps of a foot."""
     own = [row for row in rows if row["side"] == side and row["used"]]
     out: dict[str, float] = {"steps": float(len(own))}
     for key in own[0] if own else ():
@@ -241,7 +224,7 @@ def _means(rows: list[dict[str, Any]], side: Side) -> dict[str, float]:
 
 
 def _map(analysis: Analysis, gait: FootGait) -> NDArray[np.float64] | None:
-    """A foot's maximum pressure picture in the frame that all share; None without geometry or steps."""
+    """A foot's maximum pressure picture in the common frame; None without geometry or steps."""
     layout, picture = gait.foot.layout, gait.picture
     if layout is None or picture is None or not gait.used:
         return None
@@ -260,17 +243,14 @@ def _map(analysis: Analysis, gait: FootGait) -> NDArray[np.float64] | None:
 def sampled(
     points: NDArray[np.float64], values: NDArray[np.float64], corners: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Values of cells at the places of `GRID`, which spans the sole from heel to toes and side to side.
+    """Returns a map of cells' values at the places of `GRID`, which spans the sole from heel to toes and side to side.
 
-    Each place takes the nearest cell's value; places farther from every cell than cells are from each other have none.
+    Each place has the nearest cell's value, or NaN where that is farther than cells are from each other.
 
     Args:
         points: Centres (k, 2) of the cells, forward and to the medial side.
         values: Their values (k,).
         corners: Points (m, 2) whose extent is the sole's.
-
-    Returns:
-        The map.
     """
     low, extent = corners.min(axis=0), np.ptp(corners, axis=0)
     along = low[0] + (np.arange(GRID[0]) + 0.5) / GRID[0] * extent[0]
@@ -286,11 +266,7 @@ def sampled(
 
 
 def write_result(result: RecordingResult, path: Path) -> None:
-    """Keep a result, so that a study that was stopped goes on from there.
-
-    Args:
-        path: File to write (.npz).
-    """
+    """Store a result at a path (.npz), so that a stopped study can continue."""
     plain = {
         **{
             key: getattr(result, key) for key in ("digest", "key", "format", "error", "raw", "rows", "feet", "warnings")
@@ -306,15 +282,7 @@ def write_result(result: RecordingResult, path: Path) -> None:
 
 
 def read_result(path: Path, key: str) -> RecordingResult | None:
-    """A result that was kept.
-
-    Args:
-        path: Its file.
-        key: What it has to be measured with.
-
-    Returns:
-        The result; None where there is none, it is damaged, or was measured with something else.
-    """
+    """Returns the stored result at a path; None where there is none, it is damaged, or of another key."""
     try:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as held:
             plain = json.loads(str(held["text"]))

@@ -1,4 +1,4 @@
-"""The table of a study: participant and condition of each file, and what is known of them."""
+"""The table of a study: participant and condition of each file, and their properties."""
 
 from __future__ import annotations
 
@@ -33,20 +33,20 @@ _NAMES = {
 
 @dataclass(frozen=True)
 class Participation:
-    """One recording of a study.
+    """One recording of a study; None or empty where no table states a value.
 
     Attributes:
         file: Path of the recording relative to the study's folder.
-        participant: Who; the file's name without suffix where no table states it.
-        condition: In which condition; empty where no table states it.
-        mass_kg: Mass of the body in kg, None where it is not known.
-        foot_length_m: Length of the foot in m, None where it is not known.
-        side: "left" or "right" for a file of one foot that does not name it; else None.
-        insole_size: Size of a pedar insole, where the file does not state it; else None.
-        unit: Unit of the values, where the file does not state it; else None.
-        rate_hz: Frames a second, where the file does not state it; else None.
-        layout: Layout file relative to the study's folder; else None.
-        more: What other columns hold.
+        participant: Name; the file's name without suffix where no table states it.
+        condition: Name of the condition.
+        mass_kg: Mass of the body in kg.
+        foot_length_m: Length of the foot in m.
+        side: "left" or "right" for a file of one foot that does not name it.
+        insole_size: Size of a pedar insole, where the file does not state it.
+        unit: Unit of the values, where the file does not state it.
+        rate_hz: Frames a second, where the file does not state it.
+        layout: Layout file relative to the study's folder.
+        more: Other columns.
         listed: Whether the table names the file.
     """
 
@@ -67,10 +67,11 @@ class Participation:
 def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
     """Read the table of a study: a CSV or TSV file with a row of names and a row a recording.
 
+    Columns are file, participant and condition, and optionally mass_kg, foot_length_m (or _mm, _cm), side, insole_size,
+    unit, rate_hz and layout; others are carried through.
+
     Args:
-        path: The table. Its columns are file, participant and condition, and optionally mass_kg, foot_length_m (or
-        _mm, _cm),
-            side, insole_size, unit, rate_hz and layout; others are carried through.
+        path: The table.
 
     Raises:
         FormatError: If it has no rows, lacks a column, or names a file twice.
@@ -100,8 +101,6 @@ def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
 def _participation(
     where: str, names: list[str], row: list[str], columns: Mapping[str, int], lengths: tuple[int | None, int | None]
 ) -> Participation:
-    """One row of the table."""
-
     def text(key: str) -> str | None:
         at = columns.get(key)
         return (row[at].strip() or None) if at is not None and at < len(row) else None

@@ -46,12 +46,12 @@ _SKIPPED_FORMATS = ("image",)
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """A study that was measured.
+    """A measured study.
 
     Attributes:
         results: One a recording; `error` has the reason of those that could not be measured.
         comparisons: Every two conditions.
-        choices: Which steps are in the means, and whose events.
+        choices: Which steps are in the means, and which events.
         files: The files that were written.
     """
 
@@ -66,19 +66,11 @@ class Study:
         return _columns(_step_rows(self))
 
     def to_pandas(self) -> Any:
-        """The steps as a `pandas.DataFrame`.
-
-        Raises:
-            InputError: If pandas is not installed.
-        """
+        """The steps as a `pandas.DataFrame`; InputError if pandas is not installed."""
         return as_data_frame(self.steps)
 
     def report(self, path: str | os.PathLike[str] | None = None) -> str:
-        """The study's page as one HTML text, written to a file where one is named.
-
-        Args:
-            path: File to write; none where None.
-        """
+        """The study's page as one HTML text, also written to a file at `path` if given."""
         with tempfile.TemporaryDirectory() as folder:
             figures = write_figures(study_figures(self.comparisons), Path(folder))
             page = study_page(self.summary(), self.results, self.comparisons, figures, "study")
@@ -95,7 +87,7 @@ class Study:
         return _columns(_effect_rows(self))
 
     def summary(self) -> dict[str, Any]:
-        """The study in a few plain values, as study.json holds them."""
+        """The study as the plain values of study.json."""
         return {
             "recordings": len(self.results),
             "measured": sum(not r.error for r in self.results),
@@ -121,18 +113,16 @@ def run_study(
 ) -> Study:
     """Measure every recording of a folder; write steps.csv, recordings.csv, comparison.csv, study.json and study.html.
 
-    Recordings that were measured before with the same options and version are not measured again: a study that was
-    stopped goes on where it was. A recording that cannot be read is a row with the reason.
+    Results of the same options and version are reused. A recording that cannot be read is a row with the reason.
 
     Args:
-        folder: The folder of recordings, looked through with its folders.
+        folder: The folder of recordings, with its subfolders.
         out: Output folder, made if needed.
-        participants: Table of who walked in which condition, see `read_participants`; without it each file is a
-        participant
-            and nothing is compared.
+        participants: Table of participants and conditions, see `read_participants`; without it each file is a
+            participant and nothing is compared.
         progress: Called with a fraction 0..1 and what is being done.
-        choices: Which steps are in the means, and whose events.
-        options: What is known of all files; what the table states about one goes before it.
+        choices: Which steps are in the means, and which events.
+        options: What is known of all files; the table overrides it.
 
     Returns:
         The study.
@@ -172,7 +162,7 @@ def _as_named(root: Path, who: Participation) -> Participation:
 def _others(
     root: Path, target: Path, participants: str | os.PathLike[str] | None, listed: set[str]
 ) -> list[Participation]:
-    """Files of the folder that the table does not name and whose names end as recordings' do."""
+    """Files that the table does not name and whose names end as recordings' do."""
     endings = tuple(s for f in formats().values() if f.name not in _SKIPPED_FORMATS for s in f.suffixes)
     apart = {target.resolve()} if target.exists() else set()
     table = Path(participants).resolve() if participants is not None else None
@@ -191,7 +181,7 @@ def _others(
 def _result(
     root: Path, cache: Path, who: Participation, choices: AnalysisOptions, options: ReadOptions | None
 ) -> RecordingResult:
-    """The result of a recording: the one that was kept, or a new one, which is kept."""
+    """The stored result of a recording, or a new one, which is stored."""
     path, digest, key = root / who.file, "", ""
     try:
         if not path.resolve().is_relative_to(root.resolve()):
@@ -211,13 +201,13 @@ def _result(
 
 
 def _identity(result: RecordingResult) -> dict[str, Any]:
-    """Columns that every table begins with."""
+    """First columns of every table."""
     who = result.who
     return {"recording": who.file, "participant": who.participant, "condition": who.condition, **who.more}
 
 
 def _provenance(study: Study, result: RecordingResult) -> dict[str, Any]:
-    """Columns that every table ends with."""
+    """Last columns of every table."""
     return {
         "format": result.format,
         "version": __version__,
@@ -255,7 +245,7 @@ def _effect_rows(study: Study) -> list[dict[str, Any]]:
 
 
 def _names(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Every column of some rows, those of later rows put after the one that they follow there."""
+    """Columns of all rows in order, those of the provenance last."""
     names: dict[str, None] = {}
     for row in rows:
         if not names.keys() >= row.keys():
@@ -267,7 +257,6 @@ def _names(rows: Sequence[Mapping[str, Any]]) -> list[str]:
 
 
 def _columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, NDArray[Any]]:
-    """Rows as columns."""
     out: dict[str, NDArray[Any]] = {}
     for name in _names(rows):
         values = [row.get(name) for row in rows]
@@ -277,7 +266,6 @@ def _columns(rows: Sequence[Mapping[str, Any]]) -> dict[str, NDArray[Any]]:
 
 
 def _csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Rows as a CSV table; what is not known stays empty."""
     names = _names(rows)
     return csv_text(names, mapping_rows(names, rows))
 

@@ -1,9 +1,8 @@
-"""Two conditions compared: effect sizes with confidence intervals, and permutation tests that allow for many looks.
+"""Two conditions compared: effect sizes with confidence intervals, and permutation tests corrected for multiple values.
 
-A measure, a curve over the stance and a map of the sole are all (samples, values). Each value has a t statistic. How
-large the largest of all values' |t| is by chance, and how large the largest cluster of neighbouring values beyond a
-threshold, is found by permuting the labels: of independent samples who belongs to which condition, of pairs the sign of
-each difference (Nichols & Holmes 2002, Hum. Brain Mapp. 15:1; Maris & Oostenveld 2007, J. Neurosci. Methods 164:177).
+Each value of (samples, values) has a t statistic. The largest |t|, and the largest cluster of neighbouring values
+beyond a threshold, are compared with those of permuted labels, of pairs with permuted signs (Nichols & Holmes 2002,
+Hum. Brain Mapp. 15:1; Maris & Oostenveld 2007, J. Neurosci. Methods 164:177).
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ _CONFIDENCE = 0.95
 
 @dataclass(frozen=True)
 class Effect:
-    """How a measure differs between conditions A and B.
+    """Difference of a measure between conditions A and B.
 
     Attributes:
         paired: Whether the same participants were measured in both.
@@ -43,8 +42,7 @@ class Effect:
         low: Lower end of the difference's 95 % confidence interval.
         high: Its upper end.
         effect_size: Hedges' g: the difference over the pooled standard deviation, corrected for few samples; NaN
-        without
-            spread.
+            without spread.
         effect_low: Lower end of its 95 % confidence interval.
         effect_high: Its upper end.
         p: Probability of such a |t| by chance, by permutation.
@@ -73,13 +71,11 @@ class PermutationTest:
     Attributes:
         t: t statistic (k,) of each value, B less A; 0 where nothing varies.
         p: Probability (k,) of each |t| by chance, looked at alone.
-        p_all: Probability (k,) that the largest |t| of all values is as large by chance: below 0.05 a value differs,
-        however
-            many were looked at.
+        p_all: Probability (k,) that the largest |t| of all values is as large by chance.
         threshold: |t| that the largest of all exceeds in 5 % of the permutations.
-        clusters: Number (k,) of the cluster that each value is in, from 1 on; 0 for none.
+        clusters: Number (k,) of the cluster of each value, from 1 on; 0 for none.
         cluster_p: Probability of each cluster's mass by chance of the largest one.
-        permutations: How many were looked at, the observed labels among them.
+        permutations: Their number, the observed labels among them.
     """
 
     t: NDArray[np.float64]
@@ -92,7 +88,7 @@ class PermutationTest:
 
     @property
     def significant(self) -> NDArray[np.bool_]:
-        """Which values (k,) are in a cluster whose mass 5 % of the permutations reach or fewer."""
+        """Which values (k,) are in a cluster with p at most 0.05."""
         kept = [number for number, p in enumerate(self.cluster_p, 1) if p <= 0.05]
         return np.isin(self.clusters, kept)
 
@@ -136,11 +132,11 @@ def student_quantile(probability: float, freedom: float) -> float:
 
 
 def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: float, p_all: float) -> Effect:
-    """How one measure differs.
+    """Returns the effect of one measure.
 
     The interval of the difference is Student's (Welch's of independent samples), that of the effect size normal with
     the variance of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5; of pairs with that of their
-    changes next to the pooled one, which it is where both conditions spread alike.
+    changes next to the pooled one.
 
     Args:
         a: Values (n,) in A, two or more.
@@ -148,9 +144,6 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
         paired: Whether they are pairs.
         p: Its probability in a permutation test of it alone.
         p_all: That among all measures.
-
-    Returns:
-        The effect; its size is NaN where the participants do not differ from each other, so that nothing measures it.
 
     Example:
         >>> effect = effect_of(np.array([1.0, 2.0, 3.0]), np.array([2.0, 3.0, 4.0]), False, 0.4, 0.4)
@@ -205,17 +198,14 @@ def permutation_test(
     neighbours: Sequence[Sequence[int]] | None = None,
     permutations: int = PERMUTATIONS,
 ) -> PermutationTest:
-    """Where two conditions differ, allowing for all values that are looked at.
+    """Returns where two conditions differ, corrected for all values.
 
     Args:
         a: Samples (n, k) of A, two or more.
         b: Samples (m, k) of B; of pairs in the same order.
         paired: Whether they are pairs.
         neighbours: Neighbours of each value, which clusters are made of; each value is one by itself where None.
-        permutations: Permutations that are drawn where there are more; all of them where there are fewer.
-
-    Returns:
-        The test.
+        permutations: Permutations that are drawn where there are more.
 
     Example:
         >>> random = np.random.default_rng(0)
@@ -249,7 +239,6 @@ def permutation_test(
 
 
 def _first(n: int, total: int) -> NDArray[np.float64]:
-    """1 for the first n of some samples, 0 for the others."""
     return (np.arange(total) < n).astype(float)
 
 

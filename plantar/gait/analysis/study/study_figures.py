@@ -1,4 +1,4 @@
-"""Figures of a study, ready for a paper: effect sizes, mean curves and maps, with where they differ."""
+"""Figures of a study: effect sizes, mean curves and maps, with where they differ."""
 
 from __future__ import annotations
 
@@ -19,11 +19,7 @@ _A, _B, _FOUND = COLOURS["left"], COLOURS["right"], "#f2c14e"
 
 
 def study_figures(comparisons: Sequence[Comparison]) -> list[tuple[str, Any, str]]:
-    """The figures of each comparison.
-
-    Returns:
-        Name, figure (None for nothing to draw) and caption of each.
-    """
+    """Name, figure (None for nothing to draw) and caption of each figure of the comparisons."""
     out: list[tuple[str, Any, str]] = []
     for number, one in enumerate(comparisons, 1):
         end = "" if len(comparisons) == 1 else f"-{number}"
@@ -59,7 +55,6 @@ def study_figures(comparisons: Sequence[Comparison]) -> list[tuple[str, Any, str
 
 
 def _effects(one: Comparison) -> Any | None:
-    """Effect sizes of all measures with their intervals."""
     known = [(key, e) for key, e in one.effects.items() if np.isfinite(e.effect_size)]
     if not known:
         return None
@@ -77,7 +72,6 @@ def _effects(one: Comparison) -> Any | None:
 
 
 def _curves(one: Comparison) -> Any | None:
-    """Mean curves with bands, and the clusters in which they differ."""
     if one.curves is None or one.curve_test is None:
         return None
     figure, axes = new_figure(7.0, 3.8)
@@ -101,7 +95,6 @@ def _curves(one: Comparison) -> Any | None:
 
 
 def _maps(one: Comparison) -> Any | None:
-    """Mean maps of both conditions on one scale, and their difference with the clusters that differ."""
     if one.maps is None or one.map_test is None or one.places is None:
         return None
     raw = one.curve_unit == "counts"

@@ -1,4 +1,4 @@
-"""The page of a study: what was measured, how conditions differ, where curves and maps differ, what to look at."""
+"""The page of a study: its recordings, differences between conditions, and outliers."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def study_page(
     """The page as text.
 
     Args:
-        summary: What `Study.summary` gives.
+        summary: Result of `Study.summary`.
         results: The recordings.
         comparisons: Every two conditions.
         figures: PNG files to embed, with captions.
@@ -55,7 +55,6 @@ def study_page(
 
 
 def _summary(summary: Mapping[str, Any], comparisons: Sequence[Comparison]) -> str:
-    """Tiles, and one sentence a comparison."""
     tiles = (
         ("Recordings measured", f"{summary['measured']} of {summary['recordings']}"),
         ("Participants", str(summary["participants"])),
@@ -72,7 +71,7 @@ def _summary(summary: Mapping[str, Any], comparisons: Sequence[Comparison]) -> s
 
 
 def _sentence(one: Comparison) -> str:
-    """What a comparison found, in words."""
+    """A comparison's result in words."""
     if one.note:
         return f"{one.a} and {one.b} are not compared: {one.note}."
     sizes = {key: e.effect_size if math.isfinite(e.effect_size) else None for key, e in one.effects.items()}
@@ -87,13 +86,11 @@ def _sentence(one: Comparison) -> str:
 
 
 def _title(key: str) -> tuple[str, str, float]:
-    """Title, unit and factor of a measure."""
     measure = MEASURES.get(key)
     return full_title(key), measure.unit if measure else "", measure.factor if measure else 1.0
 
 
 def _comparison(one: Comparison) -> str:
-    """The table of effects."""
     if one.note:
         return f"<p>{html.escape(one.note[0].upper() + one.note[1:])}.</p>"
     rows = [row(titled(*_title(key)[:2]), _cells(effect, _title(key)[2])) for key, effect in one.effects.items()]
@@ -132,7 +129,6 @@ def _probability(p: float) -> str:
 
 
 def _clusters(one: Comparison) -> str:
-    """Where curves and maps differ, in words."""
     lines = []
     if one.curve_test is not None:
         for n, p in enumerate(one.curve_test.cluster_p, 1):
@@ -150,7 +146,6 @@ def _clusters(one: Comparison) -> str:
 
 
 def _look(summary: Mapping[str, Any]) -> str:
-    """Recordings that failed and participants far from the others."""
     errors = [f"{file}: {why}" for file, why in summary["errors"].items()]
     parts = [f"<h3>Not measured</h3>{warning_list(errors)}" if errors else "<p>Every recording was measured.</p>"]
     rows = [
@@ -175,7 +170,6 @@ def _look(summary: Mapping[str, Any]) -> str:
 
 
 def _recordings(results: Sequence[RecordingResult]) -> str:
-    """A row a recording."""
     rows = []
     for result in results[:_MOST]:
         counts = {side: int(foot["steps"]) for side, foot in result.feet.items()}
