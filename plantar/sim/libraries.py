@@ -1,4 +1,4 @@
-"""Which libraries every module of the simulator needs; they are its extra, and nothing is loaded here."""
+"""The simulator's libraries, which are its extra; none is loaded here."""
 
 from __future__ import annotations
 

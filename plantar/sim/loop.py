@@ -28,12 +28,12 @@ _LONGEST = 5  # times its first duration, after which a run whose end is put off
 
 @dataclass(frozen=True)
 class Result:
-    """What the loop of a run leaves behind.
+    """What the loop of a run leaves.
 
     Attributes:
         ticks_us: Wall time of each control tick in us.
-        wall_time: Wall time of the run in s.
-        overrun: Time in s at which the run was cut off, and its end in s as planned at first; None for no cut.
+        wall_time: Of the run in s.
+        overrun: Time in s at which the run was cut off, and its first planned end; or None.
     """
 
     ticks_us: list[float]
@@ -45,7 +45,7 @@ class Run(ABC):
     """A scene that is built and ready to run.
 
     Attributes:
-        seed: Seed of sensor noise and of what the scene leaves to chance.
+        seed: Of sensor noise and of what the scene leaves open.
         periods: Physics step and control period in s.
         skipped: How often what was not computed.
     """
@@ -57,7 +57,7 @@ class Run(ABC):
     @property
     @abstractmethod
     def end(self) -> float:
-        """Simulated time in s at which the run is over, as planned now."""
+        """Simulated time in s of the end, as planned now."""
 
     @property
     @abstractmethod
@@ -74,14 +74,14 @@ class Run(ABC):
 
     @abstractmethod
     def advance(self) -> None:
-        """One physics step with what drives and disturbs the robot, and the judge's look at it."""
+        """One physics step with drives, disturbances, and the judge."""
 
     def after_tick(self) -> None:  # noqa: B027
-        """What follows the physics step that began with a control tick."""
+        """Work after the physics step that began with a control tick."""
 
     @abstractmethod
     def state_text(self) -> str:
-        """How far the run is, for the progress bar."""
+        """Progress of the run, for the progress bar."""
 
     @abstractmethod
     def open_log(self, path: Path, files: ExitStack) -> None:
@@ -93,11 +93,11 @@ class Run(ABC):
 
     @abstractmethod
     def summary(self, result: Result) -> dict[str, Any]:
-        """The run's summary after the loop has left its `result`, as `plantar sim --json` prints it."""
+        """The run's summary from the loop's `result`, as `plantar sim --json` prints it."""
 
     @abstractmethod
     def plot(self, folder: Path, recording: Path) -> Sequence[Path]:
-        """Draw the figures of a run that has ended into `folder`, from its `recording`; returns their files."""
+        """Draw the figures of a finished run into `folder` from its `recording`; returns their files."""
 
     def run(
         self,
@@ -109,7 +109,7 @@ class Run(ABC):
         """Run to the end or to the fall.
 
         Args:
-            record: MCAP file to write; a run that is killed leaves what it had flushed.
+            record: MCAP file to write; a killed run leaves what was flushed.
             video: MP4 file to write, in real time.
             progress: Called about ten times a second with the fraction done and a text.
 
@@ -130,13 +130,13 @@ class Run(ABC):
         """Run, record, film and draw; all files appear whole, or none does.
 
         Args:
-            record: File of the recording, .mcap; None leaves none behind.
-            video: File of the video, .mp4; None makes none.
-            plot: Folder of the figures; None draws none.
+            record: Recording, .mcap, or None.
+            video: Video, .mp4, or None.
+            plot: Folder of the figures, or None.
             progress: Called with the fraction done and a text.
 
         Returns:
-            The summary, with the paths of the figures under "figures" where they were drawn.
+            The summary, with the paths of the figures under "figures".
 
         Raises:
             SceneError: If the scene cannot be run.
@@ -187,17 +187,14 @@ class Run(ABC):
     def common(
         self, result: Result, names: tuple[str, str], reasons: list[dict[str, Any]], fell: bool, time: float
     ) -> dict[str, Any]:
-        """The part of a summary that all kinds of runs share.
+        """Returns the part of a summary that all kinds of runs share.
 
         Args:
-            result: What the loop left behind.
-            names: Names of scene and robot.
+            result: What the loop left.
+            names: Of scene and robot.
             reasons: Every criterion that failed.
             fell: Whether the robot fell.
             time: Simulated time in s.
-
-        Returns:
-            The values by name.
         """
         ticks = np.array(result.ticks_us or [0.0])
         return {

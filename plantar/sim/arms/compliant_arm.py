@@ -1,8 +1,4 @@
-"""A walking robot's arm that yields to contact, by whole-body tasks on its joints.
-
-Its controller knows the arm's joints and skin, not the walk: it assumes an upright base. The walking controller gets
-the arm's joint angles, and so the places of its taxels.
-"""
+"""A walking robot's arm that yields to contact, by whole-body tasks on its joints."""
 
 from __future__ import annotations
 
@@ -30,21 +26,21 @@ _DAMPED = 0.1  # s: damping there over its stiffness
 
 
 class CompliantArm:
-    """The arm in a world: encoders, tasks and motors.
+    """The arm in a world: encoders, motors and tasks. It assumes an upright base and does not know the walk.
 
-    The tasks are those of the companion's pressed body (`plantar.sim.companion.standing`): joints keep off the ends of
-    their range; below that a posture holds them by springs, and the skin's forces move them (A 13-14, 18).
+    Joints keep off the ends of their range; below that springs hold a posture and the skin's forces move it (A 13-14,
+    18).
 
     Args:
-        skin: All the robot's skin, that of the arm among it; None for a robot without.
-        settings: Its settings, for the same robot.
-        world: The world, with the arm in it.
+        skin: The robot's skin, or None.
+        settings: Settings of the tasks, for the same robot.
+        world: The world with the arm in it.
         period: Control period in s.
-        encoder_noise: Noise (1 sigma) in rad of the joint angles.
+        encoder_noise: Standard deviation in rad.
 
     Attributes:
         angles: Joint angles (k,) in rad as last measured.
-        posture: Those that it is drawn to.
+        posture: Joint angles (k,) in rad of the springs at rest.
     """
 
     def __init__(
@@ -82,7 +78,7 @@ class CompliantArm:
 
     @property
     def true_angles(self) -> NDArray[np.float64]:
-        """Joint angles (k,) in rad as they are; for who judges."""
+        """True joint angles (k,) in rad, for the judge."""
         return np.array(self._world.data.qpos[self._places])
 
     def place(self) -> None:
@@ -94,7 +90,7 @@ class CompliantArm:
         """Read the encoders.
 
         Returns:
-            Origin (3,) in m and rotation (3, 3) of each link that has skin, in the base frame, by the link's name.
+            Origin (3,) in m and rotation (3, 3) in the base frame of each link with skin, by its name.
         """
         data, rng, k = self._world.data, self._rng, len(self._places)
         self.angles = data.qpos[self._places] + self._encoder_noise * rng.standard_normal(k)
@@ -103,16 +99,12 @@ class CompliantArm:
         return {link: self._robot.pose(link) for link in self._links}
 
     def hold(self) -> None:
-        """Read the encoders and hold the posture, without skin: while the robot is put on its feet."""
+        """Read the encoders and hold the posture, without skin."""
         self.read()
         self.step(None)
 
     def step(self, measured: SkinReading | None) -> None:
-        """Set the motors' torques for a control period, by the last reading of the encoders.
-
-        Args:
-            measured: What the skin states; None where no one reads it.
-        """
+        """Set the motors' torques for a control period from the last encoder reading and a skin reading `measured`."""
         external = None
         if measured is not None and self._skin is not None:
             self._force = self._force + self._share * (np.nan_to_num(measured.force) - self._force)
@@ -122,7 +114,6 @@ class CompliantArm:
         self._world.data.ctrl[self._motors] = np.clip(torque, -self._efforts, self._efforts)
 
     def _external(self, skin: BodySkin, measured: SkinReading) -> NDArray[np.float64] | None:
-        """Generalized force (k,) of what the arm's skin measures; None for nothing."""
         total: NDArray[np.float64] | None = None
         for link, wrench, _ in link_wrenches(skin, measured.force, self._own & (measured.force >= skin.thresholds)):
             turned = (wrench.reshape(2, 3) @ self._robot.pose(link)[1].T).ravel()
@@ -132,7 +123,6 @@ class CompliantArm:
 
 
 def _tasks(worn: WornArm, skin: BodySkin | None, settings: ArmSettings) -> TaskStack:
-    """The arm's tasks in their order."""
     low, high = worn.ranges
     stiff = _AT_END * worn.efforts / _MARGIN
     ends = JointRange(low, high, _MARGIN, stiff, _DAMPED * stiff)

@@ -1,8 +1,4 @@
-"""An arm that a walking robot wears: links, joints, motors and skin of a machine's arm, taken out of its chest.
-
-The arm of a machine with the same base replaces the welded one; mass and center of mass of the chest change so that in
-the machine's posture the robot's are the same as before.
-"""
+"""An arm that a walking robot wears: taken from a machine with the same base and out of the robot's chest."""
 
 from __future__ import annotations
 
@@ -32,18 +28,17 @@ class WornArm:
     """One arm of a robot, to be added to its model (`plantar.sim.model.world.Visitor`).
 
     Args:
-        posture: Angle in degrees of each joint from shoulder to wrist; empty for those of the machine's file.
+        posture: Angle in degrees of each joint from shoulder to wrist; empty: those of the machine's file.
 
     Attributes:
-        joints: What each joint can do, by its name, from shoulder to wrist.
-        links: Its links from shoulder to hand.
+        joints: What each joint can do, by name, from shoulder to wrist.
+        links: Names from shoulder to hand.
         posture: Joint angles (k,) in rad.
-        model: MjModel of the arm alone, on a base that stands in the world's origin, upright.
+        model: MjModel of the arm alone, on an upright base in the world's origin.
 
     Raises:
         RobotError: If the machine is unknown or not valid, or lacks the arm.
-        SceneError: If the robot has no such arm, or the posture another number of angles, or one that a joint cannot
-            take.
+        SceneError: If the robot has no such arm, or the joints cannot take the posture.
     """
 
     def __init__(self, robot: Robot, side: Side, posture: Sequence[float] = ()) -> None:
@@ -69,7 +64,6 @@ class WornArm:
         self.skin: BodySkin = skin_from_tables(self.model, patches, f"machine '{self._machine.name}'")
 
     def _checked(self, posture: Sequence[float]) -> NDArray[np.float64]:
-        """Angles (k,) in rad of a posture in degrees that the joints can take."""
         names = [name.removeprefix(_PREFIX) for name in self.joints]
         degrees = numbers(list(posture), "[arm] posture", SceneError)
         if degrees.shape != (len(names),):
@@ -80,10 +74,10 @@ class WornArm:
         return np.asarray(np.radians(degrees))
 
     def surface(self, patch: str) -> tuple[str, NDArray[np.float64], float]:
-        """The part of a link that a patch of skin is wrapped around the link's z axis on.
+        """The part of a link that carries a patch of skin wrapped around its z axis.
 
         Returns:
-            The link, the middle (3,) of the patch in the link's frame in m, and its largest radius in m.
+            The link, the patch's middle (3,) in the link's frame in m, and its largest radius in m.
 
         Raises:
             InputError: If there is no such patch.
@@ -105,13 +99,10 @@ class WornArm:
         return low, high
 
     def add_to(self, spec: Any) -> None:
-        """Take the arm out of the chest, and hang it on the base, after any hangs there already.
-
-        Args:
-            spec: The robot's editable `mujoco.MjSpec`, or that of a world with it.
+        """Take the arm out of the chest of an editable `spec` and hang it on the base.
 
         Raises:
-            RobotError: If the robot has no such chest, or that weighs less than the arm.
+            RobotError: If the robot has no such chest, or it weighs less than the arm.
         """
         chest, base = spec.body(self._chest), spec.body(self._torso)
         while base.parent is not None and base.parent.name != "world":
@@ -125,7 +116,6 @@ class WornArm:
         self._hang_on(base, spec)
 
     def _links_of(self, whole: Any) -> tuple[str, ...]:
-        """The root and all that hangs on it."""
         names = [whole.body(i).name for i in range(whole.nbody)]
         if self._root not in names:
             raise RobotError(f"[arms] {self.side} is '{self._root}'; machine '{self._machine.name}' has no such link")
@@ -136,7 +126,7 @@ class WornArm:
         return tuple(names[i] for i in sorted(held))
 
     def _hang_on(self, base: Any, spec: Any) -> None:
-        """Attach the machine's arm to a body that stands for the machine's base, with a motor a joint."""
+        """Attach the machine's arm to a body in place of the machine's base."""
         arm = self._machine.spec()
         for motor in list(arm.actuators):
             arm.delete(motor)
@@ -151,14 +141,13 @@ class WornArm:
             motor.ctrlrange = [-joint.effort, joint.effort]
 
     def _alone(self) -> Any:
-        """The arm alone on a base at the world's origin."""
         spec = mujoco.MjSpec()
         spec.option.gravity = self._machine.spec().option.gravity
         self._hang_on(spec.worldbody.add_body(name="base of the arm"), spec)
         return spec.compile()
 
     def _lighten(self, chest: Any, base: str) -> None:
-        """Take the arm in the machine's posture out of the chest's mass and centre; its inertia goes with its mass."""
+        """Take the arm in the machine's posture out of the chest's mass, centre and inertia."""
         data = mujoco.MjData(self.model)
         data.qpos[:] = self._resting
         mujoco.mj_kinematics(self.model, data)
@@ -175,7 +164,7 @@ class WornArm:
 
 
 def _shoulder(whole: Any, root: str, base: str) -> NDArray[np.float64]:
-    """Place (3,) in m of an arm's first link on its machine's base while all joints are at 0."""
+    """Place (3,) in m of an arm's first link on its base with all joints at 0."""
     data = mujoco.MjData(whole)
     mujoco.mj_kinematics(whole, data)
     turn = data.body(base).xmat.reshape(3, 3)
@@ -183,7 +172,7 @@ def _shoulder(whole: Any, root: str, base: str) -> NDArray[np.float64]:
 
 
 def _place_on_base(chest: Any, base: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Place (3,) in m and rotation (3, 3) of a body on the base that it is welded to."""
+    """Place (3,) in m and rotation (3, 3) of a body that is welded to the base."""
     place, turn = np.zeros(3), np.eye(3)
     body = chest
     while body is not None and body.name != base:

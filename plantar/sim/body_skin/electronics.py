@@ -15,18 +15,18 @@ __all__ = ["SkinElectronics", "SkinElectronicsSettings"]
 
 
 class SkinElectronicsSettings(Settings):
-    """Quality of a skin's readings. Standard deviations (1 sigma) of white noise.
+    """Quality of a skin's readings; white noise (1 sigma).
 
-    Force and proximity are normalised signals that saturate, as A has them: f / (f + half_force) and
-    half_distance / (d + half_distance). Who reads them knows the nominal curve alone.
+    Force and proximity are normalised signals that saturate, as in A: f / (f + half_force) and half_distance / (d +
+    half_distance). Readers know the nominal curve alone.
 
     Attributes:
         rate: Sampling rate in Hz.
-        delay_periods: Whole sampling periods between taking a sample and delivering it.
-        half_force: Force in N at which a taxel's normalised signal is one half.
-        half_distance: Distance in m at which its normalised proximity is one half.
+        delay_periods: Whole sampling periods between sample and delivery.
+        half_force: Force in N at which the signal is one half.
+        half_distance: Distance in m at which the signal is one half.
         noise: Of the normalised signals.
-        gain_error: Of each taxel's half_force and half_distance, as a share; the seed draws it once.
+        gain_error: Of each taxel's half_force and half_distance, as a share; drawn once.
         bits: Resolution of the normalised signals.
         dead_taxels: Share of taxels that read NaN; the seed chooses which.
     """
@@ -43,11 +43,7 @@ class SkinElectronicsSettings(Settings):
 
 
 class SkinElectronics:
-    """Samples the truth and delivers readings.
-
-    Args:
-        seed: Of noise, gain errors and dead taxels.
-    """
+    """Samples the truth and delivers readings; `seed` draws noise, gain errors and dead taxels."""
 
     def __init__(self, skin: BodySkin, settings: SkinElectronicsSettings, seed: int) -> None:
         self.settings = settings
@@ -72,10 +68,10 @@ class SkinElectronics:
         """The reading that is delivered at a time; a new sample is taken where one is due.
 
         Args:
-            time: Time in s.
+            time: In s.
             force: True normal force (N,) on each taxel in N.
-            distance: True distance (N,) in m, inf for nothing in range, negative for what is pressed in.
-            temperature: True temperature (N,) in degC; None for a skin that does not measure it.
+            distance: True distance (N,) in m, inf out of range, negative where pressed in.
+            temperature: True temperature (N,) in degC, or None.
 
         Returns:
             The latest sample that is old enough; until one is, the first.

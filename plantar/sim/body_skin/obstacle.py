@@ -23,7 +23,7 @@ class Obstacle:
     """A geom that skin measures. Its velocity comes from its motion, since a mocap body has none.
 
     Attributes:
-        name: Name of the geom.
+        name: Of the geom.
         geom: Index of the geom.
         body: Index of its body.
 
@@ -54,16 +54,16 @@ class Obstacle:
         before: tuple[NDArray[np.float64], NDArray[np.float64]],
         period: float,
     ) -> NDArray[np.float64]:
-        """How fast its points move, by where it is and where it was.
+        """Velocity of its points, by where it is and where it was.
 
         Args:
-            points: Its points (m, 3) in the world in m.
+            points: Points (m, 3) in the world in m.
             now: Its middle (3,) in m and its rotation (9,) to the world, row by row.
-            before: Both a while ago.
-            period: Length of that while in s; 0 where its velocity should count as 0.
+            before: Both, `period` earlier.
+            period: In s; 0 for zero velocity.
 
         Returns:
-            Their velocity (m, 3) in m/s.
+            Velocity (m, 3) in m/s.
         """
         if not period or ((now[0] == before[0]).all() and (now[1] == before[1]).all()):
             return np.zeros_like(points)
@@ -78,12 +78,12 @@ class Obstacle:
 
         Args:
             data: The MjData.
-            starts: Where the rays begin (n, 3) in the world in m.
+            starts: Starts of the rays (n, 3) in the world in m.
             ways: Unit vectors (n, 3) along them.
             reach: Length in m beyond which a meeting need not be found.
 
         Returns:
-            Lengths (n,) in m; -1 for a ray that meets nothing.
+            Lengths (n,) in m; -1 for a ray that misses.
         """
         found = np.empty(len(starts))
         if self._mesh:

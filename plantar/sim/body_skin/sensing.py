@@ -1,8 +1,8 @@
 """Simulated skin on any link: what obstacles press on each taxel, and how the skin presses back.
 
-Skin is an elastic foundation. A ray of each taxel, outwards along its normal, measures how deep an obstacle has sunk
-in; pressure follows from depth and rate, friction from the sliding velocity, and both act on link and obstacle.
-MuJoCo's own contacts between them are off.
+Skin is an elastic foundation. A ray of each taxel along its normal measures how deep an obstacle has sunk in; pressure
+follows from depth and rate, friction from the sliding velocity, and both act on link and obstacle, whose MuJoCo
+contacts are off.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ class SkinSensing(SkinElectronicsSettings):
     """What the skin is made of, and how well it measures.
 
     Attributes:
-        stiffness: Of the foundation in Pa/m; the default is foam of 100 kPa, 10 mm thick.
-        damping: Of the foundation in Pa s/m.
+        stiffness: In Pa/m; the default is foam of 100 kPa, 10 mm thick.
+        damping: In Pa s/m.
         friction: Coulomb's coefficient between skin and obstacles.
         slip_speed: Sliding velocity in m/s at which friction has reached 71 % of Coulomb's.
-        everything: Cast all rays always, for comparison; no reading changes by it.
+        everything: Cast all rays always, for comparison; readings stay the same.
     """
 
     stiffness: float = number(1e7, "Pa/m", 1e4, 1e10)
@@ -49,7 +49,7 @@ class SkinSensing(SkinElectronicsSettings):
 
 
 class _Patch(NamedTuple):
-    """A patch that is ready to cast rays: its taxels, its link, and its rays in the link's frame."""
+    """A patch ready to cast rays: its taxels, its link, and its rays in the link's frame."""
 
     taxels: slice
     link: int
@@ -65,20 +65,20 @@ class SkinSensor:
     """The skin of a machine or robot in a world with obstacles.
 
     Args:
-        model: The MjModel of the world; contacts between skinned links and obstacles are switched off in it.
+        model: The MjModel of the world, in which contacts between skinned links and obstacles are switched off.
         skin: The skin, on links of the model.
         settings: What the skin is made of and how well it measures.
         seed: Of noise, gain errors and dead taxels.
         obstacles: Ids of the geoms that it measures; None for all of `OBSTACLE_GROUP`.
 
     Attributes:
-        force: True normal force (N,) on each taxel in N at the last `apply`.
-        distance: True distance (N,) from each taxel to what it sees in m; inf for nothing, negative where pressed in.
+        force: True normal force (N,) in N at the last `apply`.
+        distance: True distance (N,) in m; inf out of range, negative where pressed in.
         wrenches: True wrench (L, 6) on each of `skin.links` about the link's origin, in the world frame.
-        on_obstacles: True wrench (6,) on each obstacle about its geom's middle, by the geom's name, in the world frame.
-        temperature: True temperature (N,) of each taxel in degC, which a model of heat sets; None without one.
+        on_obstacles: True wrench (6,) on each obstacle about its geom's middle in the world frame, by name.
+        temperature: True temperature (N,) in degC, set by a model of heat; None without.
         cast: Taxels, summed over the steps, for which a ray was cast.
-        skipped: Taxels for which none was.
+        skipped: Those without.
 
     Raises:
         RobotError: If the model lacks a link of the skin.
@@ -114,10 +114,9 @@ class SkinSensor:
         self._electronics = SkinElectronics(skin, settings, seed)
 
     def apply(self, data: Any) -> None:
-        """Feel the obstacles and press back: once a physics step, after `mj_step1` (or `mj_forward`).
+        """Press obstacles and links apart: once a physics step, after `mj_step1` or `mj_forward`.
 
-        It sets `data.xfrc_applied` of every skinned link and every obstacle; who else pushes these uses
-        `data.qfrc_applied`.
+        Sets `data.xfrc_applied` of every skinned link and obstacle; other pushes use `data.qfrc_applied`.
         """
         period = float(data.time) - self._time
         self._time = float(data.time)
@@ -135,7 +134,7 @@ class SkinSensor:
         self.skipped += len(self.skin) - looked
 
     def read(self, data: Any) -> SkinReading:
-        """What the skin states now, of the last `apply`."""
+        """The reading of the last `apply`."""
         return self._electronics.read(float(data.time), self.force, self.distance, self.temperature)
 
     def patch_force(self, patch: str) -> float:
@@ -198,9 +197,7 @@ class SkinSensor:
 
 
 class _BroadPhase:
-    """Which patches are near to which obstacles: the sphere about a patch's rays against the box about an obstacle, and
-    where these meet, the box about the rays against the sphere about the obstacle.
-    """
+    """Which patches are near to which obstacles: each one's sphere against the other's box."""
 
     def __init__(self, model: Any, patches: list[_Patch], geoms: list[int]) -> None:
         self.everything = [(i, list(range(len(geoms)))) for i in range(len(patches))]
@@ -268,7 +265,7 @@ def _body(model: Any, link: str) -> int:
 
 
 def _separate(model: Any, skinned: list[int], obstacles: list[int]) -> None:
-    """Let obstacles touch each other and everything else as before, but not links with skin."""
+    """Switch off contacts between obstacles and links with skin alone."""
     touchable = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
     solid = [g for g in obstacles if touchable[g]]
     others = touchable & ~np.isin(model.geom_bodyid, skinned)

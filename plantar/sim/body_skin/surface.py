@@ -1,8 +1,7 @@
-"""Patches of skin on a model's links: a lattice of taxels that is laid on the surface of a link's geoms or meshes.
+"""Patches of skin on a model's links: a lattice of taxels laid on the surface of a link's geoms or meshes.
 
-A patch has a frame on its link whose z axis points into the body. A flat patch's lattice is shot along z; one that is
-wrapped goes around the frame's x axis, and is shot towards it. Each taxel then sits where it met the surface, turned
-to the surface's normal.
+A patch's frame has its z axis into the body. A flat lattice is shot along z; a wrapped one goes around the x axis, and
+is shot towards it. Each taxel sits where it met the surface, turned to the normal.
 """
 
 from __future__ import annotations
@@ -34,17 +33,16 @@ class PatchShape(Settings):
     """One `[[patch]]` of a machine's file. Lengths in m.
 
     Attributes:
-        name: Name of the patch.
-        link: Link that it is mounted on.
-        position: Origin of the patch's frame in the link's frame in m.
-        rotation: Turn of the patch's frame in the link's frame: roll, pitch, yaw in degrees; its z axis points into
-            the body.
-        size: Extent of the lattice along x and y in m; with wrap, y goes around (0: all around).
-        wrap: Radius in m at which the lattice goes around the frame's x axis; 0 for a flat lattice.
+        name: Of the patch.
+        link: Link that carries it.
+        position: Origin of the patch's frame in the link's frame.
+        rotation: Roll, pitch, yaw in degrees of the patch's frame in the link's frame.
+        size: Extent of the lattice along x and y; with wrap, y goes around (0: all around).
+        wrap: Radius of the lattice around the frame's x axis; 0 for a flat lattice.
         cell_area: Area of a taxel in m^2.
         taxels: Most taxels, those nearest to the middle; 0 for as many as fit.
-        reach: How far in m from the frame's plane, or outside the radius, rays begin.
-        range: Range of the proximity sensors in m; 0 for a patch without.
+        reach: How far from the frame's plane, or outside the radius, rays begin.
+        range: Of the proximity sensors; 0 without.
         threshold: Force in N from which a taxel is active.
     """
 
@@ -65,7 +63,7 @@ def skin_from_tables(model: Any, patches: Iterable[Mapping[str, Any]], where: st
     """Lay the patches of a machine's file on the model's links.
 
     Args:
-        model: The MjModel; it may hold obstacles, whose geoms carry no skin.
+        model: The MjModel; obstacles in it carry no skin.
         patches: The `[[patch]]` tables.
         where: Name of the file, for messages.
 
@@ -73,7 +71,7 @@ def skin_from_tables(model: Any, patches: Iterable[Mapping[str, Any]], where: st
         The skin.
 
     Raises:
-        RobotError: If a value is missing or not allowed or a link unknown; the message names the patch.
+        RobotError: If a value is missing or not allowed or a link unknown.
         LayoutError: If no taxel of a patch meets its link, or two patches have one name.
     """
     data = mujoco.MjData(model)
@@ -114,7 +112,7 @@ def _patch(model: Any, data: Any, shape: PatchShape, where: str) -> SkinPatch:
 
 
 def _rays(shape: PatchShape, where: str) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Begin (n, 3) and direction (n, 3) of the rays in the link's frame, and the patch's rotation (3, 3) to it."""
+    """Starts (n, 3) and directions (n, 3) of the rays in the link's frame, and the patch's rotation (3, 3) to it."""
     origin = _vector(shape.position, "position", 3, where)
     roll, pitch, yaw = np.radians(_vector(shape.rotation, "rotation", 3, where)).tolist()
     turn = rotation_from_angles(yaw, pitch, roll)
@@ -165,7 +163,7 @@ def _meet(
 
 
 def _frames(inward: NDArray[np.float64], forward: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotations (n, 3, 3) whose z is `inward` (n, 3) and whose x is as near to `forward` (3,) as that lets it be."""
+    """Rotations (n, 3, 3) with z along `inward` (n, 3) and x as near to `forward` (3,) as possible."""
     x = forward - (inward @ forward)[:, None] * inward
     lost = np.linalg.norm(x, axis=1) < 1e-6
     x[lost] = np.cross(inward[lost], [[0.3, 0.5, 0.8]])

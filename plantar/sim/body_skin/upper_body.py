@@ -1,7 +1,7 @@
-"""Skin around the upper body of a robot that walks: a box of taxels about all that moves with its base.
+"""Skin around the upper body of a robot that walks: a box of taxels about all that is welded to its base.
 
-The upper body is welded to the base, so one link carries the skin. A force on a face of the box acts along its normal,
-so the wrench is that on the surface. Taxels have 691 mm^2 on H1, and are as many on any robot of its shape.
+A force on a face acts along its normal, so the wrench is that on the surface. Taxels have 691 mm^2 on H1, and are as
+many on any robot of its shape.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ def upper_body_skin(model: Any, base: int, *, leg: float, weight: float) -> Body
     Args:
         model: The MjModel of the robot alone.
         base: Id of the body that floats.
-        leg: Length of the robot's legs in m.
-        weight: Its weight in N.
+        leg: Length of the legs in m.
+        weight: In N.
 
     Returns:
-        The skin: a patch of each name of `FACES`, all on the base, in its frame.
+        The skin: a patch of each name of `FACES`, on the base, in its frame.
 
     Raises:
         RobotError: If what is welded to the base has no extent.
@@ -77,11 +77,7 @@ def upper_body_skin(model: Any, base: int, *, leg: float, weight: float) -> Body
 
 
 def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lowest and highest coordinates (3,) in the base frame of all shapes that are welded to the base.
-
-    A model without shapes there, as those that `plantar robot` keeps of a robot's file, counts with the boxes that have
-    the links' masses and inertias.
-    """
+    """Lowest and highest coordinates (3,) in the base frame of all welded shapes, or of the links' inertial boxes."""
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     turn, origin = data.xmat[base].reshape(3, 3), data.xpos[base]
@@ -97,7 +93,7 @@ def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.floa
 
 
 def _corners(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
-    """Points (n, 3) in the world whose box is a shape's: a mesh's vertices, else what a primitive reaches."""
+    """Points (n, 3) in the world whose box is a shape's."""
     rotation, place = data.geom_xmat[geom].reshape(3, 3), data.geom_xpos[geom]
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
         mesh = int(model.geom_dataid[geom])

@@ -1,4 +1,4 @@
-"""What is compared: ways to model a sole, and the contact parameters of its geoms."""
+"""Ways to model a sole, and the contact parameters of its geoms."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ CANDIDATES: tuple[Candidate, ...] = (
 
 
 class Contact(NamedTuple):
-    """Contact parameters of all geoms; the defaults are those recommended for a sole on stiff position servos."""
+    """Contact parameters of all geoms; by default those recommended on stiff position servos."""
 
     time_constant: float = 0.005
     damping_ratio: float = 1.0

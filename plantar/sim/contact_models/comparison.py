@@ -1,4 +1,4 @@
-"""Comparison of contact models on a test rig: a free body of 43 kg with one sole, pushed with known wrenches.
+"""Comparison of contact models on a free body of 43 kg with one sole, pushed with known wrenches.
 
 The truth is MuJoCo's own contact wrench of the same step, summed over all contacts of the sole.
 """
@@ -39,20 +39,19 @@ class ContactRow:
     """Figures of one contact model; mm, N, N m and us as named. inf: it toppled, or it did not tip over.
 
     Attributes:
-        name: Name of the candidate.
         contacts: Contacts in full-sole stance.
-        cop_median_mm: Centre of pressure of the taxels against the truth, full-sole stance, median over the loads.
+        cop_median_mm: Error of the taxels' centre of pressure in full-sole stance, median over the loads.
         cop_max_mm: The same, largest.
         force_max_N: Largest error of the normal force.
         moment_max_Nm: Largest error of (tx, ty).
-        edge_x_mm: True CoP at which the sole tips over forwards or backwards, less the true edge: negative tips early.
+        edge_x_mm: True CoP at which the sole tips over along x, less the true edge: negative tips early.
         edge_y_mm: The same sideways.
-        seen_x_mm: CoP that the taxels show at that instant, less the true edge.
+        seen_x_mm: CoP of the taxels at that instant, less the true edge.
         seen_y_mm: The same sideways.
-        beam_contact_ratio: Area of the hull of the contact points over the true contact area; mean over the beams.
-        beam_taxel_ratio: The same of the polygon of the active cells' corners.
+        beam_contact_ratio: Area of the contact points' hull over the true contact area; mean over the beams.
+        beam_taxel_ratio: The same of the active cells' corners.
         beam_wrong_cells: Active cells that do not touch the beam, over all beams.
-        beam_silent_cells: Cells that lie on the beam with a quarter of their area or more and are not active.
+        beam_silent_cells: Inactive cells with a quarter of their area or more on the beam.
         step_us: Median time of a physics step in full-sole stance.
         read_us: Median time of a taxel reading there.
     """
@@ -76,11 +75,11 @@ class ContactRow:
 
     @property
     def millisecond_us(self) -> float:
-        """Cost in us of a simulated ms: one physics step and a quarter of a reading (a skin of 250 Hz)."""
+        """Cost in us of a simulated ms: a physics step and a quarter of a reading (a skin of 250 Hz)."""
         return self.step_us + 0.25 * self.read_us
 
     def as_dict(self) -> dict[str, Any]:
-        """The row as plain numbers and text; None where the sole toppled or did not tip."""
+        """Plain numbers and text; None where the sole toppled or did not tip."""
         return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()}
 
 
@@ -100,13 +99,8 @@ class Rig:
         tangential: tuple[float, float] = (0.0, 0.0),
         twist: float = 0.0,
     ) -> None:
-        """Push so that a sole at rest has a given normal force and centre of pressure.
-
-        Args:
-            force: Normal force in N.
-            point: Where the ground carries it (2,) in the sole frame in m.
-            tangential: Horizontal push in N.
-            twist: Moment about z in N m.
+        """Push so that a sole at rest has a normal `force` in N, carried at a `point` (2,) in the sole frame in m,
+        under a `tangential` push in N and a `twist` in N m.
         """
         data = self.data
         at = data.site_xpos[self.sole.site]
@@ -177,13 +171,8 @@ def compare_contact_models(
 def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
     """Errors in full-sole stance: the CoP over the inner 70 % of the sole, 200-844 N, tangential loads and twist.
 
-    Args:
-        sole: The sole on flat ground.
-        layout: Its layout.
-        seeds: Random load cases at each centre of pressure.
-
-    Returns:
-        The fields of `ContactRow` that it measures.
+    Returns the fields of `ContactRow` that it measures, for a `sole` of a `layout` on flat ground, with `seeds` load
+    cases at each CoP.
     """
     middle, half = _rectangle(layout)
     targets = [middle + half * (x, y) for x in np.linspace(-INNER, INNER, 5) for y in np.linspace(-INNER, INNER, 5)]
@@ -214,7 +203,6 @@ def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
 
 
 def _standing(sole: Sole, layout: SoleLayout, load: float) -> Rig:
-    """A rig at rest with a load in N over the middle of its sole."""
     rig = Rig(sole, layout)
     rig.push(load, _rectangle(layout)[0])
     rig.step(100)
@@ -222,7 +210,7 @@ def _standing(sole: Sole, layout: SoleLayout, load: float) -> Rig:
 
 
 def _loaded(rig: Rig, target: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64] | None:
-    """True wrench (6,) under a random load with a given CoP (2,); None where the sole topples under it."""
+    """True wrench (6,) under a random load with a given CoP (2,); None where the sole topples."""
     load = float(rng.uniform(200.0, 844.0))
     angle = float(rng.uniform(0.0, 2.0 * math.pi))
     side = float(rng.uniform(0.0, 0.3)) * load
@@ -235,14 +223,9 @@ def _loaded(rig: Rig, target: NDArray[np.float64], rng: np.random.Generator) -> 
 
 
 def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
-    """Where the sole tips over: the load moves out at 40 mm/s until the foot tilts; the true CoP stops at the pivot.
+    """Where the sole tips over as the load moves out at 40 mm/s: the true CoP stops at the pivot.
 
-    Args:
-        sole: The sole on flat ground.
-        layout: Its layout.
-
-    Returns:
-        The fields of `ContactRow` that it measures.
+    Returns the fields of `ContactRow` that it measures, for a `sole` of a `layout` on flat ground.
     """
     out: dict[str, Any] = {}
     for name, direction in (("x", np.array([1.0, 0.0])), ("y", np.array([0.0, 1.0]))):
@@ -253,7 +236,7 @@ def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
 
 
 def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tuple[float, float]:
-    """How far beyond the true edge in mm the load gets in a direction before the sole tips, and the taxels show it."""
+    """Distance beyond the true edge in mm, in a direction, at which the sole tips, and at which the taxels show it."""
     middle, half_sizes = _rectangle(layout)
     half = float(half_sizes @ np.abs(direction))
     rig = _standing(sole, layout, _TIPPING_LOAD)
@@ -308,7 +291,7 @@ def _on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None)
 
 
 def _run_times(soles: Sequence[Sole], layout: SoleLayout, count: int = 300) -> list[dict[str, Any]]:
-    """Median times in us of a physics step and of a taxel reading in full-sole stance, taken in turns."""
+    """Median times in us of a physics step and of a taxel reading in full-sole stance."""
     middle, half = _rectangle(layout)
     rigs = [Rig(sole, layout) for sole in soles]
     for rig in rigs:
@@ -330,7 +313,7 @@ def _run_times(soles: Sequence[Sole], layout: SoleLayout, count: int = 300) -> l
 
 
 def _rectangle(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Middle (2,) and half sizes (2,) in m of the outline's bounding rectangle: the box sole."""
+    """Middle (2,) and half sizes (2,) in m of the outline's bounding rectangle."""
     low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
     return 0.5 * (low + high), 0.5 * (high - low)
 

@@ -45,10 +45,10 @@ class ParameterRow:
 
     Attributes:
         name: What differs from the recommended values.
-        penetration_mm: Depth of the sole in the ground under 844 N.
+        penetration_mm: Of the sole under 844 N.
         slip_mm_s: Creep under a horizontal push of half the friction limit.
         twist_deg_s: Creep about z under 5 N m at 422 N.
-        landing_N: Peak force of a foot of 3 kg that lands at 0.15 m/s with 40 kg above it on a stiff servo.
+        landing_N: Peak force of a foot of 3 kg that lands at 0.15 m/s with 40 kg on a stiff servo above it.
         rebounds: How often that foot leaves the ground again within 0.3 s.
         ripple_N: Standard deviation of the normal force in quiet stance.
         step_us: Median time of a physics step.
@@ -67,14 +67,8 @@ class ParameterRow:
 def study_contact_parameters(
     layout: SoleLayout, progress: Callable[[float, str], None] | None = None
 ) -> list[ParameterRow]:
-    """Measure the contact parameters in `PARAMETERS` on the box sole.
-
-    Args:
-        layout: The sole.
-        progress: Called with the fraction done and a text.
-
-    Returns:
-        A row a set of parameters.
+    """Returns a row for each of `PARAMETERS` on the box sole of a `layout`; `progress` gets the fraction done and a
+    text.
     """
     rows = []
     for i, (name, contact) in enumerate(PARAMETERS):
@@ -131,7 +125,7 @@ def _creep(rig: Rig, middle: Any, tangential: tuple[float, float], twist: float)
 
 
 def _land(contact: Contact, layout: SoleLayout) -> tuple[float, int]:
-    """Peak force in N and rebounds of a foot on a stiff servo (2e5 N/m, as a bent leg with kp 8000 N m/rad has)."""
+    """Peak force in N and rebounds of a foot on a stiff servo (2e5 N/m, as of a bent leg with kp 8000 N m/rad)."""
     low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
     half = 0.5 * (high - low)
     model = mujoco.MjModel.from_xml_string(

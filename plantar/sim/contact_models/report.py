@@ -1,4 +1,4 @@
-"""The comparison of contact models: what is required, and its text, page, tables and figure."""
+"""The comparison of contact models: requirements, text, page, tables and figure."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _LEAST, _MOST = 1e-2, 150.0
 
 
 def holds(row: ContactRow) -> bool:
-    """Whether a contact model keeps what is required of the simulator's own."""
+    """Whether a contact model meets the requirements."""
     return row.cop_max_mm < COP_LIMIT_MM and max(abs(row.edge_x_mm), abs(row.edge_y_mm)) < EDGE_LIMIT_MM
 
 
@@ -39,12 +39,12 @@ def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float
     """Compare the contact models on a sole, study the contact parameters, and write the report.
 
     Args:
-        folder: Where to write; must exist.
+        folder: Existing folder.
         layout: Layout file of the sole; None for one of 250 x 155 mm with taxels of 691 mm^2.
         progress: Called with the fraction done and a text.
 
     Returns:
-        Name of the chosen model, whether it holds what is required, rows of models and parameters, names of the files.
+        Name of the chosen model, whether it meets the requirements, rows of models and parameters, names of the files.
 
     Raises:
         LayoutError: If the layout file cannot be used.
@@ -62,7 +62,7 @@ def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float
 
 
 def contact_text(result: Mapping[str, Any]) -> str:
-    """The comparison's main figures for people."""
+    """The comparison's main figures as text."""
     lines = [f"{'contact model':24}{'CoP max mm':>12}{'edge mm':>10}{'step us':>10}{'read us':>10}"]
     for row in result["models"]:
         x, y = row["edge_x_mm"], row["edge_y_mm"]
@@ -76,16 +76,10 @@ def contact_text(result: Mapping[str, Any]) -> str:
 def write_contact_report(
     folder: Path, layout: SoleLayout, rows: Sequence[ContactRow], parameters: Sequence[ParameterRow]
 ) -> list[str]:
-    """Write contact.csv, contact_parameters.csv, contact_models.md and contact_models.png.
+    """Write contact.csv, contact_parameters.csv, contact_models.md and contact_models.png into an existing `folder`.
 
-    Args:
-        folder: Where to write; must exist.
-        layout: The sole that was measured.
-        rows: Contact models, the chosen one first.
-        parameters: Contact parameters.
-
-    Returns:
-        Names of the files.
+    Returns the files' names, for the `rows` of models on the sole `layout`, the chosen one first, and the rows of
+    `parameters`.
     """
     write_rows(folder / "contact.csv", [r.as_dict() for r in rows])
     write_rows(folder / "contact_parameters.csv", [asdict(r) for r in parameters])
@@ -198,7 +192,7 @@ def _cells(rows: Sequence[Any], names: Mapping[str, str]) -> list[list[Any]]:
 
 
 def _draw(path: Path, rows: Sequence[ContactRow]) -> None:
-    """Error against run time: CoP on the left, tip-over edge on the right; dashed: what is required."""
+    """Error against run time: CoP on the left, tip-over edge on the right; dashed: the requirement."""
     figure, axes = new_figure(11.0, 4.6, 1, 2)
     cop = [r.cop_max_mm for r in rows]
     edge = [max(abs(r.edge_x_mm), abs(r.edge_y_mm)) for r in rows]

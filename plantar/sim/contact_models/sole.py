@@ -1,4 +1,4 @@
-"""A free body with one sole, compiled: which geoms touch the ground, and how taxel forces are read from them."""
+"""A free body with one sole, compiled, and how taxel forces are read from it."""
 
 from __future__ import annotations
 
@@ -53,9 +53,9 @@ def build_sole(
     Args:
         candidate: Contact model of the sole.
         layout: The sole; its outline's bounding rectangle is the box.
-        ground: MJCF of the ground's geoms with a placeholder {contact} for their contact parameters.
-        mass: Mass of the body in kg.
-        com_height: Height of its centre of mass above the sole in m.
+        ground: MJCF of the ground's geoms with a placeholder {contact} for contact parameters.
+        mass: In kg.
+        com_height: CoM above the sole in m.
         contact: Contact parameters.
 
     Returns:
@@ -112,7 +112,7 @@ def _tactile(candidate: Candidate, model: Any, layout: SoleLayout, geoms: frozen
 
 
 def _fitted(depth: NDArray[np.float64], layout: SoleLayout, wrench: NDArray[np.float64]) -> NDArray[np.float64]:
-    """depth_i max(0, a + b x_i + c y_i) with the wrench's three normal parts, cells that would pull left out."""
+    """depth_i max(0, a + b x_i + c y_i) with the wrench's three normal parts."""
     u = np.column_stack([np.ones(len(layout)), layout.positions[:, :2]])
     load = np.array([wrench[2], -wrench[4], wrench[3]])
     active = np.ones(len(layout), dtype=bool)

@@ -1,4 +1,4 @@
-"""MJCF of a sole whose outer face is the plane z = 0 of its body, for each kind of contact model."""
+"""MJCF of a sole whose outer face is the plane z = 0 of its body."""
 
 from __future__ import annotations
 
@@ -29,15 +29,8 @@ class SoleMjcf(NamedTuple):
 
 
 def sole_mjcf(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    """MJCF of a sole.
-
-    Args:
-        candidate: Its contact model.
-        layout: The sole.
-        attributes: MJCF attributes of every geom that touches.
-
-    Returns:
-        The MJCF.
+    """Returns the MJCF of a sole with a `layout` by a contact model `candidate`, with `attributes` of every geom that
+    touches.
 
     Raises:
         InputError: If the candidate's kind or reading is unknown.
@@ -49,7 +42,6 @@ def sole_mjcf(candidate: Candidate, layout: SoleLayout, attributes: str) -> Sole
 
 
 def _box(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    """One box: the bounding rectangle of the outline."""
     low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
     (cx, cy), (hx, hy), h = 0.5 * (low + high), 0.5 * (high - low), 0.5 * SOLE_THICKNESS
     place = f'size="{hx} {hy} {h}" pos="{cx} {cy} {h}"'
@@ -57,7 +49,7 @@ def _box(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
 
 
 def _box_with_tactile_sensor(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    """One box, and MuJoCo's tactile sensor at the taxels' positions."""
+    """One box, and MuJoCo's tactile sensor at the taxels."""
     points = _numbers(np.column_stack([layout.positions[:, :2], np.zeros(len(layout))]))
     faces = " ".join(str(int(v)) for v in _triangles(layout.positions[:, :2]).ravel())
     mesh = f'<mesh name="taxels" inertia="shell" vertex="{points}" face="{faces}"/>'
@@ -68,7 +60,6 @@ def _box_with_tactile_sensor(candidate: Candidate, layout: SoleLayout, attribute
 
 
 def _spheres(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    """Spheres that support each cell."""
     r = SPHERE_RADIUS
     parts = [
         f'<geom name="taxel{i}_{j}" type="sphere" size="{r}" pos="{x} {y} {r}" {attributes}/>'
@@ -79,7 +70,7 @@ def _spheres(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleM
 
 
 def _prisms(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    """A prism over each cell's own polygon; of a candidate with a count, a square box of the cell's area."""
+    """A prism over each cell's polygon; with a count, a square box of the cell's area."""
     if candidate.count > 0:
         return SoleMjcf("", "".join(_square(layout, i, attributes) for i in range(len(layout))))
     rings = [layout.cell_polygon(i) for i in range(len(layout))]
@@ -104,14 +95,8 @@ _MAKERS: dict[tuple[str, str], Callable[[Candidate, SoleLayout, str], SoleMjcf]]
 
 
 def support_points(ring: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Points that support a cell: its middle, or points evenly along its edge moved inwards.
-
-    Args:
-        ring: Corners (k, 2) of the cell in m.
-        count: How many points, 1 or more.
-
-    Returns:
-        Points (count, 2) in m.
+    """Returns `count` points (count, 2) in m that support a cell `ring` (k, 2): its middle, or evenly along its edge
+    moved inwards.
     """
     edge = np.roll(ring, -1, axis=0) - ring
     length = np.hypot(edge[:, 0], edge[:, 1])

@@ -1,7 +1,4 @@
-"""Gymnasium environments of robots with plantar skin: `gymnasium.make("PlantarWalk-v0", robot="my_robot.toml")`.
-
-Gymnasium finds them by an entry point as soon as it is imported; `register` lists them where it does not.
-"""
+"""Gymnasium environments of robots with plantar skin: `gymnasium.make("PlantarWalk-v0", robot="my_robot.toml")`."""
 
 from __future__ import annotations
 
@@ -21,7 +18,7 @@ _STEPS = 500  # of 20 ms: episodes of 10 s
 
 
 def register() -> None:
-    """Add the environments to Gymnasium's registry, once.
+    """Add the environments to Gymnasium's registry, once, where its entry point has not.
 
     Raises:
         DependencyError: If Gymnasium or MuJoCo is missing.

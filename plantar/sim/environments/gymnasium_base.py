@@ -1,4 +1,4 @@
-"""Gymnasium's classes; without it, stand-ins that can be imported, and refuse to be made."""
+"""Gymnasium's classes; without it, stand-ins that can be imported but not constructed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ __all__ = ["Env", "ObservationWrapper", "spaces"]
 
 
 class _Missing:
-    """A class of Gymnasium, which is not installed: making one raises the line that installs it."""
+    """Stands in for a class of Gymnasium; raises the line that installs it."""
 
     def __new__(cls, *_: Any, **__: Any) -> _Missing:
         need_libraries("gym", "gymnasium")

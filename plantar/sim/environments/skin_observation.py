@@ -20,13 +20,13 @@ __all__ = ["SkinObservation"]
 class SkinObservation(ObservationWrapper[Any, Any, Any]):
     """Adds the forces on skins to the observation, which becomes a Dict.
 
-    What the environment observes is under its own keys where it is a Dict, else under "observation"; each skin is under
-    its name: the force (n,) on each taxel in N, float32. The physics stay as they are.
+    The environment's own observation is under its keys where it is a Dict, else under "observation"; each skin is under
+    its name: the force (n,) in N, float32. Physics are unchanged.
 
     Args:
-        env: An environment whose `unwrapped` has `model` and `data`, as Gymnasium's own MuJoCo environments do.
+        env: An environment whose `unwrapped` has `model` and `data`.
         skins: The skins by name.
-        faults: What the taxels do to the forces, drawn again at each reset; None for taxels without faults.
+        faults: Of the taxels, drawn again at each reset; None without.
 
     Attributes:
         readings: What each skin read last, without faults (`plantar.mujoco.SkinReading`).
@@ -57,15 +57,7 @@ class SkinObservation(ObservationWrapper[Any, Any, Any]):
         self.observation_space = spaces.Dict(boxes)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Reset the environment, and draw the taxels' faults by its seed.
-
-        Args:
-            seed: As of the environment.
-            options: As of the environment.
-
-        Returns:
-            Observation and info.
-        """
+        """Reset with `seed`, which also draws the taxels' faults, and `options`; returns observation and info."""
         observation, info = self.env.reset(seed=seed, options=options)
         if self._faults is not None:
             rng = self.env.unwrapped.np_random
@@ -75,14 +67,7 @@ class SkinObservation(ObservationWrapper[Any, Any, Any]):
         return self.observation(observation), info
 
     def observation(self, observation: Any) -> dict[str, Any]:
-        """The observation with the skins.
-
-        Args:
-            observation: What the environment observed.
-
-        Returns:
-            It, and the force (n,) on each taxel of each skin; 0 for a dead one.
-        """
+        """The environment's `observation` with the force (n,) on the taxels of each skin, 0 for a dead one."""
         data = self.env.unwrapped.data
         self.readings = {name: skin(data) for name, skin in self._skins.items()}
         seen = dict(observation) if self._is_dict else {"observation": observation}

@@ -1,7 +1,7 @@
-"""What a robot in a Gymnasium environment is asked to do: its ground, disturbances, observation and reward.
+"""Tasks of a robot in a Gymnasium environment: ground, disturbances, observation and reward.
 
-Velocities are stated in sqrt(g l), lengths in legs l and times in beats sqrt(l / g), so that a task is as hard for
-every robot. Each reward is at most 1 a step.
+Velocities are in sqrt(g l), lengths in legs l and times in beats sqrt(l / g), so that a task is as hard for every
+robot. Each reward is at most 1 a step.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ class Task:
 
     @property
     def upright(self) -> float:
-        """1 for a torso that is upright, 0.37 where it tilts by 0.2 rad."""
+        """1 for an upright torso, 0.37 where it tilts by 0.2 rad."""
         return math.exp(-2.0 * (1.0 - self.env.up) / 0.04)
 
 
@@ -111,7 +111,7 @@ class Step(Task):
 
     Observed are the swing foot (1 left, -1 right), the share of its time that has passed, and the target (2,) in the
     torso's heading, from the swing foot's sole, in legs. Reward: 0.2 for the unloaded swing foot, 0.4 for being
-    upright, 0.4 for the sole near its target when its time ends. `info` has "steps": landings within 0.1 leg of it.
+    upright, 0.4 for the sole near its target at the end. `info` has "steps": landings within 0.1 leg of it.
     """
 
     size = 4
@@ -134,7 +134,6 @@ class Step(Task):
             self._target = other + np.array([c * ahead - s * aside, s * ahead + c * aside])
 
     def _load(self) -> float:
-        """What the swing foot carries in shares of the weight."""
         env = self.env
         return float(env.readings[SIDES[self._swing]].wrench[2]) / (env.body.mass * GRAVITY)
 

@@ -46,11 +46,11 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
 
     - joints (2 k,): angles from the standing posture in rad, then velocities in rad/s;
     - imu (9,): gyro in rad/s, accelerometer in m/s^2, direction of gravity, in the sensor's and the torso's frame;
-    - skin_left, skin_right (n,): force on each taxel in shares of the body weight; without skin they are missing;
-    - task (m,): what the task asks for, see `plantar.sim.environments.tasks`.
+    - skin_left, skin_right (n,): force on each taxel in shares of the body weight, unless without skin;
+    - task (m,): see `plantar.sim.environments.tasks`.
 
-    An episode ends where the robot falls: the torso tilts by 40 degrees or sinks by 30 %. `info` has "time" in s,
-    "velocity" (2,) in m/s in the torso's heading, "load" of both soles in shares of the weight, and the task's figures.
+    An episode ends where the torso tilts by 40 degrees or sinks by 30 %. `info` has "time" in s, "velocity" (2,) in m/s
+    in the torso's heading, "load" of both soles in shares of the weight, and the task's figures.
 
     Args:
         task: "stand" (pushed), "step" (onto targets), "walk" (at a velocity, on uneven tiles) or "board" (it tilts).
@@ -58,9 +58,9 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         period: Time of a step in s.
         physics_period: Time step of the physics in s.
         skin: Whether the observation holds the skin.
-        faults: What the taxels do to the forces; drawn again at each reset. None for taxels without faults.
-        scale: Joint angle in rad that an action of 1 stands for.
-        difficulty: 0 to 1 and more: scales pushes, ground and commands; at 1 as the tasks describe.
+        faults: Of the taxels, drawn again at each reset; None without.
+        scale: Joint angle in rad of an action of 1.
+        difficulty: Scales pushes, ground and commands; at 1 as the tasks describe.
         render_mode: "rgb_array" or None.
 
     Raises:
@@ -131,14 +131,9 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any]]:
-        """Stand the robot up again on newly drawn ground, its joints off by 0.01 rad at random.
+        """Returns observation and info of the standing robot on newly drawn ground, its joints off by 0.01 rad.
 
-        Args:
-            seed: Seeds all that is drawn from now on.
-            options: None are known.
-
-        Returns:
-            Observation and info.
+        `seed` seeds all draws from now on; there are no `options`.
         """
         super().reset(seed=seed)
         data, world = self.data, self.world
@@ -159,7 +154,7 @@ class PlantarEnv(Env[dict[str, NDArray[np.float32]], NDArray[np.float32]]):
         """One control step.
 
         Args:
-            action: Set-points (k,), -1 to 1; what is beyond is clipped.
+            action: Set-points (k,), clipped to -1..1.
 
         Returns:
             Observation, reward, whether the robot fell, False (`TimeLimit` truncates), and info.

@@ -1,7 +1,4 @@
-"""A run as a 3D viewer shows it: topics of Foxglove's schemas in its recording.
-
-They are drawn from a tick's existing data, so that drawing cannot change the run.
-"""
+"""A run for a 3D viewer: topics of Foxglove's schemas in its recording, from a tick's existing data."""
 
 from __future__ import annotations
 
@@ -55,7 +52,7 @@ FULL_COLOUR = 0.1
 
 
 def scale_colours(largest: float) -> NDArray[np.float64]:
-    """Red, green and blue (64, 3) of viridis from no force to FULL_COLOUR; `largest` is the full value: 1, or 255."""
+    """Red, green and blue (64, 3) of viridis from zero force to FULL_COLOUR; `largest` is the full value."""
     shares, steps = np.linspace(0.0, 1.0, 64), np.linspace(0.0, 1.0, len(_VIRIDIS))
     return largest * np.column_stack([np.interp(shares, steps, column) for column in zip(*_VIRIDIS, strict=True)])
 
@@ -63,9 +60,8 @@ def scale_colours(largest: float) -> NDArray[np.float64]:
 class DrawnRun:
     """Writes the viewer topics of a run in a `world` to a `recorder`.
 
-    "/tf" has the poses of bodies, soles ("sole_left", "sole_right") and CoM ("center_of_mass"), "/scene/world" their
-    shapes and the ground, "/scene/soles" the forces on each sole, "/scene/balance" CoM, ZMP and support polygon,
-    "/scene/footsteps" the plan, and "/log" why it changed.
+    "/tf" has the poses of bodies, soles and CoM, "/scene/world" shapes and ground, "/scene/soles" forces,
+    "/scene/balance" CoM, ZMP and support polygon, "/scene/footsteps" the plan, and "/log" why it changed.
     """
 
     def __init__(self, recorder: Recorder, world: World) -> None:
@@ -95,8 +91,7 @@ class DrawnRun:
         self._latest = readings
 
     def tick(self, time: float, command: Command, plan: PlanView, truth: GroundTruth, loads: Sequence[float]) -> None:
-        """Draw the control tick at `time` in s, if due: `command`, `plan`, `truth` and vertical `loads` in N on left
-        and right foot."""
+        """Draw the tick at `time` in s, if due: `command`, `plan`, `truth` and vertical `loads` in N on both feet."""
         if self._next_frame == -math.inf:
             self._draw_shapes(time)
         if time >= self._next_frame:
@@ -133,7 +128,7 @@ class DrawnRun:
         return Template(*parts)
 
     def _frame_values(self) -> NDArray[np.float64]:
-        """Position and quaternion (x, y, z, w) of each body, each sole and the CoM, whose frame stays level, flat."""
+        """Position and quaternion (x, y, z, w) of each body, each sole and the CoM, flat."""
         data, n = self._world.data, len(self._bodies)
         out = np.zeros((n + 3, 7))
         out[-1, :3], out[-1, 6] = data.subtree_com[self._world.torso], 1.0
@@ -205,7 +200,7 @@ class DrawnRun:
         return out
 
     def _footsteps(self, plan: PlanView, step: int) -> Template:
-        """The planned footsteps about the current one, with their numbers; those before are gone."""
+        """The planned footsteps from the current one on, with their numbers."""
         last = plan.first + len(plan.steps)
         chosen = range(max(plan.first, step - _BEHIND), min(last, step + _AHEAD + 1))
         wanted = [(k, plan.foothold(k)) for k in chosen]
@@ -224,8 +219,7 @@ class DrawnRun:
 
 
 def _taxels(layout: SoleLayout, first: int) -> list[Part]:
-    """A flat cylinder for each taxel, as wide as its cell, with slots from `first`, three a taxel; drawn faster than
-    polygons."""
+    """A flat cylinder for each taxel, with slots from `first`, three a taxel; drawn faster than polygons."""
     parts = []
     for i, corners in enumerate(layout.corners):
         cell = layout.vertices[list(corners), :2]

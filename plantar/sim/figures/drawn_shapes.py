@@ -27,7 +27,7 @@ def frame_name(model: Any, body: int) -> str:
 
 
 def drawn_bodies(model: Any) -> list[int]:
-    """Ids of the bodies, the world excepted, that have something to show."""
+    """Ids of the bodies, the world excepted, that are visible."""
     return sorted({int(model.geom_bodyid[i]) for i in range(model.ngeom) if _is_shown(model, i)} - {0})
 
 
@@ -44,7 +44,6 @@ def _is_shown(model: Any, geom: int) -> bool:
 
 
 def _colour(model: Any, geom: int) -> tuple[float, ...]:
-    """Red, green, blue and opacity of a geom; of a texture the mean."""
     rgba = model.geom_rgba[geom].astype(float)
     material = int(model.geom_matid[geom])
     if material >= 0:
@@ -59,7 +58,7 @@ def _colour(model: Any, geom: int) -> tuple[float, ...]:
 
 
 def _primitives(model: Any, geom: int) -> list[Part]:
-    """What is drawn of a geom; height fields, and what MuJoCo itself does not draw, are left out."""
+    """What is drawn of a geom; no height fields, nor what MuJoCo itself does not draw."""
     kind, colour = int(model.geom_type[geom]), _colour(model, geom)
     a, b, c = map(float, model.geom_size[geom])
     position = tuple(map(float, model.geom_pos[geom]))
@@ -100,7 +99,7 @@ def _rotation(quaternion: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Part:
-    """A mesh, coarser where the model's meshes together have more faces than a viewer draws at ease."""
+    """A mesh, coarser where the model's meshes together have too many faces."""
     mesh = int(model.geom_dataid[geom])
     first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
     start, number = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
@@ -116,8 +115,10 @@ def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Part:
 def coarse_mesh(
     vertices: NDArray[np.float64], faces: NDArray[np.int64], most: int
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Returns corners and triangles of a mesh `vertices` (v, 3) in m, `faces` (f, 3) with at most `most` faces, 4 or
-    more: vertices in one cell of a lattice merge (vertex clustering; Rossignac and Borrel, 1993)."""
+    """Returns corners and triangles of a mesh `vertices` (v, 3) in m, `faces` (f, 3), with at most `most` faces.
+
+    Vertices in one cell of a lattice merge (Rossignac and Borrel, 1993).
+    """
     size = float(np.ptp(vertices, axis=0).max())
     cells = 128
     coarse, kept = vertices, faces

@@ -32,7 +32,7 @@ _LINES, _INK = 4, (40, 40, 40)  # patches whose force is written, and in which c
 
 
 class _Filmed:
-    """A camera that follows a body, and the file that its pictures go to; a context manager."""
+    """A camera that follows a body, and the file of its pictures; a context manager."""
 
     def __init__(self, path: str | os.PathLike[str], model: Any, body: int, **shown: Any) -> None:
         self._writer = VideoWriter(path)
@@ -61,7 +61,7 @@ class Film(_Filmed):
         self._inset = SoleInset(world.robot.layouts, world.body.weight, round(_INSET * _HEIGHT))
 
     def add(self, readings: Mapping[Side, Reading]) -> None:
-        """Add a frame of the world now, with the soles' readings; without forces where one is missing."""
+        """Add a frame of the world now, with the soles' readings or None."""
         layouts = self._world.robot.layouts
         if set(readings) != set(layouts):
             self._writer.add(self._camera.picture(self._world.data))
@@ -72,7 +72,7 @@ class Film(_Filmed):
         self._writer.add(picture)
 
     def _draw_forces(self, picture: NDArray[np.uint8], readings: Mapping[Side, Reading]) -> None:
-        """The force on each sole as an arrow from its CoP upwards, over the legs that would hide it."""
+        """The force on each sole as an arrow from its CoP upwards, over the legs."""
         world, cv2 = self._world, opencv()
         for side, reading in readings.items():
             force = np.nan_to_num(reading.force)
@@ -89,15 +89,9 @@ class Film(_Filmed):
 
 
 class BodyFilm(_Filmed):
-    """A video of a machine with skin: taxels where they are, coloured by their force, and the force on each patch.
+    """A video at `path` (MP4) of a machine with `skin`: taxels coloured by force, and the force on each patch.
 
-    Args:
-        path: MP4 file to write.
-        model: The MjModel of the world.
-        data: Its MjData.
-        skin: The skin with the true forces on it.
-        body: Name of the body that the camera follows.
-        view: From where.
+    The camera follows a `body` of `model` and `data` from a `view`.
     """
 
     def __init__(
@@ -114,7 +108,7 @@ class BodyFilm(_Filmed):
         self._colours = scale_colours(1.0)
 
     def add(self) -> None:
-        """Add a frame of the world as it is now."""
+        """Add a frame of the world now."""
         data, force = self._data, self._skin.force
         points = data.xpos[self._bodies] + np.einsum(
             "ijk,ik->ij", data.xmat[self._bodies].reshape(-1, 3, 3), self._places
@@ -126,7 +120,7 @@ class BodyFilm(_Filmed):
         self._writer.add(picture)
 
     def _write_loads(self, picture: NDArray[np.uint8]) -> None:
-        """The forces on the patches that are pressed, the largest first."""
+        """The forces on the pressed patches, the largest first."""
         cv2, skin = opencv(), self._skin.skin
         loads = {p.name: float(self._skin.force[skin.slices[p.name]].sum()) / self._weight for p in skin.patches}
         most = sorted(loads.items(), key=lambda load: -load[1])[:_LINES]

@@ -1,4 +1,4 @@
-"""The walk in the plane as the papers draw it: footholds, VRPs, DCM, CoM and ZMP, over the ground (T Fig. 61-64)."""
+"""The walk in the plane: footholds, VRPs, DCM, CoM and ZMP, over the ground (T Fig. 61-64)."""
 
 from __future__ import annotations
 
@@ -49,7 +49,6 @@ class _View:
 
     @classmethod
     def of(cls, run: Recording) -> _View:
-        """The view of a run."""
         steps = run.values("/foothold", "step")[:, 0].astype(int)
         last = [int(np.flatnonzero(steps == k)[-1]) for k in sorted(set(steps.tolist()))]
         polygons = run.values("/foothold", "polygon")
@@ -87,7 +86,7 @@ def _draw_trajectories(plane: Any, run: Recording, view: _View) -> None:
 
 
 def _draw_time(axis: Any, run: Recording, view: _View) -> None:
-    """ZMP across the walk over time, with the range of each stance's support behind it."""
+    """ZMP across the walk over time, with the range of each stance's support."""
     along = view.plane.turn[1]
     zmp, wanted = run.values("/truth/body", "zmp")[:, along], run.values("/reference", "zmp_desired")[:, along]
     clock = run.topics["/reference"].time

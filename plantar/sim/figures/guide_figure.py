@@ -1,4 +1,4 @@
-"""Figure of a run in which a hand leads the robot by its arm: who goes where, how hard, and how the arm gives way."""
+"""Figure of a run in which a hand leads the robot by its arm."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _TURNED = 1.0  # degrees that a joint has to turn by to be named
 
 
 def draw_guide(run: Recording) -> Any:
-    """Figure of hand, arm, CoM and feet along the hand's way, the force between hand and arm, and the arm's joints.
+    """Figure of hand, arm, CoM and feet along the hand's way, the force between them, and the arm's joints.
 
     The `run` is a recording with "/guide" and "/arm".
     """

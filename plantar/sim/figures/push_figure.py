@@ -103,7 +103,7 @@ def draw_strides(run: Recording) -> Any:
 
 
 def _draw_body(axis: Any, run: Recording, i: int) -> None:
-    """DCM and CoM over time along an axis, and the feet while they stand."""
+    """DCM and CoM over time along an axis, and the standing feet."""
     time = run.topics["/truth/body"].time
     axis.plot(time, run.values("/estimate", "dcm")[:, i], color=COLOURS["active"], lw=1.0, label="DCM")
     axis.plot(time, run.values("/truth/body", "com")[:, i], color=COLOURS["polygon"], lw=1.4, label="CoM")
@@ -112,7 +112,6 @@ def _draw_body(axis: Any, run: Recording, i: int) -> None:
 
 
 def _finish(axes: Any, names: Sequence[str]) -> None:
-    """Label the panels of a figure over time; the legend of the first is above it."""
     for axis, name in zip(axes, names, strict=True):
         axis.set_ylabel(name)
         axis.grid(alpha=0.3)
@@ -121,7 +120,6 @@ def _finish(axes: Any, names: Sequence[str]) -> None:
 
 
 def _draw_footholds(axis: Any, run: Recording, side: Any, begin: float, end: float) -> None:
-    """Outlines of a foot where it stood within a while."""
     topic = run.topics[f"/truth/{side}"]
     outline = np.vstack([run.layouts[side].outline, run.layouts[side].outline[:1]])
     force = topic.fields["normal_force"][:, 0]
@@ -135,7 +133,7 @@ def _draw_footholds(axis: Any, run: Recording, side: Any, begin: float, end: flo
 
 
 def _draw_force(axis: Any, run: Recording, i: int) -> None:
-    """The measured and the true skin force along an axis, on a separate scale."""
+    """Measured and true skin force along an axis, on a separate scale."""
     touch = run.topics["/touch"]
     other = axis.twinx()
     other.fill_between(touch.time, touch.fields["felt"][:, i], color=COLOURS["active"], alpha=0.45, lw=0)
@@ -146,7 +144,6 @@ def _draw_force(axis: Any, run: Recording, i: int) -> None:
 
 
 def _pushed_spans(run: Recording) -> list[tuple[float, float]]:
-    """Times of pushes in s."""
     touch = run.topics["/touch"]
     force = np.linalg.norm(touch.fields["force"], axis=1)
     on = np.concatenate([[0], (force > _PUSHED * max(float(force.max(initial=0.0)), 1e-9)).astype(int), [0]])
@@ -156,7 +153,7 @@ def _pushed_spans(run: Recording) -> list[tuple[float, float]]:
 
 
 def _standing(run: Recording, side: Any) -> NDArray[np.float64]:
-    """Where a foot is (n, 2) in m while it stands; NaN while it does not."""
+    """Where a foot is (n, 2) in m while it stands, else NaN."""
     topic = run.topics[f"/truth/{side}"]
     force = topic.fields["normal_force"][:, 0]
     place = np.array(topic.fields["position"][:, :2], dtype=float)

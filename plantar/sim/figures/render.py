@@ -24,8 +24,7 @@ FRAME_RATE = 25.0
 
 @dataclass(frozen=True)
 class Line:
-    """A rod in a picture from `start` to `end` (3,) with a `radius` in m and a `colour`: red, green, blue and opacity,
-    0..1."""
+    """A rod in a picture from `start` to `end` (3,) with a `radius` in m and a `colour`: red, green, blue, opacity."""
 
     start: NDArray[np.float64]
     end: NDArray[np.float64]
@@ -38,7 +37,7 @@ class View:
     """A camera's position relative to a body; by default the robot's right front side.
 
     Attributes:
-        distance: Distance of the eye in m.
+        distance: Of the eye in m.
         azimuth: Viewing direction about z in degrees.
         elevation: Viewing direction against the horizon in degrees.
         below: How far below the body's origin the picture's middle is in m.
@@ -56,10 +55,10 @@ class Camera:
     Args:
         model: MuJoCo model.
         body: Id of the body.
-        width: Picture width in pixels.
-        height: Picture height in pixels.
+        width: In pixels.
+        height: In pixels.
         view: The camera's position.
-        groups: Groups of geoms to show besides 0, 1 and 2, MuJoCo's default.
+        groups: Groups of geoms to show next to 0, 1 and 2.
         fast: Whether to skip smoothing and halve shadows: a third of the time without a GPU.
 
     Raises:
@@ -108,12 +107,9 @@ class Camera:
         lines: Sequence[Line] = (),
         dots: tuple[NDArray[np.float64], NDArray[np.float64], float] | None = None,
     ) -> NDArray[np.uint8]:
-        """Returns the RGB picture (height, width, 3) of the state `data`.
+        """Returns the RGB picture (height, width, 3) of the state `data`, with `lines` and `dots`.
 
-        Args:
-            data: The simulation's state.
-            lines: Lines to draw into it.
-            dots: Cubes to draw into it: places (n, 3) in m, red, green and blue (n, 3) of 0..1, and half a side in m.
+        Dots are places (n, 3) in m, red, green and blue (n, 3), and half a side in m.
         """
         import mujoco
 
@@ -135,7 +131,7 @@ class Camera:
         return np.asarray(self._renderer.render())
 
     def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Pixels (n, 2), x to the right and y down, of points (n, 3) in m before the camera, in the last picture."""
+        """Pixels (n, 2), x to the right and y down, of points (n, 3) in m in the last picture."""
         left, right = self._renderer.scene.camera
         forward, up = np.array(left.forward), np.array(left.up)
         offset = points - 0.5 * (np.array(left.pos) + np.array(right.pos))
@@ -152,15 +148,14 @@ class Camera:
 
 
 def opencv() -> Any:
-    """The module OpenCV, which writes pictures and videos; an InputError names how to get it."""
+    """The module OpenCV; an InputError names how to get it."""
     with optional_library("cv2", "sim"):
         import cv2
     return cv2
 
 
 def save_picture(picture: NDArray[np.uint8], path: str | os.PathLike[str]) -> Path:
-    """Save an RGB `picture` (height, width, 3) at `path`, whole or not at all, by its suffix as PNG or JPEG. Returns
-    the path."""
+    """Save an RGB `picture` (height, width, 3) at `path` as PNG or JPEG, whole or not at all. Returns the path."""
     cv2 = opencv()
     with replacing(path) as temporary:
         cv2.imwrite(str(temporary), picture[:, :, ::-1])
@@ -168,11 +163,7 @@ def save_picture(picture: NDArray[np.uint8], path: str | os.PathLike[str]) -> Pa
 
 
 class VideoWriter:
-    """Writes an MP4; a context manager. The file takes its name when it is complete.
-
-    Args:
-        path: File to write, ending in .mp4.
-        rate: Frames a second.
+    """Writes an MP4 at `path` with `rate` frames a second; a context manager, after which the file has its name.
 
     Raises:
         InputError: If the name does not end in .mp4 or the file cannot be written.

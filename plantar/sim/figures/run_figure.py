@@ -25,10 +25,9 @@ _PAD = 0.03  # m: what is shown around the walk
 def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path]:
     """Draw the figures of a `recording`, an MCAP file or its content, into an existing `folder`.
 
-    Returns:
-        The files: balance.png, plane.png, feet.png; footholds.png with found footholds, zmp.png and zmp_plane.png
-        with ankle sensors, pushes.png, swing.png and strides.png with touches, partner.png with a mobile robot,
-        guide.png with a leading hand.
+    Returns the files: balance.png, plane.png, feet.png; footholds.png with found footholds, zmp.png and zmp_plane.png
+    with ankle sensors, pushes.png, swing.png and strides.png with touches, partner.png with a mobile robot, guide.png
+    with a leading hand.
     """
     run = recording if isinstance(recording, Recording) else read_mcap(recording)
     folder = Path(folder)
@@ -76,7 +75,7 @@ def _balance(run: Recording) -> Any:
 
 
 def _plane(run: Recording) -> Any:
-    """The walk from above, its longer direction to the right: along y with y to the right and x down."""
+    """The walk from above, its longer direction to the right."""
     rings = [(side, ring) for side in SIDES for ring in _footholds(run, side)]
     lines = (
         ("/truth/body", "zmp", "truth", 0.7, "ZMP true"),

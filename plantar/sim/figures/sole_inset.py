@@ -1,4 +1,4 @@
-"""The soles' readings in the corner of a video: coloured taxels, CoP, and the last seconds of each force."""
+"""The soles' readings in the corner of a video: taxels, CoP, and the last seconds of each force."""
 
 from __future__ import annotations
 
@@ -24,12 +24,8 @@ _COP = (217, 26, 77)
 
 
 class SoleInset:
-    """Draws both soles, seen from above with the toes up, and their forces.
-
-    Args:
-        layouts: The soles.
-        weight: The robot's weight in N.
-        height: Height of the inset in pixels.
+    """Draws both soles of `layouts`, seen from above with the toes up, `height` pixels high, and their forces over the
+    `weight` in N.
     """
 
     def __init__(self, layouts: Mapping[Side, SoleLayout], weight: float, height: int) -> None:
@@ -51,7 +47,7 @@ class SoleInset:
         self._past: deque[tuple[float, tuple[float, ...]]] = deque()
 
     def _pixels(self, side: Side, points: NDArray[np.float64]) -> NDArray[np.int32]:
-        """Pixels (m, 2), x to the right and y down, of points (m, 2) of a sole in m."""
+        """Pixels (m, 2) of points (m, 2) of a sole in m."""
         left, inner = self._left[side]
         x = left + self._scale * (inner - points[:, 1])
         y = self._margin + self._scale * (self._toe - points[:, 0])
@@ -62,8 +58,9 @@ class SoleInset:
         return [self._pixels(side, layout.vertices[list(ring), :2]) for ring in layout.corners]
 
     def draw(self, picture: NDArray[np.uint8], readings: Mapping[Side, Reading], time: float) -> None:
-        """Draw the soles' `readings` at `time` in s into the upper left corner of an RGB `picture` (height, width, 3),
-        in place."""
+        """Draw the `readings` at `time` in s into the upper left corner of an RGB `picture` (height, width, 3), in
+        place.
+        """
         cv2 = self._cv2
         inset = np.full((self._height, self._width, 3), _PAPER, dtype=np.uint8)
         totals = []

@@ -28,7 +28,6 @@ class WalkPlane:
 
     @property
     def turn(self) -> list[int]:
-        """Which of x and y are drawn to the right and up."""
         span = self.high - self.low
         return [1, 0] if span[1] > span[0] else [0, 1]
 

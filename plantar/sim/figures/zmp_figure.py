@@ -40,8 +40,7 @@ def draw_zmps(run: Recording) -> Any:
 
 
 def draw_zmp_plane(run: Recording) -> Any:
-    """Figure of both ZMPs in the plane with soles and support polygon, from a recording with /zmp of a robot that
-    stands."""
+    """Figure of both ZMPs in the plane with soles and support polygon, from a standing robot's recording with /zmp."""
     topic = run.topics["/zmp"]
     counts = topic.time >= _FROM
     figure, axis = new_figure(6.0, 6.0)

@@ -1,4 +1,4 @@
-"""How a robot followed a hand that leads it by its arm: how far arm and feet came."""
+"""How far arm and feet of a robot followed the hand that leads it."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class GuideTruth:
         point: Point (3,) in its frame in m at which it is held.
         joints: Names of the arm's joints.
         posture: Their angles (k,) in rad at rest.
-        way: How far the hand goes in m, along the world's x axis: negative backward.
+        way: How far the hand goes in m along the world's x axis.
         starts: Time in s from which it moves.
     """
 
@@ -95,8 +95,9 @@ class GuideTruth:
         return found
 
     def summary(self) -> dict[str, Any]:
-        """How far the arm yielded at most along the way and the feet finally followed it and went astray in m, and the
-        largest turn of an arm's joint in degrees; None each where the run ended before the hand moved."""
+        """Largest way that the arm yielded, final way of the feet and across it in m, and largest turn of an arm's
+        joint in degrees.
+        """
         if not self._sampled:
             return dict.fromkeys(("arm_yielded_m", "feet_followed_m", "feet_astray_m", "arm_turned_deg"))
         return {

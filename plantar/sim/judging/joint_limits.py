@@ -20,7 +20,6 @@ class JointLimits:
     """Follows the leg joints' speeds and torques in a `world`.
 
     Attributes:
-        names: The joints.
         limited: Whether their speeds have limits.
         extremes: Takes in speeds and torques after each physics step.
     """
@@ -55,8 +54,7 @@ class JointLimits:
         return np.asarray(self.extremes.longest) * self._period
 
     def first_held(self, since: float, lasting: float = 0.015) -> str | None:
-        """Returns the joint that was first at its torque limit for `lasting` s in a row, from `since` s on; None for
-        none."""
+        """Returns the first joint at its torque limit for `lasting` s in a row, from `since` s on; None for none."""
         first, steps = 1 + round(since / self._period), round(lasting / self._period)
         stays = [(max(begin, first), end, joint) for joint, begin, end in self.extremes.all_stays()]
         long = [(begin, joint) for begin, end, joint in stays if end - begin + 1 >= steps]

@@ -67,11 +67,10 @@ class Judge:
     """Follows a run.
 
     Attributes:
-        world: The world.
         standing_height: CoM height above the ground at the start in m.
         goal: The footsteps to take.
-        ground: Where the ground is plain; None where it is everywhere.
-        fall: The fall as (criterion's value, limit, text); None for no fall.
+        ground: Where the ground is plain; None for everywhere.
+        fall: The fall as (criterion's value, limit, text), or None.
     """
 
     world: World
@@ -121,7 +120,6 @@ class Judge:
 
     @property
     def landings(self) -> list[Landing]:
-        """The landings so far."""
         return [
             Landing(SIDES[foot], self._time_of(step), impact, area, angle, margin if math.isfinite(margin) else None)
             for (step, foot, impact, area, margin), angle in zip(self._watch.landings(), self._angles, strict=True)
@@ -139,7 +137,7 @@ class Judge:
 
     @property
     def loads(self) -> tuple[float, float]:
-        """Vertical force in N of the ground on the left and the right foot at the last physics step."""
+        """Vertical ground force in N on the left and right foot at the last physics step."""
         return self._reaction.loads[0], self._reaction.loads[1]
 
     @property
@@ -155,7 +153,6 @@ class Judge:
 
     @property
     def fell(self) -> bool:
-        """Whether the robot fell."""
         return self.fall is not None
 
     def step(self) -> int:
@@ -192,8 +189,9 @@ class Judge:
         moved: Sequence[MovedStep] = (),
         pushed: bool = False,
     ) -> None:
-        """Take the controller's estimates of the CoM `com` (3,) and `zmp` (2,) or None in m at the tick at `time` in s,
-        the footsteps `moved` just then, and whether the robot is truly `pushed`."""
+        """Take the estimated `com` (3,) and `zmp` (2,) in m or None at `time` in s, the footsteps `moved`, and whether
+        the robot is truly `pushed`.
+        """
         if pushed:
             self._pushed.append(time)
         self._estimates.update(com.tolist(), None if zmp is None else zmp.tolist())
@@ -201,8 +199,9 @@ class Judge:
             self.goal.move(time, moved)
 
     def _justified(self, stand: Stand, way: Way, before: tuple[float, float, float]) -> bool:
-        """Whether a push in the last three steps, or uneven ground under the step's plan or the foothold before,
-        justify its move."""
+        """Whether a push in the last three steps, or uneven ground under the plan or the foothold before, justify a
+        move.
+        """
         since = stand.touchdown - _PUSH_LASTS * self.world.body.beat
         if any(since <= time <= stand.touchdown for time in self._pushed):
             return True
@@ -218,7 +217,6 @@ class Judge:
         return GroundTruth(*self._reaction.found_now())
 
     def _look_for_fall(self) -> None:
-        """Whether the robot lies, or leans too far to stay up."""
         tilt, height = _tilt(self._torso.item(8)), self.height
         if tilt > _FALLEN_TILT:
             self.fall = (tilt, _FALLEN_TILT, f"the robot fell: the torso tilted by {tilt:.1f} deg")
@@ -227,7 +225,6 @@ class Judge:
 
     @property
     def height(self) -> float:
-        """Height in m of the CoM above the lower sole."""
         left, right = self._places
         return float(self._center.item(2) - min(left.item(2), right.item(2)))
 
@@ -242,5 +239,4 @@ def is_ground(world: World) -> NDArray[np.bool_]:
 
 
 def _tilt(up: float) -> float:
-    """Tilt in degrees by its cosine."""
     return math.degrees(math.acos(max(-1.0, min(1.0, up))))

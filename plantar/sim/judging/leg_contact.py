@@ -10,7 +10,7 @@ __all__ = ["LegContact", "legs_that_touch"]
 
 
 def legs_that_touch(world: World) -> tuple[str, str] | None:
-    """Names of the left and right link of the first contact between the legs in a `world` now; None for none."""
+    """Left and right link of the first contact between the legs in a `world` now, or None."""
     model = world.model
     for pair in world.data.contact.geom.tolist():
         sides = {int(model.geom_contype[g]): g for g in pair if g >= 0}
@@ -25,8 +25,8 @@ class LegContact:
     """Follows whether the legs or soles touch each other in a `world`.
 
     Attributes:
-        duration: For how long in s they touched, in all.
-        first: Time in s of the first contact, and the names of both links; None for none.
+        duration: In s, in all.
+        first: Time in s of the first contact and both links, or None.
     """
 
     def __init__(self, world: World) -> None:

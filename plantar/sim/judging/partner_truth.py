@@ -12,10 +12,9 @@ before they touch and to a partner that swings back towards where it rests."""
 
 
 def partner_reasons(role: str, way: float, moved: float) -> list[dict[str, Any]]:
-    """Returns the failed criteria, as `verdict.reasons`, of a robot with a planned `way` in m towards its partner.
+    """Returns the failed criteria, as `verdict.reasons`, of a planned `way` in m towards a partner that `moved` so far.
 
-    With a `role` "leader" of the partner only a completed walk is asked; `moved` is the partner's way in m towards the
-    robot.
+    With a `role` "leader" only a completed walk is asked.
     """
     needed = LED * way
     if role == "leader" or -moved >= needed:

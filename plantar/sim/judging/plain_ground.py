@@ -1,4 +1,4 @@
-"""Where the ground is plain: one level face under and around a foot, which gives no reason to step elsewhere."""
+"""Where the ground is plain: one level face under and around a foot, which justifies no moved step."""
 
 from __future__ import annotations
 
@@ -29,8 +29,7 @@ class PlainGround:
         ]
 
     def under(self, side: Side, x: float, y: float, yaw: float) -> bool:
-        """Returns whether the sole of a `side` at `x`, `y` in m and heading `yaw` in rad, and its surroundings, are on
-        one level face."""
+        """Returns whether the sole of a `side` at `x`, `y` in m and heading `yaw` in rad is on one level face."""
         import shapely
 
         c, s = math.cos(yaw), math.sin(yaw)

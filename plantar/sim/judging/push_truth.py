@@ -1,6 +1,6 @@
 """True effects of pushes on the upper body: which steps they changed, and how they accelerated the CoM.
 
-Steps are compared by the way from the stance foot to the landed foot, so that dead reckoning does not count.
+Steps are compared from stance foot to landed foot, so that dead reckoning does not count.
 """
 
 from __future__ import annotations
@@ -50,8 +50,6 @@ class Stride(NamedTuple):
 
 @dataclass(frozen=True)
 class _Sample:
-    """An instant of a run with pushes."""
-
     time: float
     com: NDArray[np.float64]
     zmp: NDArray[np.float64]
@@ -60,10 +58,9 @@ class _Sample:
 
 
 def step_changes(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: Sequence[Footstep]) -> list[float]:
-    """Distances in m of the taken steps from their plan, by the way from foot to foot, until feet no longer take turns.
+    """Returns the distance in m of each taken step from its plan, until feet no longer take turns.
 
-    Returns a distance a step, from the `stands` of the `feet`, where those were at the start, and the `steps` as
-    planned then.
+    Arguments are the `stands` of the `feet` at the start, and the `steps` as planned then.
     """
     return [math.dist(*way) for way in _ways(stands, feet, steps, other_side)]
 
@@ -91,8 +88,9 @@ def _ways(
 
 
 class PushTruth:
-    """Follows a run with pushes on a robot of a `mass` in kg and `leg` length in m; `stride` is the time in s between
-    two steps of a foot, 0 for a robot that stands."""
+    """Follows a run with pushes on a robot of a `mass` in kg and `leg` in m; `stride` is the time in s between steps of
+    a foot, 0 for standing.
+    """
 
     def __init__(self, mass: float, leg: float, stride: float = 0.0) -> None:
         self._mass, self._leg, self._stride = mass, leg, stride
@@ -101,13 +99,8 @@ class PushTruth:
     def update(
         self, time: float, com: NDArray[np.float64], zmp: NDArray[np.float64] | None, wrench: NDArray[np.float64]
     ) -> None:
-        """At each control tick.
-
-        Args:
-            time: Time in s.
-            com: True CoM (3,) in m.
-            zmp: True ZMP (2,) in m; None without load.
-            wrench: True wrench (6,) of the pushes about the world's origin in N and N m.
+        """Take the true `com` (3,) and `zmp` (2,) in m or None, and the `wrench` (6,) of the pushes about the world's
+        origin, at `time` in s.
         """
         if zmp is None:
             return
@@ -120,9 +113,9 @@ class PushTruth:
         """What each of the `pushes` gave the CoM, less what the ground gave it, against the model of K.
 
         For an upright body, m h com'' = m g (com - zmp) + F (h + d) for a horizontal force F that acts d above a CoM at
-        height h (K 9-11, corrected). Over the push, m dv less the ground's share is the integral of F (1 + d / h); by
-        the printed signs, of F (1 - d / h). Swinging legs and trunk have angular momentum that the pendulum does not
-        know, 1.2 N s in 0.24 s of H1's steps in place; its value one stride before is subtracted.
+        height h (K 9-11, corrected): m dv less the ground's share is the integral of F (1 + d / h), by the printed
+        signs of F (1 - d / h). The angular momentum of swinging legs and trunk, 1.2 N s in 0.24 s of H1's steps in
+        place, is subtracted by its value one stride before.
 
         Returns for each "measured_Ns", "predicted_Ns", "printed_Ns" along it, "above_com_m", and "ratio" of the first
         two.
@@ -154,7 +147,6 @@ class PushTruth:
         }
 
     def _around(self, start: float, end: float) -> list[_Sample]:
-        """The samples of a time and 20 ms around it."""
         return [s for s in self._samples if start - 0.02 <= s.time <= end + 0.02]
 
     def _unexplained(self, chosen: Sequence[_Sample], way: NDArray[np.float64]) -> float:
@@ -166,8 +158,9 @@ class PushTruth:
         return float(self._mass * (speed[-2] - speed[1]) - np.trapezoid(ground[1:-1], times[1:-1]))
 
     def steps_reasons(self, pushes: Sequence[Pushed], changes: Sequence[float]) -> list[dict[str, Any]]:
-        """Returns the failed criteria, as `verdict.reasons`, where small `pushes` must leave steps alone and large ones
-        change one, by `changes` in m (`step_changes`)."""
+        """Returns the failed criteria where small `pushes` must leave steps alone and large ones change one, by
+        `changes` in m.
+        """
         limit, found = CHANGED * self._leg, []
         for i, push in enumerate(pushes):
             until = pushes[i + 1].step if i + 1 < len(pushes) else push.step + _AFTER + 1
@@ -184,8 +177,7 @@ class PushTruth:
         return found
 
     def stride_reasons(self, pushes: Sequence[Pushed], ways: Sequence[Stride]) -> list[dict[str, Any]]:
-        """Returns the failed criteria, as `verdict.reasons`, where each of the `pushes` must lengthen its step, by the
-        strides `ways`."""
+        """Returns the failed criteria where each of the `pushes` must lengthen its step, by the strides `ways`."""
         limit, reacted = CHANGED * self._leg, 0
         for push in pushes:
             if push.step < len(ways):
@@ -198,7 +190,7 @@ class PushTruth:
         return [{"criterion": "strides", "value": reacted, "limit": len(pushes), "text": text}]
 
     def acceleration_reasons(self, pushes: Sequence[Pushed]) -> list[dict[str, Any]]:
-        """Failed criteria, as `verdict.reasons`, where the CoM under `pushes` must follow the model of K."""
+        """Failed criteria where the CoM under `pushes` must follow the model of K."""
         found = []
         for row in self.accelerations(pushes):
             off = abs(row["ratio"] - 1.0)

@@ -20,13 +20,7 @@ _CALM = 2.02  # beats for which it has to stay: half a second
 
 
 class Recovery:
-    """Follows the true ZMP and CoM through pushes.
-
-    Args:
-        shoves: The pushes in order.
-        end: Time in s at which the run ends.
-        body: The robot's size.
-    """
+    """Follows the true ZMP and CoM of a robot of size `body` through pushes `shoves`, until `end` in s."""
 
     def __init__(self, shoves: Sequence[Shove], end: float, body: BodyScale = REFERENCE_BODY) -> None:
         self._body = body
@@ -45,11 +39,11 @@ class Recovery:
         reference_zmp: NDArray[np.float64],
         reference_com: NDArray[np.float64],
     ) -> None:
-        """At each control tick.
+        """Take ZMP and CoM at a control tick.
 
         Args:
-            time: Time in s.
-            zmp: True ZMP (2,) in m, None where no foot carries.
+            time: In s.
+            zmp: True ZMP (2,) in m, or None.
             com: True CoM (2,) in m.
             reference_zmp: Planned ZMP (2,) in m.
             reference_com: Planned CoM (2,) in m.
@@ -68,14 +62,10 @@ class Recovery:
             self._last_off[i] = time
 
     def summary(self, applied: Sequence[NDArray[np.float64]]) -> dict[str, Any]:
-        """Figures of all pushes: direction, impulse, largest ZMP deviation, and time from the push's end to rest.
+        """Direction, impulse, largest ZMP deviation and time to rest of each push, by the `applied` impulses (3,) in N
+        s.
 
-        Args:
-            applied: Applied impulse (3,) in N s of each push that began.
-
-        Returns:
-            Entries of the run's summary. None: the impulse of a push that never began, the deviation without a ZMP, and
-            the time of a push after which the robot did not come to rest.
+        None where a push never began, without ZMP, or without rest.
         """
         pushes: list[dict[str, Any]] = []
         for i, shove in enumerate(self.shoves):

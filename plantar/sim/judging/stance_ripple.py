@@ -24,12 +24,8 @@ SPAN = 0.01
 
 
 class StanceRipple:
-    """Watches the ground's force in single support.
-
-    Args:
-        world: The world.
-        reaction: The ground's reaction on both feet, updated at each physics step.
-        least: Vertical force in N from which a foot touches the ground.
+    """Watches the ground's `reaction` in single support in a `world`; a foot touches from `least` in N of vertical
+    force.
     """
 
     def __init__(self, world: World, reaction: GroundReaction, least: float) -> None:
@@ -46,7 +42,7 @@ class StanceRipple:
 
     @property
     def edge_share(self) -> float | None:
-        """Share of single support with the true ZMP at the edge; None without single support."""
+        """Share of single support with the true ZMP at the edge, or None."""
         return self.watch.at_edge / self.watch.single if self.watch.single else None
 
     def summary(self) -> dict[str, float | None]:

@@ -29,7 +29,8 @@ which turns by 0.007."""
 @dataclass(frozen=True)
 class Stand:
     """A stand of the foot of a `side`, from its `touchdown` in s, at a `place`: its sole's origin (x, y) in m and
-    heading in rad when it last carried a quarter of the weight."""
+    heading in rad when it last carried a quarter of the weight.
+    """
 
     side: Side
     touchdown: float
@@ -42,8 +43,8 @@ class Count:
 
     Attributes:
         stands: The stands that were steps, in order.
-        missed: Why the first missing step did not count; empty where all did.
-        drift: Sum in m (forward, left, in the plan's frame) of the differences from the planned ways between footholds.
+        missed: Why the first missing step did not count, or empty.
+        drift: Summed differences in m (forward, left, in the plan's frame) from the planned ways between footholds.
         turned: The same of the heading in rad.
     """
 
@@ -54,20 +55,19 @@ class Count:
 
     @property
     def taken(self) -> int:
-        """How many they are."""
         return len(self.stands)
 
 
 class StepCount:
     """Follows both feet through a walk.
 
-    A step is taken when the foot of its side, after all steps before it, stands at its place where it was last before
-    the other foot touched down, so that taps and probes do not count. Its place is relative to the foothold before it,
-    so that dead reckoning's drift does not count; the sum of the differences is limited by the way.
+    A step is taken when its foot, after all steps before it, stands at its place where it was last before the other
+    foot touched down, so that taps do not count. Its place is relative to the foothold before it, so that drift of dead
+    reckoning does not count; the sum of the differences is limited by the way.
 
     Args:
         goal: The footsteps.
-        weight: Weight of the robot in N.
+        weight: In N.
         time_of: Time in s of a physics step by its number.
         justified: Whether ground or a push justify a moved step, by the stand, its planned way, and the true foothold
             before.
@@ -91,7 +91,7 @@ class StepCount:
         return float(self.watch.slip)
 
     def last_stands(self) -> list[Stand]:
-        """The stands that can be steps: each foot's last one before the other foot touches down."""
+        """The stands that can be steps: each foot's last before the other touches down."""
         rows = [list(group)[-1] for _, group in groupby(self.watch.stands(), key=lambda row: row[1])]
         return [Stand(SIDES[foot], self._time_of(step), (x, y, yaw)) for step, foot, x, y, yaw in rows]
 
@@ -133,7 +133,6 @@ class StepCount:
         landed: float,
         so_far: tuple[tuple[float, float], float, float],
     ) -> str | tuple[tuple[float, float], float, Way]:
-        """Drift with a stand that is step k, and the step's way; else why it is not the step."""
         goal, side, (drift, turned, course) = self.goal, self.goal.steps[k].side, so_far
         if stand.side != side:
             return f"the {stand.side} foot landed in its stead"
@@ -168,14 +167,12 @@ def _turn(angle: float) -> float:
 
 
 def _from(before: tuple[float, float, float], place: tuple[float, float, float]) -> Way:
-    """The way from one place to another, in the frame of the first."""
     c, s = math.cos(before[2]), math.sin(before[2])
     dx, dy = place[0] - before[0], place[1] - before[1]
     return c * dx + s * dy, c * dy - s * dx, _turn(place[2] - before[2])
 
 
 def _apart(one: tuple[float, float, float], other: tuple[float, float, float]) -> tuple[float, float]:
-    """Distance in m and angle in rad between two places."""
     return math.hypot(one[0] - other[0], one[1] - other[1]), abs(_turn(one[2] - other[2]))
 
 

@@ -29,17 +29,17 @@ _ORIGIN = np.zeros(2)
 class VelocityTruth:
     """Follows a walk at commanded velocities.
 
-    The robot's way in the frame of its torso's heading, from the first lift-off on, is compared with the command one
-    step before: a foot in the air goes where it was going to.
+    The way in the frame of the torso's heading, from the first lift-off on, is compared with the command one step
+    before, since a foot in the air keeps its target.
 
     Args:
         world: The world.
         table: The commands over time.
         timing: Durations of the walk's phases.
-        begin: Start of the walk: middle of the feet (2,) in m and heading in rad.
+        begin: Middle of the feet (2,) in m and heading in rad at the start.
 
     Attributes:
-        course: End of the commanded course so far: place (2,) in m, and heading in rad.
+        course: Place (2,) in m and heading in rad of the commanded course so far.
     """
 
     def __init__(
@@ -89,7 +89,7 @@ class VelocityTruth:
             self._turn[1] += abs(command.turn) * period
 
     def summary(self, landings: list[float]) -> dict[str, Any]:
-        """Shares of the commanded speeds, and what followed the last stop; `landings` are touchdowns in s."""
+        """Shares of the commanded speeds, and what followed the last stop, by touchdowns `landings` in s."""
         stops = [t for t, c in zip(self._table.times, self._table.commands, strict=True) if c is None]
         return {
             "speed_ratio": round(self._way[0] / self._way[1], 4) if self._way[1] > 0.0 else None,
@@ -101,7 +101,7 @@ class VelocityTruth:
         }
 
     def reasons(self, landings: list[float]) -> list[dict[str, Any]]:
-        """Failed criteria, as `verdict.reasons`; `landings` are touchdowns in s."""
+        """Failed criteria, as `verdict.reasons`, by touchdowns `landings` in s."""
         figures, found = self.summary(landings), []
         for name, words in (("speed_ratio", "speed"), ("turn_ratio", "rate of turn")):
             ratio = figures[name]

@@ -30,15 +30,15 @@ class Ending:
     """How a run ended.
 
     Attributes:
-        fall: The fall as (criterion's value, limit, text); None for no fall.
-        stopped: The controller's final safe state; None while it walks.
+        fall: (criterion's value, limit, text), or None.
+        stopped: The controller's final safe state, or None.
         steps: Steps taken and planned.
         missed: Why the first missing step did not count.
-        position: Distance in m of the CoM from the walk's end; None for a walk without a fixed end.
+        position: Distance in m of the CoM from the walk's end; None without a fixed end.
         heading: Heading error in degrees; None likewise.
-        tilt: Tilt of the torso in degrees.
+        tilt: Of the torso in degrees.
         pushes: Pushes that the robot recovered from, and all of them.
-        overrun: Time in s at which a run was cut off, and its first planned end in s; None otherwise.
+        overrun: Time in s at which a run was cut off, and its first planned end; or None.
     """
 
     fall: tuple[float, float, str] | None
@@ -54,8 +54,9 @@ class Ending:
 
 
 def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[str, Any]]:
-    """Returns the criteria that failed of an `ending`, contacts of `legs` and speeds of `joints`: name "criterion",
-    "value", "limit" and a "text" each."""
+    """Returns the criteria that failed of an `ending`, contacts of `legs` and speeds of `joints`: "criterion", "value",
+    "limit" and "text" each.
+    """
     found: list[dict[str, Any]] = []
 
     def add(criterion: str, value: float, limit: float, text: str) -> None:

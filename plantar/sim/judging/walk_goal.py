@@ -1,7 +1,7 @@
 """The goal of a walk: its footsteps as planned at the start, which of them were moved, and why.
 
-The judge keeps the goal. A controller can move a footstep only by a report before the foot lands, with a reason, to a
-place that a detour explains; step counting asks whether ground or a push justified it.
+A controller can move a footstep only by a report before the foot lands, with a reason, to a place that a detour
+explains.
 """
 
 from __future__ import annotations
@@ -55,8 +55,8 @@ class WalkGoal:
     Args:
         feet: Where the feet are at the start.
         steps: The footsteps as planned at the start.
-        leg: Length of the robot's legs in m, the scale of distances.
-        led: How far in m the robot is led off its way; steps may be moved by as much more.
+        leg: Length of the legs in m, the scale of distances.
+        led: How far in m the robot is led; steps may be moved by as much more.
 
     Attributes:
         near: Distance in m within which a foot has reached a place.
@@ -107,8 +107,6 @@ class WalkGoal:
                 self.refused += 1
 
     def _explained(self, k: int, places: Sequence[Footstep]) -> bool:
-        """Whether a detour explains where a footstep is moved to."""
-
         def from_the_one_before(steps: Sequence[Footstep]) -> tuple[float, float]:
             before = steps[k - 1] if k else self._before(0)
             return steps[k].x - before.x, steps[k].y - before.y
@@ -121,10 +119,10 @@ class WalkGoal:
         return math.dist(there, planned) <= detour and away <= most and turned <= _DETOUR_YAW
 
     def ways(self, step: int, time: float, before: float) -> tuple[Way, Way | None]:
-        """How a `step` may lead on from the foothold before it: as planned at the start, and as moved last or None.
+        """Returns how a `step` may lead on from the foothold before it: as planned at the start, and as moved last or
+        None.
 
-        Moves that are reported after `time` in s, its touchdown, do not count, nor those of the step before after
-        `before`. Returns both ways.
+        Moves reported after `time` in s, its touchdown, do not count, nor those of the step before after `before`.
         """
         planned = _way(self._before(step), self.steps[step])
         if self._last_move(step, time) is None:
@@ -137,7 +135,6 @@ class WalkGoal:
         return self.steps[step - 1] if step else self._feet[other_side(self.steps[0].side)]
 
     def _last_move(self, step: int, time: float) -> _Move | None:
-        """A step's last move until some time."""
         reported = [m for m in self._moves.get(step, ()) if m.time <= time]
         return reported[-1] if reported else None
 
@@ -146,7 +143,7 @@ class WalkGoal:
         return self.steps[step] if move is None else move.place
 
     def reason(self, step: int, time: float) -> str:
-        """Returns why a `step` was moved last, until `time` in s; empty where it was not."""
+        """Returns why a `step` was moved last, until `time` in s, or an empty text."""
         move = self._last_move(step, time)
         return "" if move is None else move.reason
 
@@ -161,8 +158,9 @@ class WalkGoal:
     def end(
         self, centers: Mapping[Side, NDArray[np.float64]], *, at_start: bool = False
     ) -> tuple[NDArray[np.float64], float]:
-        """Returns the walk's end: point (2,) in m between the soles' `centers` (2,) in their frames, and heading in
-        rad; as planned last, or `at_start`."""
+        """Returns the end: point (2,) in m between the soles' `centers` (2,) and heading in rad, as planned last or
+        `at_start`.
+        """
         last, steps = dict(self._feet), self.steps if at_start else self._now
         for step in steps:
             last[step.side] = step
@@ -170,7 +168,7 @@ class WalkGoal:
         return np.asarray(middle), steps[-1].yaw if steps else self._feet["left"].yaw
 
     def summary(self) -> list[dict[str, object]]:
-        """Footsteps that were moved: how far in m from the first plan, when last, and why."""
+        """Footsteps that were moved: how far in m, when last, and why."""
         rows: list[dict[str, object]] = []
         for k, moves in sorted(self._moves.items()):
             move, planned = moves[-1], self.steps[k]
@@ -180,7 +178,6 @@ class WalkGoal:
 
 
 def _way(before: Footstep, step: Footstep) -> Way:
-    """The way from a foothold to another."""
     c, s = math.cos(before.yaw), math.sin(before.yaw)
     dx, dy = step.x - before.x, step.y - before.y
     return c * dx + s * dy, c * dy - s * dx, math.remainder(step.yaw - before.yaw, 2.0 * math.pi)

@@ -1,7 +1,7 @@
 """ZMP from the skin against ZMP from force-torque sensors at the ankles (T 4.3.1, Fig. 42-43).
 
-Taxel forces and ankle wrenches pass the same first-order low-pass filter; the taxels' means are then corrected for the
-bias of clipping noise at zero (`plantar.gait.estimate.skin_load`). Both use the feet of the controller's estimator.
+Both pass the same first-order low pass and use the controller's estimate of the feet; the taxels' means are corrected
+for the bias of clipped noise (`plantar.gait.estimate.skin_load`).
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ class ZmpComparison:
 
     Args:
         layouts: Sole layout of each side.
-        noise: Standard deviation of a taxel's noise in N.
+        noise: Standard deviation of a taxel in N.
         period: Control period in s.
         begin: Time in s from which differences count.
 
     Attributes:
-        latest: World ZMP (2,) in m from the skin and from the ankles at the last tick, None without load.
+        latest: World ZMP (2,) in m from the skin and from the ankles, None without load.
     """
 
     def __init__(self, layouts: Mapping[Side, SoleLayout], noise: float, period: float, begin: float = 1.0) -> None:

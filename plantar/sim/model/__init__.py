@@ -1,1 +1,1 @@
-"""MuJoCo models from robots and ground, the kinematics of the legs, and MuJoCo's contacts."""
+"""MuJoCo models from robots and ground, and MuJoCo's contacts."""

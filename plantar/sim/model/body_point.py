@@ -13,16 +13,16 @@ __all__ = ["body_point"]
 def body_point(
     data: Any, body: int, root: int, local: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A point of a body in the world.
+    """Position and velocity of a point of a body.
 
     Args:
         data: The MjData.
         body: Id of the body.
-        root: Id of the root of its tree, about whose centre of mass MuJoCo gives velocities.
+        root: Id of its tree's root, about whose CoM MuJoCo gives velocities.
         local: The point (3,) in the body's frame in m.
 
     Returns:
-        Its position (3,) in m and velocity (3,) in m/s.
+        Position (3,) in m and velocity (3,) in m/s in the world.
     """
     place = data.xpos[body] + data.xmat[body].reshape(3, 3) @ local
     # The cross product in full: np.cross takes ten times as long, and this runs once a physics step.

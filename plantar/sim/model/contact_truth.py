@@ -1,7 +1,7 @@
 """Contact truth: MuJoCo's own contacts of the feet, for skins and judges; no controller sees it.
 
-Everything here reads `MjModel` and `MjData` after `mj_step` or `mj_forward`, so contacts, forces and kinematics belong
-to one instant. Wrenches are [fx, fy, fz, tx, ty, tz], exerted BY the world ON the robot.
+Everything reads `MjModel` and `MjData` after `mj_step` or `mj_forward`. Wrenches are [fx, fy, fz, tx, ty, tz], exerted
+BY the world ON the robot.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class ContactSet(NamedTuple):
         forces: Force (k, 3) on the foot in the world in N.
         torques: Torque (k, 3) on it in N m (torsional and rolling friction).
         distances: Gap (k,) in m, negative in penetration.
-        carries: Mask (k,): the solver may put a force there; False for a contact within `gap` only.
+        carries: Mask (k,): the solver may put a force there; False within `gap` only.
     """
 
     own_geoms: NDArray[np.int32]
@@ -56,11 +56,10 @@ class ContactSet(NamedTuple):
 
     @property
     def size(self) -> int:
-        """Number of contacts k."""
         return len(self.distances)
 
     def gathered(self) -> FootContacts:
-        """The same as `FootContacts`, for kernels."""
+        """The same for kernels."""
         foot = FootContacts(np.zeros(1, dtype=np.uint8))
         foot.take(
             np.column_stack([self.own_geoms, self.other_geoms]).astype(np.int32).reshape(-1, 2),
@@ -92,7 +91,7 @@ class GroundTruth(NamedTuple):
         wrench: Wrench (6,) about the world's origin.
         zmp: True ZMP (2,) in m; None below the minimum force.
         ring: Corners (x, y) in m of the true support polygon, counter-clockwise; empty in the air.
-        margin: Signed distance in m of the ZMP to its edge, positive inside; None without ZMP.
+        margin: Signed distance in m of the ZMP to its edge, positive inside, or None.
         points: Points (x, y) in m of each foot that carry or could.
     """
 
@@ -109,23 +108,21 @@ class GroundTruth(NamedTuple):
 
 
 def foot_contacts(model: Any, data: Any, geom_ids: Collection[int]) -> ContactSet:
-    """The contacts of one foot, `feet_contacts` of its `geom_ids`. Returns them in MuJoCo's order, from `model` and
-    `data`."""
+    """Returns the contacts of one foot, `feet_contacts` of its `geom_ids`, from `model` and `data`."""
     return feet_contacts(model, data, (geom_ids,))[0]
 
 
 def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tuple[ContactSet, ...]:
-    """The contacts of several `feet`, ids of each foot's geoms, and the world's forces on them. Returns a set for each.
+    """Returns a set of contacts with the world's forces for each of several `feet`, ids of each one's geoms.
 
-    MuJoCo's contact normal points from geom 1 to geom 2 and `mj_contactForce` gives the force on geom 2; where the foot
-    is geom 1 the force changes sign. Contacts within a foot are left out; one between two feet belongs to both. `model`
-    and `data` are MuJoCo's after a step.
+    MuJoCo's contact force is that on geom 2; where the foot is geom 1 the sign changes. Contacts within a foot are left
+    out; one between two feet belongs to both. `model` and `data` are MuJoCo's after a step.
     """
     return tuple(_set_of(foot) for foot in ContactReader(model, data, feet).read())
 
 
 def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Returns the wrench (6,) in N and N m of a foot's `contacts` about a `point` (3,) in m, along the world's axes."""
+    """Returns the wrench (6,) in N and N m of `contacts` about a `point` (3,) in m, along the world's axes."""
     out = np.zeros(6)
     if contacts.size:
         f = contacts.forces
@@ -142,18 +139,18 @@ def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) ->
 def contact_wrench_in_frame(
     contacts: ContactSet, position: NDArray[np.float64], rotation_to_world: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Returns the wrench (6,) in N and N m of a foot's `contacts` about a frame's origin `position` (3,) in m, along
-    its axes, the columns of `rotation_to_world` (3, 3) or (9,)."""
+    """Returns the wrench (6,) in N and N m of `contacts` about a frame's `position` (3,) in m, along the columns of
+    `rotation_to_world` (3, 3) or (9,).
+    """
     world = contact_wrench_in_world(contacts, position)
     return (world.reshape(2, 3) @ rotation_to_world.reshape(3, 3)).reshape(6)
 
 
 def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH) -> NDArray[np.float64]:
-    """True support polygon (m, 2) in m of all `feet`, counter-clockwise: hull of points that carry or could, seen from
-    above.
+    """Returns the true support polygon (m, 2) in m of all `feet`, counter-clockwise; fewer than three points for less.
 
-    A rigid sole under an eccentric load lifts a corner by micrometres, where a real one stays pressed: points with a
-    gap up to `reach` in m count. Returns no point in the air, one or two for a point or line contact.
+    It is the hull of points that carry or could: with a gap up to `reach` in m, since rubber stays pressed where a
+    rigid sole lifts a corner by micrometres.
     """
     points: list[tuple[float, float]] = []
     for contacts in feet:
@@ -170,7 +167,7 @@ def ground_truth(
 
     Args:
         feet: Contacts of each foot.
-        plane_height: Height in m of the ZMP's plane; None takes the mean contact height weighted by force.
+        plane_height: Height in m of the ZMP's plane; None for the mean contact height weighted by force.
         minimum_force: Vertical force in N below which there is no ZMP.
         reach: Largest gap in m of a point that could carry a force.
 

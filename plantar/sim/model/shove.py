@@ -13,9 +13,8 @@ __all__ = ["Shove"]
 
 @dataclass(frozen=True)
 class Shove:
-    """A push from `start` to `end` in s of an `impulse` (3,) in N s in the world frame.
-
-    A `smooth` force rises and falls as a half sine, like a hand's; else it is constant.
+    """A push from `start` to `end` in s of an `impulse` (3,) in N s in the world frame; a half sine if `smooth`, else
+    constant.
     """
 
     start: float
@@ -24,11 +23,9 @@ class Shove:
     smooth: bool
 
     def force(self, time: float, lasting: float) -> NDArray[np.float64]:
-        """Returns the mean force (3,) in N in the world from `time` over `lasting` in s, so that held forces add up to
-        the impulse."""
+        """Returns the mean force (3,) in N in the world from `time` over `lasting` in s."""
         return np.asarray(self.impulse * ((self._given(time + lasting) - self._given(time)) / lasting))
 
     def _given(self, time: float) -> float:
-        """Share of the impulse until a time in s."""
         share = min(1.0, max(0.0, (time - self.start) / (self.end - self.start)))
         return 0.5 - 0.5 * math.cos(math.pi * share) if self.smooth else share

@@ -60,12 +60,7 @@ def check_stable(warnings: NDArray[np.int32]) -> None:
 
 
 def add_looks(spec: Any, torso: str) -> None:
-    """Add sky, light and the material "ground" of pictures and videos; the physics is the same.
-
-    Args:
-        spec: The `mujoco.MjSpec`.
-        torso: Body that a light follows.
-    """
+    """Add sky, light that follows a `torso`, and the material "ground" of pictures to a `spec`."""
     spec.add_texture(
         name="sky",
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
@@ -110,14 +105,13 @@ def add_looks(spec: Any, torso: str) -> None:
 
 
 def _add_touch(spec: Any, sole: Any, name: str) -> None:
-    """Add a sensor of the normal force on a sole box: a touch site with 10 mm to spare."""
+    """Add a touch site with 10 mm to spare on a sole box."""
     site = sole.parent.add_site(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, pos=sole.pos, quat=sole.quat, group=5)
     site.size = np.asarray(sole.size) + 0.01
     spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_TOUCH, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name)
 
 
 def _add_leg_contact(spec: Any, robot: Robot) -> None:
-    """Add a sensor of whether anything of one leg touches anything of the other."""
     left, right = (spec.joint(robot.legs[side].joints[0]).parent for side in SIDES)
     for side, link in zip(SIDES, (left, right), strict=True):
         link.name = link.name or f"{side}_leg"  # a sensor finds it by name, which a model need not give
@@ -143,13 +137,13 @@ class World:
         servos: Indices of the legs' actuators in ctrl.
         sole_geoms: Geom ids of each sole.
         sole_sites: Site id of each sole frame.
-        torso: Body id of the torso.
+        torso: Body id.
         stiffness: Servo position gains (k,) in N m/rad, of the robot's file.
         damping: Servo velocity gains (k,) in N m s/rad, of the robot's file.
-        joint_damping: Damping (k,) in N m s/rad of the joints in the robot's model.
-        joint_friction: Dry friction (k,) in N m of the joints in the robot's model.
+        joint_damping: Of the robot's model (k,) in N m s/rad.
+        joint_friction: Dry friction (k,) in N m of the robot's model.
         gyro: Address in sensordata, like `accelerometer`, force and torque in `ankle_wrench`, the normal force on each
-            sole in `touch` (for benches), and `leg_contact`, above 0 where one leg touches the other.
+            sole in `touch`, and `leg_contact`, above 0 where the legs touch.
         period: Time step of the physics in s.
         moving_ground: Moving pieces of ground with their number among the mocap bodies.
         ground_top: Height in m that no ground ever exceeds.
@@ -196,7 +190,7 @@ def build_world(
     plant: TruePlant | None = None,
     others: Sequence[Visitor] = (),
 ) -> World:
-    """Build and compile the world, in its reference configuration; the runner puts the robot on its feet.
+    """Build and compile the world, in its reference configuration.
 
     Args:
         robot: The robot.
@@ -243,7 +237,6 @@ def _set_solver(spec: Any, period: float) -> None:
 
 
 def _set_contacts(spec: Any, friction: float) -> list[str]:
-    """Friction of soles and ground; the names of their geoms."""
     touching = [geom for geom in spec.geoms if geom.contype and geom.contype not in _LEGS]
     for geom in touching:
         geom.condim = 3
@@ -252,7 +245,7 @@ def _set_contacts(spec: Any, friction: float) -> list[str]:
 
 
 def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float, damping: float) -> None:
-    """Contact parameters of soles and ground, as `plantar.sim.contact_models` recommends them: 5 ms and 1 mm for H1."""
+    """Contact parameters of soles and ground (`plantar.sim.contact_models`): 5 ms and 1 mm for H1."""
     ids = [model.geom(name).id for name in names]
     model.geom_solref[ids] = [max(_CONTACT_TIME, _CONTACT_STEPS * period), damping]
     model.geom_solimp[ids] = [0.95, 0.99, _SOFT * body.leg, 0.5, 2]
@@ -269,7 +262,6 @@ def _servos_of(model: Any, robot: Robot, names: Sequence[str], ids: Sequence[int
 
 
 def _world_of(model: Any, robot: Robot, ground: Ground, body: BodyScale) -> World:
-    """The compiled model with the addresses of all that is read and written."""
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
     ids = [model.joint(name).id for name in joints]
     servos = _servos_of(model, robot, joints, ids)

@@ -1,9 +1,7 @@
-"""A hand that takes a robot by its forearm and leads it: two fingers about the arm, which go a way and take it along.
+"""A hand that takes a robot by its forearm and leads it: two fingers about the arm.
 
-The hand is its own body with mass; no one carries its weight. Along its way it follows a path with the force of a
-spring, and of no more than a person's arm gives; sideways, up and down it goes along with the forearm. Between the
-fingers the arm has play. What the hand does to the robot goes through the skin of the arm alone
-(`plantar.sim.body_skin`).
+It is a body with mass but no weight. Along its way it follows a path by a spring, with no more force than a person's
+arm; otherwise it goes along with the forearm. It acts through the arm's skin alone (`plantar.sim.body_skin`).
 """
 
 from __future__ import annotations
@@ -33,13 +31,7 @@ _COLOUR = (0.85, 0.6, 0.45, 1.0)
 
 
 class Grip(NamedTuple):
-    """Where an arm is taken.
-
-    Attributes:
-        link: Name of the link.
-        point: Point (3,) in its frame in m, in the middle of the arm.
-        radius: Of the arm in m.
-    """
+    """Where an arm is taken: name of the `link`, middle of the arm `point` (3,) in its frame, and `radius`, in m."""
 
     link: str
     point: NDArray[np.float64]
@@ -51,15 +43,15 @@ class Guide(Partner):
 
     Args:
         settings: Its settings, for the same body.
-        seed: Chooses when it sets out, and the direction where the settings leave it open.
+        seed: Chooses when it sets out, and an open direction.
 
     Attributes:
         grip: Where it takes the arm.
         sign: 1 where it leads forward, -1 where backward.
         starts: Time in s from which it leads.
-        moved: How far in m it has truly come along its way.
-        reference: How far in m it is to have come.
-        force: True force in N with which it leads the arm along its way; negative where it holds it back.
+        moved: True way in m so far.
+        reference: Wanted way in m so far.
+        force: True force in N along its way; negative where it holds the arm back.
     """
 
     def __init__(self, settings: GuideSettings, grip: Grip, body: BodyScale, seed: int) -> None:
@@ -78,7 +70,7 @@ class Guide(Partner):
 
     @property
     def lasts(self) -> float:
-        """How long in s it leads."""
+        """Duration in s."""
         return self.settings.way / self.settings.hand_speed
 
     def add_to(self, spec: Any) -> None:
@@ -109,29 +101,20 @@ class Guide(Partner):
         return tuple(int(world.model.geom(name).id) for name in ("guide_behind", "guide_before"))
 
     def place(self, world: World) -> None:
-        """Put its fingers about the forearm.
-
-        Args:
-            world: The world, in which the robot stands.
-        """
+        """Put its fingers about the forearm in a `world` in which the robot stands."""
         world.data.qpos[self._places] = self.held(world)[0]
         world.data.qvel[self._axes] = 0.0
 
     def position(self, world: World) -> NDArray[np.float64]:
-        """Where the middle between its fingers is (3,) in the world in m."""
+        """Middle between its fingers (3,) in the world in m."""
         return np.array(world.data.qpos[self._places])
 
     def held(self, world: World) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where the middle of the arm truly is that it holds (3,) in the world in m, and its velocity (3,) in m/s."""
+        """True middle of the held arm (3,) in the world in m, and its velocity (3,) in m/s."""
         return body_point(world.data, self._link, self._root, self.grip.point)
 
     def drive(self, world: World, skin: SkinSensor) -> None:
-        """Set the forces that move it for the next physics step.
-
-        Args:
-            world: The world.
-            skin: The skin, which has just pressed back.
-        """
+        """Set its forces in the `world` for the next physics step, after the `skin` pressed back."""
         data, s, time = world.data, self.settings, float(world.data.time)
         self.force = -self.sign * sum(float(skin.on_obstacles[f"guide_{side}"][0]) for side in ("behind", "before"))
         self._forces.append(self.force)
@@ -151,11 +134,7 @@ class Guide(Partner):
         data.qfrc_applied[self._axes] = force
 
     def summary(self) -> dict[str, Any]:
-        """What became of it.
-
-        Returns:
-            Its direction, when it set out in s, how far it was to go and how far it came, and its largest force in N.
-        """
+        """Direction, begin in s, wanted and true way in m, and the largest force in N."""
         return {
             "direction": "forward" if self.sign > 0.0 else "backward",
             "set_out_s": round(self.starts, 3),

@@ -1,8 +1,7 @@
 """A flat hand that follows a point of a robot's upper body and presses on it with a given force.
 
-It is its own body with mass, which slides along the world's axes and turns about the vertical; no one carries its
-weight. What it does to the robot goes through the robot's skin alone (`plantar.sim.body_skin`), so its inertia is
-measured, too.
+It is a body with mass but no weight, which slides along the world's axes and turns about the vertical. It acts through
+the robot's skin alone.
 """
 
 from __future__ import annotations
@@ -28,11 +27,11 @@ class HandTarget(NamedTuple):
     """Where a hand should be.
 
     Attributes:
-        position: Where its palm's face should be (3,) in the world in m.
-        velocity: How fast that point moves (3,) in m/s.
+        position: Of its palm's face (3,) in the world in m.
+        velocity: Of that point (3,) in m/s.
         yaw: Heading of the robot in rad.
         inward: Unit vector (3,) in the world along which it presses.
-        force: Force in N along that; None to stay at the position in that direction, too.
+        force: In N along that; None to hold the position in that direction, too.
     """
 
     position: NDArray[np.float64]
@@ -45,12 +44,9 @@ class HandTarget(NamedTuple):
 class Hand:
     """A hand for one face of the upper body.
 
-    Args:
-        face: Name of the face (`plantar.sim.body_skin.upper_body.FACES`).
-
     Attributes:
-        face: Name of the face.
-        name: Name of its body and of its palm's geom.
+        face: Name of the face (`plantar.sim.body_skin.upper_body.FACES`).
+        name: Of its body and of its palm's geom.
         half: Half edge of its palm in m.
     """
 
@@ -101,23 +97,13 @@ class Hand:
         self._turning = float(model.body_inertia[model.body(self.name).id].max())
 
     def place(self, data: Any, target: HandTarget) -> None:
-        """Put it somewhere, at rest.
-
-        Args:
-            data: The MjData.
-            target: Where.
-        """
+        """Put it at a `target` in `data`, at rest."""
         data.qpos[self._places[:3]] = self._middle(target)
         data.qpos[self._places[3]] = target.yaw
         data.qvel[self._axes] = 0.0
 
     def drive(self, data: Any, target: HandTarget) -> None:
-        """Set the forces that move it: once a physics step.
-
-        Args:
-            data: The MjData.
-            target: Where it should be, and how hard it presses.
-        """
+        """Set its forces in `data` towards a `target`: once a physics step."""
         place, motion = data.qpos[self._places], data.qvel[self._axes]
         force = self._stiffness * (self._middle(target) - place[:3]) + self._damping * (target.velocity - motion[:3])
         if target.force is not None:
@@ -128,5 +114,4 @@ class Hand:
         data.qfrc_applied[self._axes[3]] = self._turning * turn
 
     def _middle(self, target: HandTarget) -> NDArray[np.float64]:
-        """Where the palm's middle is when its face is at the target."""
         return target.position - self._thick * target.inward

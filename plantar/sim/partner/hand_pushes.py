@@ -1,9 +1,8 @@
-"""Someone who pushes a robot that walks with flat hands, a face of its upper body each.
+"""Flat hands that push a robot that walks, one on each face of its upper body.
 
-A push has an impulse in the robot's frame, forward and to the left. Each of its components is the work of one hand,
-which presses inwards on the face behind it: so a push in any direction needs no friction, and its force passes the
-robot's axis at both hands. A hand waits beyond what the skin sees, comes up to it shortly before, presses with a force
-that swells and fades as a half sine, and stops when it has delivered its share: it measures what it presses with.
+Each component of a push, forward and left, is the work of one hand, so that no friction is needed and the force passes
+the robot's axis. A hand waits out of the skin's range, approaches, presses with a half sine, and stops when the impulse
+that it measures is reached.
 """
 
 from __future__ import annotations
@@ -41,12 +40,12 @@ class HandPush:
     """One push.
 
     Attributes:
-        impulse: Impulse (2,) in N s, forward and to the left in the robot's frame.
-        duration: Duration in s of its half sine.
-        when: States when it begins in s, as planned now; asked until it has.
-        step: Step that it falls into, for who judges; -1 for none.
-        start: When it began in s; infinite before.
-        end: When it ended in s; infinite before.
+        impulse: (2,) in N s, forward and to the left in the robot's frame.
+        duration: In s of its half sine.
+        when: Returns when it begins in s, as planned now; asked until it has.
+        step: Step that it falls into, for the judge; -1 for none.
+        start: Begin in s; infinite before.
+        end: In s; infinite before.
         delivered: True impulse (3,) on the robot in N s, world frame.
         peak: Largest true force on the robot in N.
     """
@@ -61,22 +60,14 @@ class HandPush:
     peak: float = 0.0
 
     def shares(self) -> dict[str, float]:
-        """How hands share the push.
-
-        Returns:
-            Impulse in N s of each hand that takes part, by the face that it presses on.
-        """
+        """Impulse in N s of each hand that takes part, by its face."""
         forward, left = self.impulse.tolist()
         found = {"back": forward, "front": -forward, "right": left, "left": -left}
         return {face: share for face, share in found.items() if share > _LEAST}
 
 
 def faces_of(pushes: Sequence[HandPush]) -> tuple[str, ...]:
-    """Faces that hands are needed for.
-
-    Returns:
-        Their names in the order of `FACES`.
-    """
+    """Faces that hands are needed for, in the order of `FACES`."""
     needed = {face for push in pushes for face in push.shares()}
     return tuple(face for face in FACES if face in needed)
 
@@ -85,15 +76,13 @@ class HandPushes:
     """Hands that push, one push after another.
 
     Args:
-        pushes: The pushes in the order of time.
+        pushes: In the order of time.
         skin: Skin of the upper body, in the base frame.
-        height: States at which height above the base's origin in m the robot is pushed, once it stands; hands keep to
-            that point of it.
+        height: Returns the height above the base's origin in m at which the standing robot is pushed.
 
     Attributes:
-        pushes: The pushes, with what became of them.
-        hands: The hands by the face that each presses on.
-        height: Height above the base's origin in m at which they press; not a number before they are placed.
+        hands: By the face that each presses on.
+        height: Above the base's origin in m; not a number before they are placed.
     """
 
     def __init__(
@@ -115,11 +104,7 @@ class HandPushes:
             hand.add_to(spec)
 
     def bind(self, world: World) -> tuple[int, ...]:
-        """Find the hands in the compiled world.
-
-        Returns:
-            Ids of the geoms that the skin measures: their palms.
-        """
+        """Find the hands in the compiled world; returns the ids of their palms, which the skin measures."""
         self._base = int(world.model.body_rootid[world.torso])
         for hand in self.hands.values():
             hand.bind(world.model)
@@ -144,26 +129,14 @@ class HandPushes:
             hand.place(world.data, self._target(frame, face, _APART * self._body.leg))
 
     def near(self, time: float) -> bool:
-        """Whether a hand is on its way to the robot, pushes it or goes back.
-
-        Args:
-            time: Time in s.
-
-        Returns:
-            Whether the skin may feel one.
-        """
+        """Whether a hand approaches, pushes or goes back at a time in s."""
         way = _APPROACH * self._body.beat
         if self._next and time <= self.pushes[self._next - 1].end + way:
             return True
         return self._next < len(self.pushes) and time >= self.pushes[self._next].when() - way
 
     def drive(self, world: World, skin: SkinSensor) -> None:
-        """Move the hands for the next physics step.
-
-        Args:
-            world: The world.
-            skin: The skin, which has just pressed back.
-        """
+        """Move the hands in the `world` for the next physics step, after the `skin` pressed back."""
         time = float(world.data.time) + SAME_TIME
         push = self.pushes[self._next] if self._next < len(self.pushes) else None
         if push is not None and push.start == math.inf and time >= push.when():
@@ -179,7 +152,7 @@ class HandPushes:
             self._next += 1
 
     def _wanted(self, push: HandPush | None, face: str, time: float) -> tuple[float, float | None]:
-        """Distance from its face in leg lengths at which a hand should be, and the force in N with which it presses."""
+        """Distance from its face in leg lengths, and force in N of a hand."""
         if push is None or face not in push.shares():
             return _APART, None
         if push.start < math.inf:
@@ -188,11 +161,8 @@ class HandPushes:
         return (_NEAR if time >= push.when() - _APPROACH * self._body.beat else _APART), None
 
     def summary(self) -> dict[str, Any]:
-        """What became of the pushes.
-
-        Returns:
-            "height_above_base_m", and "pushes": of each that began its step, begin and duration, the impulse that it
-            was to have in the robot's frame and the true one in the world's, and its largest force.
+        """Height in m, and of each push that began: begin, duration, wanted impulse in the robot's frame, true one in
+        the world's, and largest force.
         """
         rows: list[dict[str, Any]] = [
             {
@@ -209,7 +179,7 @@ class HandPushes:
         return {"height_above_base_m": round(self.height, 4), "pushes": rows}
 
     def _follow(self, push: HandPush | None, time: float, period: float, skin: SkinSensor, frame: _Frame) -> None:
-        """Add up what the skin has just been pressed with, by the push that comes or else by the one before."""
+        """Add up the skin's impulse, for the push that comes or else for the one before."""
         if push is None or time < push.when() - _APPROACH * self._body.beat:
             if not self._next:
                 return
@@ -229,22 +199,17 @@ class HandPushes:
         return peak * (math.sin(math.pi * since) if since < 0.5 else max(math.sin(math.pi * min(since, 1.0)), _REST))
 
     def _over(self, push: HandPush, time: float) -> bool:
-        """Whether all hands of a push are done."""
         return all(self._force(push, face, time) is None for face in push.shares())
 
     def _target(self, frame: _Frame, face: str, distance: float, force: float | None = None) -> HandTarget:
-        """Wanted place of a hand: over the middle of its face, some distance in m away from it."""
+        """Wanted place of a hand: over the middle of its face, some distance in m away."""
         point, velocity = frame.point(np.array([*self._middles[face], self.height]))
         inward = frame.inward(face)
         return HandTarget(point - distance * inward, velocity, frame.yaw, inward, force)
 
 
 class _Frame:
-    """Where the base is at an instant, and how it moves.
-
-    Attributes:
-        yaw: Its heading in rad.
-    """
+    """Place and motion of the base at an instant; `yaw` in rad."""
 
     def __init__(self, data: Any, base: int) -> None:
         self._data, self._base = data, base
@@ -257,5 +222,5 @@ class _Frame:
         return np.asarray(-forward * self._rotation[:, 0] - left * self._rotation[:, 1])
 
     def point(self, local: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where a point (3,) of the base is in the world in m, and how fast it moves in m/s."""
+        """Place in m and velocity in m/s (3,) of a point (3,) of the base in the world."""
         return body_point(self._data, self._base, self._base, local)

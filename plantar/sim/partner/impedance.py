@@ -1,4 +1,4 @@
-"""The partner's impedance controller: how a mobile robot gives way to what pushes it, and leads (K 39-41)."""
+"""The partner's impedance controller: how a mobile robot yields to pushes, and leads (K 39-41)."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ __all__ = ["Impedance"]
 class Impedance:
     """Reference motion of a mobile robot along one axis.
 
-    M x'' + D x' + K x = f_ex + f_in + K x_r (K 39), so that x'' = (f_ex + f_in - D x' - K (x - x_r)) / M (K 40, whose
-    brackets are typographic). As a person's feet, its rest comes after it: x_r moves by the stride S as soon as x is
-    farther than that from it, either way (K 41, whose second case has to read x < x_r - S).
+    M x'' + D x' + K x = f_ex + f_in + K x_r (K 39). The rest x_r moves by the stride S as soon as x is farther than
+    that from it, either way (K 41, whose second case has to read x < x_r - S).
 
     Args:
         settings: M, D, K, S and f_in; the force is a leader's alone.
@@ -36,12 +35,7 @@ class Impedance:
         self.position = self.velocity = self.rest = 0.0
 
     def update(self, force: float, period: float) -> None:
-        """Go on by a while, by Euler's method that takes the new velocity for the position.
-
-        Args:
-            force: External force f_ex along the axis in N.
-            period: Length of that while in s.
-        """
+        """Advance by a `period` in s under an external `force` f_ex in N, by semi-implicit Euler (K 40)."""
         law = self._law
         pull = law.virtual_stiffness * (self.position - self.rest)
         acceleration = (force + self._built_in - law.virtual_damping * self.velocity - pull) / law.virtual_mass

@@ -1,7 +1,7 @@
 """A mobile robot on the ground before the robot that walks, with its hand at the height of the CoM (K Fig. 9).
 
-Its wheels roll along the robot's heading at the start; its arm is a spring. It measures the force on its hand, moves a
-reference by its impedance controller, and follows it with a limited force.
+Its wheels roll along the robot's heading at the start; its arm is a spring. It measures the force on its hand and
+follows its impedance controller with a limited force.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ class MobileRobot(Partner):
     """The partner.
 
     Args:
-        settings: Its settings, for the same body.
+        settings: For the same body.
         skin: Skin of the robot's upper body, in the base frame.
-        height: Height in m of its hand in the world.
+        height: Of its hand in the world in m.
 
     Attributes:
         law: Its impedance controller, whose axis points at the robot.
-        moved: How far in m it has truly come, towards the robot.
-        force: True force on its hand in N, towards the robot: negative where the robot pushes it away.
+        moved: True way in m towards the robot.
+        force: True force on its hand in N, positive towards the robot.
     """
 
     def __init__(self, settings: PartnerSettings, skin: BodySkin, body: BodyScale, height: float, seed: int) -> None:
@@ -86,33 +86,20 @@ class MobileRobot(Partner):
             geom.rgba = colour
 
     def bind(self, world: World) -> tuple[int, ...]:
-        """Find it in the compiled world.
-
-        Returns:
-            Id of its hand's geom.
-        """
+        """Find it in the compiled world; returns its hand's geom id."""
         joint = world.model.joint("partner_x")
         self._place, self._axis = int(joint.qposadr[0]), int(joint.dofadr[0])
         return (int(world.model.geom("partner_hand").id),)
 
     def place(self, world: World) -> None:
-        """Put its hand before the robot's body.
-
-        Args:
-            world: The world, in which the robot stands.
-        """
+        """Put its hand before the robot that stands in the `world`."""
         base = int(world.model.body_rootid[world.torso])
         self._start = float(world.data.xpos[base, 0]) + self._front + self.settings.apart
         world.data.qpos[self._place] = self._start
         world.data.qvel[self._axis] = 0.0
 
     def drive(self, world: World, skin: SkinSensor) -> None:
-        """Measure, move the reference, and drive after it.
-
-        Args:
-            world: The world.
-            skin: The skin, which has just pressed back.
-        """
+        """Measure, move the reference and follow it in the `world`, after the `skin` pressed back."""
         data, s = world.data, self.settings
         true = -float(skin.on_obstacles["partner_hand"][0])  # its axis points at the robot, against the world's x
         self.force = true
@@ -126,12 +113,7 @@ class MobileRobot(Partner):
         data.qfrc_applied[self._axis] = -min(max(wanted, -s.drive_force), s.drive_force)
 
     def summary(self) -> dict[str, Any]:
-        """What became of it.
-
-        Returns:
-            Its role, how far it came towards the robot and its rest with it, the largest force on its hand in N and the
-            share of the time in which it touched the robot.
-        """
+        """Its role, its way towards the robot and its rest's, the largest force in N and the share of time in touch."""
         forces = np.abs(np.array(self._forces or [0.0]))
         return {
             "role": self.settings.role,

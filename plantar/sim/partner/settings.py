@@ -8,23 +8,23 @@ __all__ = ["GuideSettings", "PartnerSettings"]
 
 
 class PartnerSettings(Settings):
-    """A mobile robot that stands before the robot and is pushed by it, or pushes it (K, appendix B).
+    """A mobile robot before the robot, pushed by it or pushing it (K, appendix B).
 
-    The numbers of K's Table 2 are those of H1; they go with weight, mass and leg.
+    Numbers of K's Table 2 are those of H1; they scale with weight, mass and leg.
 
     Attributes:
         kind: Whether there is one.
-        role: What the partner is: a "leader" has a built-in force, a "follower" has none.
+        role: A "leader" has a built-in force, a "follower" has none.
         virtual_mass: M of K 39.
         virtual_damping: D of K 39.
         virtual_stiffness: K of K 39.
-        stride: S of K 41: how far it goes from where it rests before it rests there.
+        stride: S of K 41: distance from its rest at which the rest moves.
         built_in_force: f_in of K 39, of a leader alone.
         starts: Time in s from which a leader's force acts, and a follower is moved.
         apart: Distance in m of its hand from the robot's skin at the start.
-        body_mass: Mass of its body; TIAGo's of 70 kg next to H1.
+        body_mass: TIAGo's of 70 kg next to H1.
         drive_force: Largest force of its drive.
-        hand_noise: Noise (1 sigma) in N of the force-torque sensor in its hand.
+        hand_noise: Standard deviation in N of the force-torque sensor in its hand.
     """
 
     kind: str = choice("none", "mobile_robot")
@@ -42,15 +42,15 @@ class PartnerSettings(Settings):
 
 
 class GuideSettings(Settings):
-    """A hand that takes the forearm of the arm that moves (`[arm]`), and leads the robot by it along a way.
+    """A hand that takes the forearm of the arm that moves (`[arm]`), and leads the robot.
 
     Attributes:
-        way: How far it goes in m; 0 for no one who guides.
-        toward: Where to, in the robot's frame at the start; with "seeded" the seed chooses.
+        way: How far it goes in m; 0 for no guide.
+        toward: Direction in the robot's frame at the start; with "seeded" the seed chooses.
         sets_out: Time in s from which it leads; until then it goes along with the arm.
-        within: The seed draws a time of up to this many s after that: with the default, any phase of a stride.
-        hand_speed: Mean speed in m/s at which it goes.
-        hand_spring: Stiffness of the spring by which it follows its way, in N/m.
+        within: The seed adds up to this many s: by default any phase of a stride.
+        hand_speed: Mean speed in m/s.
+        hand_spring: Stiffness in N/m of the spring by which it follows its way.
         hand_force: Largest force in N with which it leads.
     """
 

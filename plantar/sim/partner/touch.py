@@ -28,45 +28,24 @@ class Partner(Protocol):
         """Add it to a world."""
 
     def bind(self, world: World) -> tuple[int, ...]:
-        """Find it in the compiled world.
-
-        Returns:
-            Ids of the geoms that the skin measures.
-        """
+        """Find it in the compiled world; returns the ids of the geoms that the skin measures."""
 
     def place(self, world: World) -> None:
-        """Put it where it is at the start.
-
-        Args:
-            world: The world, in which the robot stands.
-        """
+        """Put it at its start in a `world` in which the robot stands."""
 
     def near(self, time: float) -> bool:
-        """Whether the skin may feel it; a partner that is farther off costs no rays.
-
-        Args:
-            time: Time in s.
-
-        Returns:
-            Whether it may; always, for a partner that does not state otherwise.
-        """
+        """Whether the skin may measure it at a time in s; one that is farther off costs no rays."""
         return True
 
     def drive(self, world: World, skin: SkinSensor) -> None:
-        """Set the forces that move it for the next physics step.
-
-        Args:
-            world: The world.
-            skin: The skin, which has just pressed back.
-        """
+        """Set its forces in the `world` for the next physics step, after the `skin` pressed back."""
 
 
 def skin_material(body: BodyScale) -> SkinSensing:
-    """Skin for a robot of some size: what the companion's is on H1, by dynamic similarity.
+    """Skin for a robot of some size: the companion's on H1, by dynamic similarity.
 
-    Returns:
-        Stiffness as a share of weight / leg^3, damping of weight beat / leg^3, the force at half a taxel's signal of
-        the weight, the distance at half of it of the leg. Friction sets in over a higher speed, for partners with mass.
+    Stiffness scales with weight / leg^3, damping with weight beat / leg^3, the signals' half force with weight and half
+    distance with leg. Friction sets in over a higher speed, for partners with mass.
     """
     weight, leg, beat = (getattr(body, name) / getattr(REFERENCE_BODY, name) for name in ("weight", "leg", "beat"))
     given = SkinSensing()
@@ -80,12 +59,7 @@ def skin_material(body: BodyScale) -> SkinSensing:
 
 
 class Touch:
-    """Skin of the upper body in a world, and the partners that press on it.
-
-    Args:
-        world: The world, with the partners in it.
-        skin: The skin, on the base and what it carries.
-    """
+    """Skin of the upper body in a `world`, and the partners that press on it."""
 
     def __init__(self, world: World, skin: BodySkin, partners: Sequence[Partner], seed: int) -> None:
         self._world = world
@@ -95,7 +69,7 @@ class Touch:
         self._near = True
 
     def place(self) -> None:
-        """Put the partners where they are at the start: once the robot stands."""
+        """Put the partners at their start, once the robot stands."""
         for partner in self.partners:
             partner.place(self._world)
         mujoco.mj_forward(self._world.model, self._world.data)

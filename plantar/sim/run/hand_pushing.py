@@ -1,4 +1,4 @@
-"""The pushes by hands that a scene asks for, and when they come."""
+"""The pushes by hands of a scene, and when they come."""
 
 from __future__ import annotations
 
@@ -34,20 +34,20 @@ Steps = tuple[Mapping[Side, Footstep], Sequence[Footstep]]
 def upper_body_skin_of(
     scene: Scene, robot: Robot, model: Any, body: BodyScale, worn: WornArm | None = None
 ) -> BodySkin | None:
-    """Skin of a robot's upper body in a scene; None, at no cost, where it is not touched.
+    """Skin of a robot's upper body in a scene; None where it is not touched.
 
     Args:
-        scene: The scene, for the same body.
+        scene: For the same body.
         robot: The robot.
         model: The MjModel of the robot alone.
-        body: How large it is.
-        worn: Its arm that moves, which has skin of its own; None without.
+        body: The robot's size.
+        worn: Its arm that moves, with skin of its own; or None.
 
     Returns:
         The skin, in the frames of the base and of the arm's links.
 
     Raises:
-        SceneError: If a hand is to lead a robot whose arms do not move.
+        SceneError: If a hand leads a robot whose arms do not move.
     """
     if scene.guide.way > 0.0 and worn is None:
         raise SceneError("[guide] way is above 0 and arm.side 'none'; allowed: with an arm that moves, left or right")
@@ -63,15 +63,15 @@ def upper_body_skin_of(
 def hand_pushes(
     push: Push, schedule: Callable[[], WalkSchedule], steps: Steps, skin: BodySkin, body: BodyScale, seed: int
 ) -> HandPushes:
-    """Hands and their pushes as a scene asks for them.
+    """Hands and their pushes of a scene.
 
     Args:
-        push: The pushes of the scene.
-        schedule: Says the phases of the walk as planned now.
-        steps: Where the feet stand, and the footsteps as planned at the start.
+        push: Pushes of the scene.
+        schedule: Returns the phases of the walk as planned now.
+        steps: The standing feet and the footsteps as planned at the start.
         skin: Skin of the upper body.
-        body: How large the robot is.
-        seed: Chooses what the scene leaves open: direction and step, as of a push by a force.
+        body: The robot's size.
+        seed: Chooses an open direction and step.
 
     Returns:
         The hands.
@@ -88,7 +88,7 @@ def hand_pushes(
 
 
 def _pushed_steps(push: Push, schedule: WalkSchedule, rng: np.random.Generator) -> list[tuple[int, float]]:
-    """Steps in which pushes come, each with its share of the impulse."""
+    """Steps with pushes, each with its share of the impulse."""
     if push.count:
         raise SceneError("[push] count is for pushes by a force; allowed: 0 with push.by = 'hands'")
 
@@ -110,20 +110,14 @@ def _pushed_steps(push: Push, schedule: WalkSchedule, rng: np.random.Generator) 
 
 
 def _with_swing(steps: Steps, k: int, direction: tuple[float, float]) -> int:
-    """Step k, or the next one where a push in a direction rather goes to the side of that one's foot."""
+    """Step k, or the next one where a push goes rather to the side of that one's foot."""
     ahead, left = direction
     out = left if steps[1][k].side == "left" else -left
     return k if out >= 0.0 or abs(ahead) > abs(left) or k + 1 >= len(steps[1]) else k + 1
 
 
 class _When:
-    """When a push begins, by the plan as it is when it is asked.
-
-    Args:
-        push: The pushes of the scene.
-        schedule: Says the phases of the walk as planned now.
-        step: The step.
-    """
+    """When a push in a `step` begins, by the `schedule` as it is when asked."""
 
     def __init__(self, push: Push, schedule: Callable[[], WalkSchedule], step: int) -> None:
         self._push, self._schedule, self._step = push, schedule, step
@@ -140,7 +134,7 @@ class _When:
 
 
 def _moment(push: Push, schedule: WalkSchedule, step: int) -> float | None:
-    """When a push in a step begins in s; None where the walk has no such step."""
+    """When a push in a step begins in s, or None."""
     phase = _single_support(schedule, step)
     if phase is None:
         return None
@@ -155,7 +149,7 @@ def _single_support(schedule: WalkSchedule, step: int) -> Phase | None:
 
 
 def _along(steps: Steps, k: int) -> NDArray[np.float64]:
-    """Unit vector (2,) of the way of the foot that takes step k; forward where it stays."""
+    """Unit vector (2,) of the foot's way in step k; forward where it stays."""
     feet, plan = steps
     side = plan[k].side
     before = next((s for s in reversed(plan[:k]) if s.side == side), feet[side])
@@ -165,16 +159,9 @@ def _along(steps: Steps, k: int) -> NDArray[np.float64]:
 
 
 def pushed_height(push: Push, skin: BodySkin, faces: Sequence[str], world: World) -> float:
-    """Height above the base's origin in m at which hands push a robot that stands.
+    """Returns the height above the base's origin in m at which hands push a robot that stands in a `world`.
 
-    Args:
-        push: The pushes of the scene.
-        skin: Skin of the upper body, in the base frame.
-        faces: Faces of it that hands press on.
-        world: The world.
-
-    Returns:
-        The height; named ones as near as all palms find skin.
+    Named heights of a `push` are as near as all palms on the `faces` find `skin`.
     """
     model, data = world.model, world.data
     base = float(data.xpos[model.body_rootid[world.torso], 2])

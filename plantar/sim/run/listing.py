@@ -1,4 +1,4 @@
-"""What there is: robots and machines, scenes, and formats of recordings; read without a simulator."""
+"""Names of robots and machines, scenes, and formats; read without a simulator."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ __all__ = ["listed"]
 
 
 def listed(what: str) -> dict[str, str]:
-    """Names of what there is, each with a line that describes it.
+    """Names with a line that describes each.
 
     Args:
         what: "robots", "scenes" or "formats".

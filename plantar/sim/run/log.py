@@ -1,4 +1,4 @@
-"""What a run records: the topics of its MCAP file."""
+"""The topics of a run's MCAP file."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ MOST_VERTICES = 24
 
 
 class RunLog:
-    """Writes a run's recording. Use as a context manager.
+    """Writes a run's recording; a context manager.
 
     Args:
-        path: MCAP file to write.
+        path: MCAP file.
         world: The world.
         metadata: What identifies the run.
-        zmps: Whether the ZMPs of skin and ankles are recorded, too.
-        touch: Who touches the robot, and the skin that feels it; None for none.
-        arm: Its arm that moves; None without.
+        zmps: Whether the ZMPs of skin and ankles are recorded.
+        touch: Partners and the skin that they press on, or None.
+        arm: The arm that moves, or None.
     """
 
     def __init__(
@@ -104,19 +104,15 @@ class RunLog:
         self._drawn.skin(readings)
 
     def zmps(self, time: float, skin: NDArray[np.float64] | None, force_torque: NDArray[np.float64] | None) -> None:
-        """Record the filtered ZMP (2,) in m of the skin and that of the ankles' sensors; NaN for none.
-
-        Args:
-            time: Time in s.
-            skin: ZMP from the skin.
-            force_torque: ZMP from the ankles.
+        """Record the filtered ZMPs (2,) in m of the `skin` and of the ankles (`force_torque`) at `time` in s; NaN for
+        none.
         """
         if self._zmps is not None:
             row = [_NAN2 if zmp is None else zmp for zmp in (skin, force_torque)]
             self._zmps.write(time, np.concatenate(row))
 
     def _footholds(self, time: float, command: Command) -> None:
-        """Record what feet have been found to stand on; polygons end with NaN."""
+        """Record the found footholds; polygons end with NaN."""
         for found in command.footholds:
             row = np.full(5 + 2 * MOST_VERTICES, np.nan)
             row[:5] = found.step, SIDES.index(found.side), found.area_ratio, *found.vrp
@@ -125,13 +121,7 @@ class RunLog:
             self._foothold.write(time, row)
 
     def say(self, time: float, text: str, level: str = "info") -> None:
-        """Record what happened as a line of the log.
-
-        Args:
-            time: Time in s.
-            text: What happened.
-            level: "info", "warning" or "error".
-        """
+        """Record a `text` with a `level` ("info", "warning" or "error") at `time` in s."""
         self._drawn.log(time, text, level)
 
     def tick(
@@ -143,14 +133,14 @@ class RunLog:
         truth: GroundTruth,
         loads: Sequence[float],
     ) -> None:
-        """Record one control tick, after the physics step that began with it.
+        """Record one control tick, after its physics step.
 
         Args:
-            sensors: What the controller read.
-            command: What it asked for.
-            plan: The plan of the walk.
+            sensors: Input of the controller.
+            command: Its output.
+            plan: Of the walk.
             joints: Joint references (k,) in rad.
-            truth: What the judge saw.
+            truth: Of the judge.
             loads: Vertical ground force in N on the left and the right foot.
         """
         w, time = self._world, sensors.time
@@ -191,7 +181,7 @@ class RunLog:
             self._guides.write(time, np.concatenate([guide.position(w), guide.held(w)[0], along]))
 
     def _record_touch(self, touch: Touch, sensors: Sensors, command: Command) -> None:
-        """Record the true and the measured force on the skin, world frame, the commanded feet, and the partner."""
+        """Record true and measured force on the skin, world frame, the commanded feet, and the partner."""
         measured = np.full(3, np.nan)
         if sensors.skin is not None:
             skin, world = touch.sensor.skin, self._world

@@ -18,17 +18,7 @@ __all__ = ["planned_feet"]
 def planned_feet(
     robot: Robot, feet: Mapping[Side, Footstep], steps: Sequence[Footstep], schedule: WalkSchedule
 ) -> PlannedFeet:
-    """The plan's footprints with their times.
-
-    Args:
-        robot: The robot.
-        feet: Where the feet stand at the start.
-        steps: The footsteps.
-        schedule: When they are made.
-
-    Returns:
-        The footprints.
-    """
+    """Returns the footprints of `steps` at the times of a `schedule`, of a `robot` whose `feet` stand at the start."""
     swings = {p.step: p for p in schedule.phases if p.swing is not None}
 
     def footprint(foot: Footstep, step: int | None) -> Footprint:

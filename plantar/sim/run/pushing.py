@@ -1,4 +1,4 @@
-"""Pushes on the base, as a scene asks for them: one in a step of a walk, or several while the robot stands."""
+"""Pushes on the base: one in a step of a walk, or several while the robot stands."""
 
 from __future__ import annotations
 
@@ -27,24 +27,24 @@ _WEAKEST = 0.6  # of the scene's impulse: the weakest of several seeded pushes
 
 
 class Pusher:
-    """Applies pushes to the torso body.
+    """Applies pushes to the torso.
 
     Args:
-        push: The pushes of the scene.
-        schedule: Phases of the walk, which give the time of a push in a step.
-        seed: Chooses what the scene leaves open. A push in a step: seeds 0-3 push forward, backward, left and right,
-            seeds 4-7 again, and so on; the step is drawn. Pushes while standing: each one's direction, all around, and
-            its strength, from 0.6 times the scene's impulse up to all of it.
+        push: Pushes of the scene.
+        schedule: Phases of the walk.
+        seed: In a step: seeds 0-3 push forward, backward, left and right, seeds 4-7 again, and so on; the step is
+            drawn. While standing: draws each direction, and strength from 0.6 times the scene's impulse up to all of
+            it.
 
     Attributes:
-        direction: Direction in words.
-        step: Step that the push falls into; None for none.
-        shoves: The pushes as asked.
+        direction: In words.
+        step: Step that the push falls into, or None.
+        shoves: The pushes.
         pushing: Whether a push acts in the present physics step.
-        applied: Impulse (3,) in N s that was applied of each so far; ends with the last one that began.
+        applied: Impulse (3,) in N s of each push that began.
 
     Raises:
-        SceneError: If the scene pushes at a step that the walk does not have, or when the robot no longer stands.
+        SceneError: If the walk lacks that step, or the robot no longer stands.
     """
 
     def __init__(self, push: Push, schedule: WalkSchedule, seed: int) -> None:
@@ -92,35 +92,19 @@ class Pusher:
 
 
 def direction_name(push: Push, seed: int) -> str:
-    """Direction of a push in words, with what the seed chooses.
-
-    Args:
-        push: The pushes of a scene.
-        seed: Seeds 0-3 push forward, backward, left and right, seeds 4-7 again, and so on.
-
-    Returns:
-        One of the four, or "angle" or "step" where the scene has it so.
-    """
+    """Returns forward, backward, left or right by the `seed` of a `push`, or "angle" or "step"."""
     return tuple(_DIRECTIONS)[seed % len(_DIRECTIONS)] if push.direction == "seeded" else push.direction
 
 
 def direction_of(push: Push, seed: int) -> tuple[float, float]:
-    """Direction of a push as a unit vector, forward and to the left.
-
-    Args:
-        push: The pushes of a scene, in no direction that changes with the step.
-        seed: Chooses it where the scene leaves it open.
-
-    Returns:
-        The vector (2,).
-    """
+    """Returns the unit vector (2,), forward and left, of a `push`; the `seed` chooses an open one."""
     if push.direction == "angle":
         return math.cos(math.radians(push.angle)), math.sin(math.radians(push.angle))
     return _DIRECTIONS[direction_name(push, seed)]
 
 
 def _refuse_unused(push: Push) -> None:
-    """Refuse what only hands do."""
+    """Refuse settings of hands."""
     alone = {"direction": push.direction == "step", "cycle": push.cycle >= 0.0, "repeat": push.repeat > 1}
     alone |= {"with_swing": push.with_swing}
     alone |= {"small": push.small > 0.0, "place": push.place != "height", "verdict": push.verdict != "walk"}

@@ -62,20 +62,12 @@ class FinishedRun(Protocol):
     def common(
         self, result: Result, names: tuple[str, str], reasons: list[dict[str, Any]], fell: bool, time: float
     ) -> dict[str, Any]:
-        """See `plantar.sim.loop.Run.common`: it returns what `result`, `names`, `reasons`, `fell`, `time` give."""
+        """Returns `plantar.sim.loop.Run.common` of `result`, `names`, `reasons`, `fell`, `time`."""
         ...
 
 
 def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
-    """The summary of a run, as `plantar sim --json` prints it; what was not measured is None.
-
-    Args:
-        run: The run.
-        result: What its loop left behind.
-
-    Returns:
-        Its values by name, plain JSON.
-    """
+    """Returns the summary of a `run` by its loop's `result`, as `plantar sim --json` prints it; None: not measured."""
     judge, stopped, late = run.judge, run.controller.safe_state, run.servos.out_of_reach_since
     count = judge.steps.count()
     balance = {} if run.recovery is None else run.recovery.summary(run.pusher.applied)
@@ -113,7 +105,6 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
 
 
 def _of_landings(run: FinishedRun) -> dict[str, list[Any]]:
-    """Figures of each landing."""
     landed = run.judge.landings
     sole = {s: 4.0 * float(np.prod(run.robot.sole_rectangle(s)[1])) for s in SIDES}
     return {
@@ -205,7 +196,7 @@ def _of_parts(run: FinishedRun, balance: dict[str, Any]) -> dict[str, Any]:
 
 
 def _over_feet(run: FinishedRun, count: Count) -> tuple[NDArray[np.float64], float]:
-    """Middle (2,) in m between the centres of the soles where they stood last as steps, and the last heading in rad."""
+    """Middle (2,) in m between the soles' centres at their last steps, and the last heading in rad."""
     feet = dict(run.feet)
     for stand in count.stands:
         feet[stand.side] = Footstep(stand.side, *stand.place)
@@ -214,10 +205,10 @@ def _over_feet(run: FinishedRun, count: Count) -> tuple[NDArray[np.float64], flo
 
 
 def _final_error(run: FinishedRun, ends: Sequence[tuple[NDArray[np.float64], float]]) -> tuple[float, float]:
-    """Distance in m and heading error in degrees of the true torso from the nearest of some ends of the walk.
+    """Distance in m and heading error in degrees of the true torso from the nearest end of the walk.
 
-    A walk ends as planned at the start or as planned last: steps that are moved because dead reckoning is off come to
-    lie where they were planned at the start.
+    A walk ends as planned at the start or last: steps moved against drift of dead reckoning lie where they were planned
+    first.
     """
     world, data = run.world, run.world.data
     com = data.subtree_com[world.torso, :2]

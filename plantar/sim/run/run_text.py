@@ -26,14 +26,7 @@ _COMMON |= {"control_us", "control_us_by_active", "skipped", "figures"}
 
 
 def run_text(summary: Summary) -> str:
-    """A run's figures for people, of a walk or of an experiment on a machine with skin.
-
-    Args:
-        summary: What the run gave.
-
-    Returns:
-        Lines.
-    """
+    """A run's `summary` as lines of text, of a walk or of an experiment."""
     tick, walked = summary["control_us"], "steps_planned" in summary
     parts = (_shares, _plant, _body, _joints, _balance) if walked else (_figures,)
     return "\n".join(
@@ -48,14 +41,8 @@ def run_text(summary: Summary) -> str:
 
 
 def demo_text(made: Mapping[str, Any], output: Path) -> str:
-    """The three parts of the demonstration for people.
-
-    Args:
-        made: The results of "shoe", "walk" and "analysis", and the "files".
-        output: The folder that they are in.
-
-    Returns:
-        Lines.
+    """Returns the demonstration's lines, from the results `made` ("shoe", "walk", "analysis", "files") in the folder
+    `output`.
     """
     shoe, steps = made["shoe"], {side: foot["steps"] for side, foot in made["analysis"]["feet"].items()}
     return (
@@ -69,7 +56,6 @@ def demo_text(made: Mapping[str, Any], output: Path) -> str:
 
 
 def _outcome(summary: Summary) -> list[str]:
-    """How it ended, and every criterion that failed."""
     end = "completed" if summary["completed"] else ("FELL" if summary["fell"] else "NOT COMPLETED")
     steps = ""
     if "steps_planned" in summary:
@@ -102,7 +88,7 @@ def _value(value: Any) -> str:
 
 
 def _shares(summary: Summary) -> list[str]:
-    """What the scene's shares of a body come to on this robot."""
+    """The scene's shares of a body in numbers of this robot."""
     shares = {name: share for name, share in summary["shares"].items() if name.startswith(_SHOWN)}
     parts = [f"{name} {x['value']:.3g} {x['unit']} ({x['share']})" for name, x in shares.items()]
     body = summary["body"]
@@ -125,7 +111,6 @@ def _plant(summary: Summary) -> list[str]:
 
 
 def _body(summary: Summary) -> list[str]:
-    """Tilt, ZMP margin, landings, and where the robot stood at the end."""
     margin = summary["zmp_margin_min_m"]
     lines = [
         f"  largest tilt {summary['tilt_max_deg']:.2f} deg, smallest true ZMP margin "
@@ -154,7 +139,6 @@ def _body(summary: Summary) -> list[str]:
 
 
 def _joints(summary: Summary) -> list[str]:
-    """Slip, torques, speeds and reach of the legs."""
     held = summary["torque_limit"]
     most = sorted(held["joints"].items(), key=lambda joint: -joint[1])[:3]
     joints = ", ".join(f"{name} {100 * share:.1f} %" for name, share in most)
@@ -177,7 +161,7 @@ def _joints(summary: Summary) -> list[str]:
 
 
 def _balance(summary: Summary) -> list[str]:
-    """Pushes that were recovered from, and the skin's ZMP against that of the ankles, where the scene has them."""
+    """Pushes that were recovered from, and the skin's ZMP against that of the ankles."""
     balance = summary.get("balance", {})
     lines = []
     if balance.get("pushes"):

@@ -67,8 +67,8 @@ class Simulation(Run):
 
     Args:
         scene: The scene.
-        seed: Seed of sensor noise and of what the scene leaves to chance.
-        layouts: Sole layouts to wear instead of the robot's own, for example from a freshly built shoe.
+        seed: Of sensor noise and of what the scene leaves open.
+        layouts: Sole layouts instead of the robot's own.
 
     Raises:
         RobotError: If the robot is unknown or not valid.
@@ -113,7 +113,7 @@ class Simulation(Run):
         self._add_judges()
 
     def _enter_world(self, skin: BodySkin | None) -> None:
-        """Build the world, and put the robot on its feet in it, with sensors, servos and what touches it."""
+        """Build the world, and put the robot on its feet, with sensors, servos and partners."""
         scene, seed = self.scene, self.seed
         worn = () if self.worn is None else (self.worn,)
         self.touched: Touched | None = None
@@ -146,7 +146,6 @@ class Simulation(Run):
                 self.sensors.body_skin = self.touch.read
 
     def _add_judges(self) -> None:
-        """Follow the run by the simulator's truth."""
         scene, robot, ground = self.scene, self.robot, self.ground
         self.recovery = Recovery(self.pusher.shoves, self.controller.end, self.body) if scene.push.count else None
         self.zmps: ZmpComparison | None = None
@@ -162,15 +161,10 @@ class Simulation(Run):
         self.judge = Judge(self.world, self.settings.com_height, goal, plain)
 
     def build_world(self, others: Sequence[Visitor]) -> World:
-        """The world of this run, with the robot, its ground and who else is in it.
-
-        Args:
-            others: Who else is in it.
-        """
+        """The world of this run, with the robot, its ground and others."""
         return build_world(self.robot, self.ground, self.scene.control.physics_period, self.plant, others)
 
     def _arm(self, skin: BodySkin | None) -> CompliantArm | None:
-        """The arm that moves, with its sensors; None for a robot without."""
         if self.worn is None:
             return None
         noise, period = self.scene.sensing.encoder_noise, self.settings.period
@@ -180,7 +174,7 @@ class Simulation(Run):
         return arm
 
     def start_walk(self) -> Start:
-        """Where the feet are at the start, and what is planned and commanded."""
+        """The feet at the start, and the planned and commanded walk."""
         scene, height = self.scene, com_height_of(self.scene.walk, self.robot)
         try:
             return start_of_walk(scene.walk, self.robot, height, scene.terrain.height, self.velocities)
@@ -248,7 +242,7 @@ class Simulation(Run):
             check_stable(self.world.data.warning.number)
 
     def step_physics(self) -> None:
-        """One step of the simulated physics, with the servos' set-points and pushes as they are now."""
+        """One step of the physics with the present set-points and pushes."""
         if self.touch is None:
             mujoco.mj_step(self.world.model, self.world.data)
         else:
@@ -266,7 +260,7 @@ class Simulation(Run):
             self._log.zmps(reading.time, *self.zmps.latest)
 
     def _judge_tick(self, reading: Sensors, command: Command) -> None:
-        """Hand what the controller estimated and asked for at a tick to all judges, after its physics step."""
+        """Hand the tick's estimates and commands to all judges."""
         judge, time = self.judge, reading.time
         if command.footholds:
             self.foothold_truth.update(command.footholds)
@@ -283,14 +277,8 @@ class Simulation(Run):
             self.recovery.update(time, judge.truth().zmp, com, plan.vrp, plan.com)
 
     def compute_rest(self, command: Command, everything: bool) -> int:
-        """Count the members of both percepts that the controller did not ask for, or compute them.
-
-        Args:
-            command: The command of this tick, with its percepts.
-            everything: Compute them all, and count none.
-
-        Returns:
-            How many were left out.
+        """Returns how many members of the percepts of a `command` were not computed; with `everything` computes them
+        all.
         """
         count = 0
         for percept in command.percepts.values():
@@ -313,7 +301,6 @@ class Simulation(Run):
 
 
 def _worn(robot: Robot, arm: ArmSettings) -> WornArm | None:
-    """The arm that moves; None for a robot whose arms are part of its chest."""
     if arm.side == "none":
         return None
     return WornArm(robot, "left" if arm.side == "left" else "right", arm.posture)
@@ -332,8 +319,8 @@ def run_scene(
 
     Args:
         scene: The scene.
-        seed: Seed of sensor noise and of what the scene leaves to chance.
-        layouts: Sole layouts to wear instead of the robot's own.
+        seed: Of sensor noise and of what the scene leaves open.
+        layouts: Sole layouts instead of the robot's own.
         record: MCAP file to write.
         video: MP4 file to write.
         progress: Called about ten times a second with the fraction done and a text.

@@ -1,7 +1,4 @@
-"""A scene is data: a TOML that names terrain, robot, gait, what is sensed and what disturbs.
-
-Reading a scene needs no simulator; `plantar list scenes` uses it too.
-"""
+"""A scene is data: a TOML of terrain, robot, gait, sensing and disturbances; no simulator is needed to read it."""
 
 from __future__ import annotations
 
@@ -45,21 +42,19 @@ class Push(Settings):
     """Pushes on the base: one in a step, one in each of several steps, or several while the robot stands.
 
     Attributes:
-        dv: Velocity in m/s that the push gives to a free body: its impulse is that times the robot's
-            mass; 0 for no push.
-        impulse: Impulse in N s, for every robot the same, instead of `dv`; 0 goes by `dv`.
-        duration: Duration in s.
-        by: What pushes: a bare "force" on the torso, or "hands" that press on the skin of the upper
-            body, which then measures them (`sensing.body_skin`).
-        direction: Direction in the robot's frame; "angle" takes `angle`, "step" goes along the step that it falls into,
-            and with "seeded" the seed chooses.
+        dv: Velocity in m/s that the push gives to a free body; 0 for no push.
+        impulse: Impulse in N s instead of `dv`, the same for every robot; 0: by `dv`.
+        duration: In s.
+        by: A bare "force" on the torso, or "hands" that press on the skin of the upper body (`sensing.body_skin`).
+        direction: In the robot's frame; "angle" uses `angle`, "step" is along the step that it falls into, and with
+            "seeded" the seed chooses.
         angle: Direction in degrees from forward to the left, where `direction` is "angle".
         step: Step in whose single support it comes; -1 lets the seed choose.
         phase: Share of the single support at which it begins.
-        cycle: Share of the stride, from the begin of that single support to the begin of the next one of the same foot,
-            at which it begins instead; -1 goes by `phase`. Of pushes by hands.
-        with_swing: Whether a push to a side comes in a step whose foot swings to that side: one step later where that
-            of `step` does not. (Over the outer edge of the foot that stands no step catches more than 37 N s on h1, see
+        cycle: Share of the stride from the begin of that single support at which it begins instead; -1: by `phase`. Of
+            pushes by hands.
+        with_swing: Whether a push to a side waits for a step whose foot swings to that side, at most one step. (Over
+            the outer edge of the standing foot no step catches more than 37 N s on h1, see
             `benchmarks/capture_limit.py`.) Of pushes by hands.
         repeat: In how many steps, from that one on, one push each comes. Of pushes by hands.
         small: Impulse of one more push some steps earlier, as a share of the impulse; 0 for none. Of pushes by hands.
@@ -67,11 +62,11 @@ class Push(Settings):
         count: Number of pushes on a robot that stands; 0 pushes once, in a step.
         interval: Time in s from one such push to the next.
         sideways: Strength of a push to the side, as a share of one forward; in between along an ellipse.
-        height: Height in m above the torso's centre of mass at which it is pushed; 0.6 is about the neck.
+        height: Height in m of the push above the torso's centre of mass; 0.6 is about the neck.
         place: Where hands push: at `height`, or at the height of the CoM, the hips or the shoulders.
-        verdict: What the judge asks for besides a completed walk: "steps", that small pushes change no step and others
-            do; "stride", that each pushed step becomes longer along its push; "acceleration", that the CoM is
-            accelerated as a force at that height has to. Of pushes by hands.
+        verdict: Further criterion: "steps", small pushes change no step and others do; "stride", each pushed step
+            becomes longer along its push; "acceleration", the CoM is accelerated as a force at that height has to. Of
+            pushes by hands.
     """
 
     dv: float = number(0.0, "m/s", 0, 10)
@@ -96,7 +91,7 @@ class Push(Settings):
 
     @property
     def strength(self) -> float:
-        """Impulse in N s of the push, for the body that the settings count for."""
+        """Impulse in N s, for the body that the settings count for."""
         return self.impulse or self.dv * self.body.mass
 
 
@@ -131,20 +126,13 @@ class Scene:
     """A scene.
 
     Attributes:
-        name: Name.
-        description: One line for people.
+        description: One line.
         robot: Name or TOML file of the robot.
-        terrain: Ground.
-        walk: Gait.
-        sensing: Sensor noise and delay.
-        push: Disturbance.
-        control: Switches.
-        controller: Settings of the controller's parts by table and name (`plantar.gait.controller_tables`), as far as
-            given.
-        plant: In what the true robot and ground differ from what the controller takes them for.
-        partner: Who walks with the robot.
-        arm: Its arm that moves.
-        guide: Who leads it by that.
+        controller: Given settings of the controller's parts by table and name (`plantar.gait.controller_tables`).
+        plant: Difference of the true robot and ground from the controller's model.
+        partner: Mobile robot in front of the robot.
+        arm: Arm that moves.
+        guide: Hand that leads the robot by that arm.
     """
 
     name: str
@@ -163,17 +151,10 @@ class Scene:
 
     @property
     def proximity_range(self) -> float:
-        """Distance in m that the soles see."""
         return self.sensing.proximity_range
 
     def setting_name(self, key: str) -> str:
-        """Full name of a setting's key.
-
-        Args:
-            key: Any name that the setting is given by.
-
-        Returns:
-            "section.key", or "robot".
+        """Full name of a setting's key, "section.key", or "robot".
 
         Raises:
             SceneError: If the scene has no such key.
@@ -195,16 +176,10 @@ class Scene:
         raise SceneError(f"scene '{self.name}' has no setting '{key}'")
 
     def for_body(self, body: BodyScale) -> Scene:
-        """The scene for a robot: shares of a body in numbers of this one.
-
-        Args:
-            body: How large the robot is.
-
-        Returns:
-            The scene.
+        """The scene with shares of a body in numbers of this one.
 
         Raises:
-            SceneError: If a share comes to a number that is not allowed; the message names it.
+            SceneError: If a share comes to a number that is not allowed.
         """
         sections: dict[str, Any] = {}
         for name in SECTIONS:
@@ -226,8 +201,8 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
 
     Args:
         source: The scene as read from TOML.
-        settings: Each "section.key=value" or, where the key is unique, "key=value"; values are TOML, bare words texts.
-            A scene's own key goes before one of the controller's parts.
+        settings: "section.key=value" or, where the key is unique, "key=value"; values are TOML, bare words texts. A
+            scene's own key is preferred to one of the controller's parts.
 
     Returns:
         A changed copy.
@@ -267,7 +242,6 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
 
 
 def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
-    """The dataclass of a scene's terrain, as its section."""
     table = source.get("terrain", {})
     kind = table.get("kind", "flat") if isinstance(table, Mapping) else "flat"
     if not isinstance(kind, str) or kind not in terrain_kinds():
@@ -276,13 +250,7 @@ def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
 
 
 def scene_file(name: str | os.PathLike[str]) -> Path:
-    """File of a scene.
-
-    Args:
-        name: A built-in name (`builtin_scenes()`) or the path of a scene TOML.
-
-    Returns:
-        Its path.
+    """File of a scene's built-in name (`builtin_scenes()`) or path.
 
     Raises:
         SceneError: If there is none.
@@ -307,7 +275,7 @@ def scene_file(name: str | os.PathLike[str]) -> Path:
 
 
 def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None) -> Scene:
-    """Load a scene by its built-in name or from a TOML file.
+    """Load a scene.
 
     Args:
         name: A built-in name (`builtin_scenes()`) or the path of a scene TOML.
@@ -318,7 +286,7 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
         The scene.
 
     Raises:
-        SceneError: If the name is unknown or a field is not valid; the message names it.
+        SceneError: If the name is unknown or a field is not valid.
 
     Example:
         >>> load_scene("flat", ["steps=4"]).walk.steps
@@ -329,10 +297,10 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
 
 
 def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = (), robot: str | None = None) -> Scene:
-    """Make a scene of what a TOML file holds.
+    """Make a scene of a TOML file's content.
 
     Args:
-        source: What it holds.
+        source: The content.
         path: The file, for names and messages.
         settings: `key=value` settings that override the file's.
         robot: Robot to use instead of the file's.
@@ -341,7 +309,7 @@ def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = ()
         The scene.
 
     Raises:
-        SceneError: If a field is not valid; the message names it.
+        SceneError: If a field is not valid.
     """
     given = set(source)
     source = override(source, settings)

@@ -1,7 +1,4 @@
-"""Scenes of either kind: a walk on plantar feedback, or an experiment of the companion.
-
-What only one kind needs is loaded where there is one.
-"""
+"""Scenes of either kind: a walk on plantar feedback, or an experiment of the companion; each is loaded when needed."""
 
 from __future__ import annotations
 
@@ -29,7 +26,7 @@ __all__ = [
 def open_scene(
     name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None
 ) -> Scene | CompanionScene:
-    """Load a scene by its built-in name or from a TOML file; one that names an experiment is the companion's.
+    """Load a scene; one that names an experiment is the companion's.
 
     Args:
         name: A built-in name or the path of a scene TOML.
@@ -40,7 +37,7 @@ def open_scene(
         The scene.
 
     Raises:
-        SceneError: If the name is unknown or a field is not valid; the message names it.
+        SceneError: If the name is unknown or a field is not valid.
 
     Example:
         >>> open_scene("flat", ["steps=4"]).walk.steps
@@ -71,14 +68,7 @@ def robot_file_of(scene: Scene | CompanionScene) -> Path:
 
 
 def simulation_of(scene: Scene | CompanionScene, seed: int) -> Run:
-    """Build a scene of either kind.
-
-    Args:
-        scene: The scene.
-        seed: Seed of what is left to chance.
-
-    Returns:
-        The run, which has not begun.
+    """Returns the run, not begun, of a `scene` of either kind with a `seed`.
 
     Raises:
         SceneError: If the scene cannot be simulated.
@@ -106,10 +96,10 @@ def run(
 
     Args:
         scene: The scene, its built-in name or the path of its TOML file.
-        seed: Seed of what is left to chance.
-        record: File of the recording, .mcap; None leaves none behind.
-        video: File of the video, .mp4; None makes none.
-        plot: Folder of the figures; None draws none.
+        seed: Of sensor noise and what the scene leaves open.
+        record: Recording, .mcap, or None.
+        video: Video, .mp4, or None.
+        plot: Folder of the figures, or None.
         progress: Called with the fraction done and a text.
 
     Returns:

@@ -25,11 +25,10 @@ class LegServos:
     """Turns commands of the walking controller into servo set-points.
 
     A servo computes torque = kp (u - q) - kv q'. With u = q_d + ((kv + d) q'_d + tau_ff) / kp, where d is the joint's
-    own damping and its friction counts as load, it follows q_d without lag and holds the expected load without error.
-    Between control ticks u moves on at q'_d, and follows what a tick changes through a low pass at the servo's rate:
-    held set-points would make a saw tooth of kp q'_d dt in every torque, and steps of kv times a change of q'_d.
-    Where a joint would have to be faster than the robot's speed limits, all joints move on by the same smaller share of
-    their way, and make up for it later.
+    damping and its friction counts as load, it follows q_d without lag. Between ticks u moves at q'_d, and changes of a
+    tick pass a low pass at the servo's rate: held set-points would make a saw tooth of kp q'_d dt in every torque, and
+    steps of kv times a change of q'_d. At a speed limit all joints move by the same smaller share of their way, and
+    catch up later.
 
     Args:
         world: The world.
@@ -38,7 +37,7 @@ class LegServos:
         plant: How the true drives differ from these servos; None for no difference.
 
     Attributes:
-        out_of_reach_since: Time in s at which something was first asked for that the legs do not reach; None if never.
+        out_of_reach_since: Time in s of the first command that the legs do not reach, or None.
     """
 
     def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:
@@ -66,17 +65,12 @@ class LegServos:
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
-        """Hold a posture.
-
-        Args:
-            joints: Joint angles (k,) in rad.
-            torques: Feed-forward torques (k,) in N m.
-        """
+        """Hold a posture of `joints` (k,) in rad with feed-forward `torques` (k,) in N m."""
         self._setpoints.hold(joints, torques)
         self._write()
 
     def command(self, command: Command) -> NDArray[np.float64]:
-        """Solve a command for the joints; returns the joint reference (k,) in rad, within the speed limits."""
+        """Returns the joint reference (k,) in rad of a command, within the speed limits."""
         missed = follow_command(self._legs, command)
         if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
@@ -90,12 +84,7 @@ class LegServos:
         return self._reference.copy()
 
     def follow(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
-        """Go to joint angles by the next tick.
-
-        Args:
-            joints: Joint angles (k,) in rad.
-            torques: Feed-forward torques (k,) in N m.
-        """
+        """Go to `joints` (k,) in rad by the next tick with feed-forward `torques` (k,) in N m."""
         self._legs.joints[:], self._legs.torques[:] = joints, torques
         self._setpoints.go_to()
         friction = self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None
@@ -110,7 +99,6 @@ class LegServos:
             self._setpoints.advance()
 
     def _write(self) -> None:
-        """Hand the set-points to the servos, as far as these get them."""
         data, w = self._world.data, self._world
         if self._drives is None:
             self._setpoints.write()

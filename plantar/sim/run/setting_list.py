@@ -1,4 +1,4 @@
-"""What settings there are: every dotted name that a scene, `--set`, a sweep or a robot file takes."""
+"""Every dotted setting of a scene, `--set`, a sweep or a robot file."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -
 
     Args:
         name: A table such as "estimator" or "terrain.beam", a setting's dotted name, or its last part; None lists all.
-        body: The body for which defaults that are shares of one are given in SI.
+        body: Its defaults are given in SI.
 
     Returns:
-        Each with its description; those of a kind of terrain are listed under "terrain.KIND.", which a scene writes as
+        Descriptions; those of a kind of terrain are listed under "terrain.KIND.", which a scene writes as
         `terrain.kind` and the last part; those of an experiment under its name.
 
     Raises:
-        InputError: If there is no such table or setting; the message names the nearest.
+        InputError: If there is no such table or setting.
 
     Example:
         >>> settings_listed("estimator.gravity")["estimator.gravity"][1:4]
@@ -58,14 +58,7 @@ def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -
 
 
 def settings_of_robot(name: str | None, robot: str | None) -> dict[str, Setting]:
-    """The settings by their dotted names, with the numbers of a robot.
-
-    Args:
-        name: A table, a setting's dotted name, or its last part; None lists all.
-        robot: Name or file of the robot; None takes the reference body, which is H1's.
-
-    Returns:
-        Their descriptions.
+    """Returns the settings of a `name` (see `settings_listed`) with the numbers of a `robot`, H1's for None.
 
     Raises:
         InputError: If there is no such table or setting.

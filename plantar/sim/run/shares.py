@@ -1,4 +1,4 @@
-"""What a scene's shares of a body come to for the robot that walks in it."""
+"""A scene's shares of a body in numbers of the robot that walks in it."""
 
 from __future__ import annotations
 
@@ -12,14 +12,7 @@ __all__ = ["body_told", "shares_told"]
 
 
 def body_told(body: BodyScale) -> dict[str, float]:
-    """A body as plain JSON values.
-
-    Args:
-        body: How large the robot is.
-
-    Returns:
-        What its shares are shares of, by name and unit.
-    """
+    """Size of a body by name and unit, as plain JSON values."""
     return {
         "mass_kg": round(body.mass, 4),
         "weight_N": round(body.weight, 3),
@@ -32,13 +25,9 @@ def body_told(body: BodyScale) -> dict[str, float]:
 
 
 def shares_told(scene: Scene) -> dict[str, dict[str, Any]]:
-    """The settings of a scene that are stated as shares of a body, in SI.
+    """ "share", "value" in SI and "unit" of a scene's settings that are shares of a body, by dotted name.
 
-    Args:
-        scene: A scene that counts for a robot (`Scene.for_body`).
-
-    Returns:
-        By dotted name of the setting its "share", its "value" in SI, and the "unit" of that.
+    The scene is one of a robot (`Scene.for_body`).
 
     Example:
         >>> from plantar.sim.run.scene import load_scene

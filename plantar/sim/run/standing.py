@@ -1,4 +1,4 @@
-"""Put a robot on its feet: solve the standing posture and let the contacts settle before control begins."""
+"""Put a robot on its feet: solve the standing posture and let the contacts settle."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ def stand(
     """Stand the robot on its footholds, CoM between the sole centres, and let it settle until time 0.
 
     Args:
-        world: The world; its state is replaced.
-        legs: Kinematics, which start from this posture afterwards.
-        servos: Servos, which hold this posture afterwards.
-        feet: Where the soles stand.
-        centers: Point (2,) of each sole in the world frame in m that carries its half of the weight.
+        world: Its state is replaced.
+        legs: Kinematics, which start from this posture.
+        servos: Servos, which hold this posture.
+        feet: Places of the soles.
+        centers: Point (2,) of each sole in the world frame in m that carries half of the weight.
         com_height: CoM height above the soles in m.
-        hold: Holds what else of the robot moves, called before each physics step; None where all else is at rest.
+        hold: Holds other moving parts, called before each physics step; or None.
 
     Raises:
         RobotError: If the left foot is to the right of the other.
-        SceneError: If the legs cannot reach that stance or touch each other in it, it does not keep standing there, or
-            the physics becomes unstable.
+        SceneError: If the legs cannot reach that stance or touch each other in it, it is not kept, or the physics
+            becomes unstable.
     """
     joints, torques = solve_standing(world.robot, legs, feet, centers, com_height)
     ground = float(np.mean([feet[s].z for s in SIDES]))

@@ -1,4 +1,4 @@
-"""What touches the robot in a run: hands that push or lead, a partner, the skin under them, and their judge."""
+"""Hands that push or lead in a run, a partner, the skin under them, and their judge."""
 
 from __future__ import annotations
 
@@ -35,18 +35,18 @@ class Touched:
     """Hands and partner of a run, from the plan to the verdict.
 
     Args:
-        scene: The scene, for the same body.
+        scene: For the same body.
         skin: Skin of the robot's upper body.
-        body: How large the robot is.
-        schedule: Says the phases of the walk as planned now.
-        feet: Where the feet stand at the start.
+        body: The robot's size.
+        schedule: Returns the phases of the walk as planned now.
+        feet: The feet at the start.
         steps: The footsteps as planned at the start.
-        seed: Chooses what the scene leaves open, and the noise.
-        reach: Height in the world in m at which a partner before the robot has its hand.
-        worn: The robot's arm that moves; None without.
+        seed: Of open choices and noise.
+        reach: Height in the world in m of a partner's hand.
+        worn: The arm that moves, or None.
 
     Attributes:
-        partners: Who touches the robot, to be added to its world.
+        partners: To be added to the world.
         touch: The skin in the world; None before `enter`.
 
     Raises:
@@ -87,14 +87,7 @@ class Touched:
             self.partners.append(self.guide)
 
     def enter(self, world: World) -> Touch:
-        """Find skin and partners in the compiled world.
-
-        Args:
-            world: The world, with the partners in it.
-
-        Returns:
-            The skin in it; `place` puts the partners where they begin.
-        """
+        """Find skin and partners in the compiled world; returns the skin in it."""
         self.touch = Touch(world, self._skin, self.partners, self._seed)
         if self.guide is not None and self._worn is not None:
             way, worn = self.guide.sign * self.guide.settings.way, self._worn
@@ -103,13 +96,7 @@ class Touched:
         return self.touch
 
     def update(self, world: World, time: float, zmp: NDArray[np.float64] | None) -> None:
-        """At each control tick, after its physics step.
-
-        Args:
-            world: The world.
-            time: Time of the tick in s.
-            zmp: True ZMP (2,) in m; None without load.
-        """
+        """Take the true `zmp` (2,) in m, or None, at a tick at `time` in s in the `world`, after its physics step."""
         if self.touch is not None and self.hands is not None:
             com = world.data.subtree_com[world.torso]
             self._truth.update(time, com, zmp, self.touch.wrench)
@@ -117,14 +104,7 @@ class Touched:
             self._led.update(time)
 
     def reasons(self, stands: Sequence[Stand]) -> list[dict[str, Any]]:
-        """Criteria that failed of what the scene asks besides a completed walk.
-
-        Args:
-            stands: The stands of the feet that could be steps.
-
-        Returns:
-            As `plantar.sim.judging.verdict.reasons` gives them.
-        """
+        """Failed criteria of what the scene asks besides a completed walk, by the `stands` of the feet."""
         found: list[dict[str, Any]] = []
         verdict = self._scene.push.verdict if self.hands is not None else "walk"
         if verdict == "steps":
@@ -142,14 +122,8 @@ class Touched:
         return found
 
     def summary(self, stands: Sequence[Stand], walked: float) -> dict[str, Any]:
-        """What hands and partner did, and what came of it, for a run's summary.
-
-        Args:
-            stands: The stands of the feet that could be steps.
-            walked: How far forward in m the robot's CoM came.
-
-        Returns:
-            "push", "partner" and "guide", where the scene has them.
+        """Returns "push", "partner" and "guide", where the scene has them, by the feet's `stands` and the CoM's way
+        `walked` in m.
         """
         found: dict[str, Any] = {}
         if self.hands is not None:

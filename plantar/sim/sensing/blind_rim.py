@@ -1,4 +1,4 @@
-"""What a shoe whose pad is not relieved carries past its taxels (docs/shoes.md)."""
+"""What a shoe without a relieved pad carries past its taxels (docs/shoes.md)."""
 
 from __future__ import annotations
 
@@ -21,16 +21,12 @@ _MOST_PATCHES = 256
 
 
 class BlindRim:
-    """The sole beside the taxels as springs beside theirs: of a patch's load they carry the share
-
-        s = A_taxels / (A_taxels + k A_rim)
-
-    with the areas of the patch over taxels and beside them, and the stiffness k of the rim per area over a taxel's. The
-    load stays where it acts; only its size is read too small.
+    """The sole next to the taxels as springs. The taxels carry the share A_taxels / (A_taxels + k A_rim) of a patch's
+    load, with the patch's areas over and next to taxels, and k the rim's stiffness per area over a taxel's.
 
     Args:
         layout: The sole.
-        stiffness: k, as the table `shoe` of a layout file has it (`rim_stiffness`).
+        stiffness: k, as `rim_stiffness` of the table `shoe` in a layout file.
         rubber: Half width in m of what a line or point contact presses on.
 
     Raises:
@@ -54,13 +50,8 @@ class BlindRim:
         self._patches = Patches(self._make_share, _GRID, _MOST_PATCHES)
 
     def share(self, patch: Sequence[tuple[float, float]]) -> float:
-        """Share of a load on a patch that the taxels carry.
-
-        Args:
-            patch: Contact points (x, y) in the sole frame in m; the patch is their convex hull.
-
-        Returns:
-            The share, 0..1.
+        """Share, 0..1, of a load that the taxels carry on the convex hull of contact points (k, 2) in the sole frame in
+        m.
         """
         return self._patches.of(patch)
 

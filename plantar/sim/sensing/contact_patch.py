@@ -21,12 +21,12 @@ _INSIDE = 2e-3  # of a patch's half extent: how far inside its outermost cells a
 
 
 class Patches(Generic[T]):
-    """What was made of the latest patches, so that it is made once a patch.
+    """Keeps what was computed of the latest patches.
 
     Args:
-        make: Makes it of a patch's contact points (k, 2) in m.
-        grid: Distance in m within which patches that agree are the same patch.
-        most: How many are kept.
+        make: Computes it from a patch's contact points (k, 2) in m.
+        grid: Distance in m within which patches are the same.
+        most: Largest number kept.
     """
 
     def __init__(self, make: Callable[[NDArray[np.float64]], T], grid: float, most: int) -> None:
@@ -34,14 +34,7 @@ class Patches(Generic[T]):
         self._made: dict[tuple[tuple[int, int], ...], T] = {}
 
     def of(self, points: Sequence[tuple[float, float]]) -> T:
-        """What is made of a patch; the patch that was made first is forgotten where there are too many.
-
-        Args:
-            points: Contact points (x, y) in m, in any order.
-
-        Returns:
-            It.
-        """
+        """Returns what was computed of the patch with contact `points` (k, 2) in m, in any order."""
         key = patch_key(points, self._grid)
         if key not in self._made:
             if len(self._made) >= self._most:
@@ -55,9 +48,9 @@ def patch_polygon(points: NDArray[np.float64], half_width: float) -> tuple[NDArr
 
     Args:
         points: Contact points (k, 2) in m, at least one.
-        half_width: Half the width in m that a line presses on; a point, as of a round solid, presses on `_POINT`
-            times that. A sole of stiffness k in Pa/m on a sphere of radius R carries F on a disc of radius
-            a = (4 R F / (pi k))^(1/4), and the square with the same second moments is a / sqrt(2) wide each way.
+        half_width: Half the width in m that a line presses on; a point presses on `_POINT` times that. A sole of
+            stiffness k in Pa/m on a sphere of radius R carries F on a disc of radius a = (4 R F / (pi k))^(1/4); the
+            square with the same second moments is a / sqrt(2) wide each way.
 
     Returns:
         Convex polygon (m, 2) in m, counter-clockwise, and its half-planes (m, 3), as of `half_planes_of`.
@@ -83,13 +76,10 @@ def patch_polygon(points: NDArray[np.float64], half_width: float) -> tuple[NDArr
 
 
 def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Half-planes n . x <= h of a convex polygon's edges.
-
-    Args:
-        polygon: Convex polygon (k, 2) in m, counter-clockwise.
+    """Half-planes n . x <= h of the edges of a convex polygon (k, 2) in m, counter-clockwise.
 
     Returns:
-        Outward normal of length 1, and h in m, of each edge (k, 3).
+        Outward unit normal, and h in m, of each edge (k, 3).
     """
     edge = np.concatenate([polygon[1:], polygon[:1]]) - polygon
     length = np.hypot(edge[:, 0], edge[:, 1])
@@ -100,12 +90,12 @@ def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def reach_of(hull: NDArray[np.float64], inside: float = _INSIDE) -> NDArray[np.float64]:
-    """Where a load can act that several cells carry: a hull with its edges a little further inside; one that is thinner
-    than that, as of cells in a row, shrunk.
+    """Where a load can act that several cells carry: their hull with its edges moved inward, shrunk where it is
+    thinner.
 
     Args:
         hull: Convex hull (k, 2) of the cells' places.
-        inside: How far inside, in the unit of the hull.
+        inside: How far inward, in the hull's unit.
 
     Returns:
         Polygon (m, 2) in the same unit.

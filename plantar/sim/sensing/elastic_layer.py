@@ -1,19 +1,18 @@
-"""How the surface of an elastic layer on a rigid foot gives way under pressure, and the contact that follows from it.
+"""How an elastic layer, bonded to a rigid foot and free of friction on its face, gives way, and the contact that
+follows.
 
-The layer is linearly elastic, bonded to the foot and free of friction on its face. What a uniformly pressed square does
-to the surface elsewhere is Love's closed form for the half-space, less what the foot behind a layer of finite
-thickness holds back. With E* = E / (1 - nu^2), d the layer's thickness and q a wave number, a pressure p moves the
-surface by
+A uniformly pressed square moves the surface by Love's closed form for the half-space, less what the foot behind the
+layer holds back. With E* = E / (1 - nu^2), thickness d and wave number q, a pressure p moves the surface by
 
     u(q) = 2 M(q d) p(q) / (E* q),
     M(s) = ((3 - 4 nu) sinh 2s - 2s) / ((3 - 4 nu) cosh 2s + 2 s^2 + 5 - 12 nu + 8 nu^2),
 
-so the difference to the half-space, whose M is 1, is a smooth function of the distance r,
+so the difference to the half-space (M = 1) at a distance r is
 
     g(r) = 1 / (pi E*) int_0^inf (1 - M(q d)) J0(q r) dq.
 
-Sources: K. L. Johnson, Contact Mechanics (1985), 3.25 for the square and 5.8 for layers; A. E. H. Love, The stress
-produced in a semi-infinite solid by pressure on part of the boundary (1929).
+Sources: K. L. Johnson, Contact Mechanics (1985), 3.25 and 5.8; A. E. H. Love, The stress produced in a semi-infinite
+solid by pressure on part of the boundary (1929).
 """
 
 from __future__ import annotations
@@ -43,10 +42,10 @@ def influence(points: ArrayLike, sides: ArrayLike, thickness: float, poisson: fl
     """Displacement of each point by a unit force on each square, for E* = 1.
 
     Args:
-        points: Points (n, 2) in m: where displacements count.
+        points: Points (n, 2) in m where displacements count.
         sides: Side (m,) in m of the square about each of the first m points, on which its force acts evenly.
-        thickness: Thickness in m of the layer; infinity for the half-space.
-        poisson: Poisson's ratio of the layer, at least 0 and below 0.5.
+        thickness: Of the layer in m; infinity for the half-space.
+        poisson: Poisson's ratio, at least 0 and below 0.5.
 
     Returns:
         Displacements (n, m) in m for 1 N and E* of 1 Pa: divide by E*.
@@ -81,7 +80,7 @@ def influence(points: ArrayLike, sides: ArrayLike, thickness: float, poisson: fl
 
 
 def _love(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The corner function of Love's solution: its second difference over a square's corners is the displacement."""
+    """Corner function of Love's solution: its second difference over a square's corners is the displacement."""
     with np.errstate(divide="ignore", invalid="ignore"):
         first = np.where(x == 0.0, 0.0, x * np.arcsinh(y / np.abs(x)))
         second = np.where(y == 0.0, 0.0, y * np.arcsinh(x / np.abs(y)))
@@ -89,14 +88,14 @@ def _love(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]
 
 
 def _held_back(distance: NDArray[np.float64], poisson: float) -> NDArray[np.float64]:
-    """g(r) of a layer of thickness 1, times pi E*, by a table."""
+    """g(r) of a layer of thickness 1, times pi E*."""
     table = _held_back_table(poisson)
     return np.interp(distance, np.linspace(0.0, _FAR, len(table)), table)
 
 
 @lru_cache(maxsize=8)
 def _held_back_table(poisson: float) -> NDArray[np.float64]:
-    """g of distances from 0 to `_FAR`, by Simpson's rule: 1 - M falls as s^2 exp(-2 s) and is gone at 20."""
+    """g of distances from 0 to `_FAR`, by Simpson's rule: 1 - M falls as s^2 exp(-2 s), to zero at 20."""
     from scipy.special import j0
 
     s = np.linspace(0.0, 20.0, 2001)
@@ -117,9 +116,9 @@ class Contact(NamedTuple):
 
     Attributes:
         forces: Force (n,) on each square in N, none negative.
-        field: Approach (3,) of the body: displacement at the origin in m times E*, and its slopes along x and y.
+        field: Approach (3,): displacement at the origin in m times E*, and its slopes along x and y.
         on: Squares (n,) that touch.
-        settled: Whether force and gap fit together everywhere: no square pulls, none is penetrated.
+        settled: Whether no square pulls and none is penetrated.
     """
 
     forces: NDArray[np.float64]
@@ -131,10 +130,10 @@ class Contact(NamedTuple):
 class LayerContact:
     """Presses rigid bodies on a layer of n squares, E* = 1.
 
-    With F the forces, f the body's approach, g the gap before it comes down and s the depth by which the squares that
-    do not touch lie under it, C F = U f - g - s, U = (1, x, y). A primal-dual active set finds who touches: F = 0 where
-    s < 0. Of C the inverse B is kept, so that squares that leave cost no more than a factor of their own number,
-    s_off = B_off,off^-1 (B (U f - g))_off; where most have left, those that touch are solved for themselves.
+    With forces F, approach f, gap g before, and depth s by which squares that do not touch lie under the body, C F = U
+    f - g - s, U = (1, x, y). A primal-dual active set finds the squares that touch: F = 0 where s < 0. With B the
+    inverse of C, squares off the body cost a factor of their own number, s_off = B_off,off^-1 (B (U f - g))_off; where
+    most are off, those that touch are solved instead.
 
     Args:
         compliance: Symmetric (n, n), see `influence`.
@@ -159,16 +158,15 @@ class LayerContact:
     def press(
         self, load: NDArray[np.float64], gap: NDArray[np.float64] | None = None, start: NDArray[np.bool_] | None = None
     ) -> Contact:
-        """Press a body with a given load: no square pulls, none is penetrated, and there is no force across a gap.
+        """Press a body with a given load: no square pulls, none is penetrated, no force across a gap.
 
         Args:
-            load: The body's normal force in N, and force times x and times y of where it acts in N m; inside the hull
-                of the points.
-            gap: Distance (n,) in m of the undeformed body from the layer, times E*; 0 everywhere where None.
-            start: Squares (n,) that are believed to touch; all where None.
+            load: Normal force in N, and force times x and y of where it acts in N m; inside the hull of the points.
+            gap: Distance (n,) in m of the undeformed body from the layer, times E*; None for 0.
+            start: Squares (n,) expected to touch; None for all.
 
         Returns:
-            The contact; not settled where no set of squares was found that fits.
+            The contact; not settled where no set of squares fits.
         """
         on = np.ones(len(self.points), dtype=bool) if start is None or int(start.sum()) < 3 else start
         contact = self._settled(load, gap, on, _TOGETHER)
@@ -183,8 +181,7 @@ class LayerContact:
     def _settled(
         self, load: NDArray[np.float64], gap: NDArray[np.float64] | None, on: NDArray[np.bool_], together: int
     ) -> Contact | None:
-        """The contact from squares that are believed to touch, of which for so many rounds all change at once that
-        should; None where fewer than three are left."""
+        """The contact from squares expected to touch; None where fewer than three are left."""
         forces, field = np.zeros(len(on)), np.zeros(3)
         for i in range(_ROUNDS):
             gains, apart = self.gains(on, gap)
@@ -208,15 +205,15 @@ class LayerContact:
     def gains(
         self, on: NDArray[np.bool_], gap: NDArray[np.float64] | None = None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """What an approach (1, x, y) and, last, the gap do while the same squares touch.
+        """What an approach (1, x, y) and, last, the gap cause while the same squares touch.
 
         Args:
             on: Squares (n,) that touch.
-            gap: Distance (n,) in m of the undeformed body times E*; 0 everywhere where None.
+            gap: Distance (n,) in m of the undeformed body times E*; None for 0.
 
         Returns:
-            Forces (n, 4) on the squares, 0 where they do not touch, and how deep (n, 4) the others lie under the body,
-            0 where they touch.
+            Forces (n, 4) on the squares, and depth (n, 4) of those that do not touch under the body; each 0 for the
+            others.
         """
         off = np.flatnonzero(~on)
         rest = np.zeros(len(on)) if gap is None else gap

@@ -1,14 +1,11 @@
 """Spread a normal load over the taxels of a sole that is an elastic layer: the simulator's second taxel model.
 
-`SolePressure` takes the sole for springs side by side, as the fit of contact edges does that reads its taxels
-(`plantar/sensing/partial_contact.py`). Here neighbours move each other (`plantar.sim.sensing.elastic_layer`): pressure
-is not linear, it gathers at edges of contact, independent of that fit. Squares of a grid finer
-than the taxels carry what covers them, so that no square pulls and none is penetrated by the rigid ground; their
-forces have exactly the wrench that MuJoCo found, and each taxel reports what its part of the squares carries.
+Unlike the springs of `SolePressure`, neighbours move each other (`plantar.sim.sensing.elastic_layer`), so pressure
+gathers at edges of contact and does not fit what the controller assumes. Squares finer than the taxels carry exactly
+MuJoCo's wrench; a taxel reports its part of the squares.
 
-The forces are linear in the wrench while the same squares touch. So a patch keeps a small matrix, wrench to taxels, for
-the squares that touched last, which costs as much as the springs do; a few factors are needed only where the squares
-that touch, or the patch, become others.
+While the same squares touch, forces are linear in the wrench: a patch keeps that small matrix and recomputes it only
+where the squares or the patch change.
 """
 
 from __future__ import annotations
@@ -40,7 +37,7 @@ _LEAST_SHARE = 0.02  # of a square: less cover than this carries nothing
 
 
 class _Squares(NamedTuple):
-    """The grid over a sole, and the n pieces that the taxels' borders cut its m squares into."""
+    """The grid over a sole, and the n pieces of its m squares between the taxels' borders."""
 
     cutter: CellCutter
     square: NDArray[np.intp]  # (n,)
@@ -54,9 +51,9 @@ class _Patch:
     """What does not depend on the load, and how the squares that carried last answer one.
 
     Attributes:
-        contact: The squares that are covered, k of them.
-        shares: Share (taxels, k) of each square's force that each taxel carries.
-        reach: Polygon of the places that the squares can carry a load at.
+        contact: The k covered squares.
+        shares: Share (taxels, k) of each square's force on each taxel.
+        reach: Polygon of the places where the squares can carry a load.
     """
 
     def __init__(
@@ -96,9 +93,9 @@ class ElasticPressure:
 
     Args:
         layout: The sole.
-        thickness: Thickness in m of the layer between foot and ground; infinity for the half-space.
+        thickness: Of the layer between foot and ground in m; infinity for the half-space.
         rubber: Half width in m of what a line or point contact presses on.
-        poisson: Poisson's ratio of the layer: 0.4 for foams and soft prints, near 0.5 for silicone.
+        poisson: Poisson's ratio: 0.4 for foams and soft prints, near 0.5 for silicone.
 
     Raises:
         LayoutError: If a taxel does not face the ground.
@@ -132,10 +129,9 @@ class ElasticPressure:
         """Taxel forces of a load on a patch.
 
         Args:
-            patch: Contact points (x, y) in the sole frame in m; the patch is their convex hull.
-            force: Normal force in N; 0 or less loads nothing.
-            center_of_pressure: Point (2,) in the sole frame in m where the load acts; one that the squares cannot
-                carry goes to the nearest that they can.
+            patch: Contact points (k, 2) in the sole frame in m; the patch is their convex hull.
+            force: Normal force in N; 0 or less loads no taxel.
+            center_of_pressure: Point (2,) in the sole frame in m, moved to the nearest that the squares can carry.
 
         Returns:
             Forces (n,) in N, none negative, whose vertical parts add up to `force`.
@@ -154,7 +150,7 @@ class ElasticPressure:
     def forces(
         self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """What the squares carry, before taxels make readings of it.
+        """What the squares carry.
 
         Args:
             patch: See `spread`.
@@ -162,8 +158,8 @@ class ElasticPressure:
             center_of_pressure: See `spread`.
 
         Returns:
-            Centroid (k, 2) of the covered part of each square in m, and its force (k,) in N; empty where the load
-            rests on the bare rim next to the taxels.
+            Centroid (k, 2) of the covered part of each square in m, and its force (k,) in N; empty for a load on the
+            bare rim.
         """
         shape = self._patches.of(patch)
         if shape is None:

@@ -1,8 +1,7 @@
-"""Simulated proximity of a sole: one ray a taxel against the ground, and what the electronics deliver of it.
+"""Simulated proximity of a sole: one ray a taxel along its -z against ground geoms, and what the electronics deliver.
 
-Rays run along each taxel's -z, out of the body, and meet ground geoms alone (their own geom group), never the robot.
-They are the dearest of the sensors, so none is cast for a sole that no caller asks about, nor for one that is farther
-from the highest ground than its sensors reach.
+Rays cost most of all sensors, so none is cast for a sole that is not asked for, or that is out of range of the highest
+ground.
 """
 
 from __future__ import annotations
@@ -38,9 +37,9 @@ class SoleProximity:
         model: The MjModel; its ground geoms are those of group `GROUND_GROUP`.
         layout: The sole.
         site: Name of the site that is the sole frame.
-        sensing_range: Range of the sensors in m.
-        ground_top: Height in m that no ground exceeds; a sole that is farther above it casts no rays.
-        colours: How light the ground is where; None for as light as the sensors were calibrated on.
+        sensing_range: In m.
+        ground_top: Height in m that no ground exceeds.
+        colours: How light the ground is; None for as light as at calibration.
 
     Raises:
         RobotError: If the model has no such site.
@@ -78,7 +77,6 @@ class SoleProximity:
         self._rays: SoleRays | None = None
 
     def _rays_in(self, data: Any) -> SoleRays:
-        """The rays, from where the sole is in the data."""
         if self._rays is None or data is not self._data:
             self._data = data
             place = data.site_xpos[self._site], data.site_xmat[self._site].reshape(3, 3)
@@ -87,33 +85,18 @@ class SoleProximity:
         return self._rays
 
     def within_range(self, data: Any) -> bool:
-        """Whether any ground can be in range: no taxel is higher above the highest ground than its range.
-
-        Args:
-            data: The MjData.
-        """
+        """Whether any ground can be in range of the soles' place in MjData."""
         return bool(self._rays_in(data).lies_below(self._reach, self._top + self.range))
 
     def distances(self, data: Any) -> NDArray[np.float64]:
-        """Distance (n,) from each taxel to the ground in m as its colour shows it, free of noise; inf where nothing is
-        in range.
+        """Distance (n,) to the ground in m as its colour shows it, without noise, from MjData after a step.
 
-        A taxel that is up to 20 mm inside the ground has a negative distance.
-
-        Args:
-            data: The MjData after `mj_step` or `mj_forward`.
+        inf out of range; negative for a taxel up to 20 mm inside the ground.
         """
         return np.array(self.look(data).distances)
 
     def look(self, data: Any) -> SoleRays:
-        """Cast the rays where any ground can be in range.
-
-        Args:
-            data: The MjData after `mj_step` or `mj_forward`.
-
-        Returns:
-            The rays, whose `distances` are those of `distances` until they are cast again.
-        """
+        """Cast the rays where any ground can be in range; returns them, with their `distances`."""
         rays = self._rays_in(data)
         if not self.within_range(data):
             rays.see_nothing()
@@ -137,10 +120,10 @@ class ProximitySensor:
 
     Args:
         proximity: The noise-free sensor.
-        noise_std: Standard deviation of the white noise on each distance in m.
-        bias: What is added to every distance in m.
-        rng: Source of the noise; it advances by one sample at each `read`, whether rays are cast or not.
-        dead: Indices of dead taxels: they read NaN.
+        noise_std: Standard deviation of each distance in m.
+        bias: Added to every distance in m.
+        rng: Source of the noise; it advances at each `read`, whether rays are cast or not.
+        dead: Indices of taxels that read NaN.
     """
 
     def __init__(
@@ -165,11 +148,11 @@ class ProximitySensor:
 
         Args:
             data: The MjData after `mj_step` or `mj_forward`.
-            wanted: Whether somebody asks about this sole.
+            wanted: Whether this sole is asked for.
             everything: Cast the rays in any case.
 
         Returns:
-            Distances (n,) in m, inf where nothing is in range, NaN for a dead taxel; None where no caller asks.
+            Distances (n,) in m, inf out of range, NaN for a dead taxel; None where the sole is not asked for.
         """
         row, count = self._noise.advance(), self._count
         if not (wanted or everything):

@@ -35,14 +35,14 @@ class SensorSuite:
     Args:
         world: The world.
         sensing: Rates, noise and delay.
-        seed: Seed of all noise; each sensor draws from its own stream.
-        proximity: Whether the soles have proximity sensors that somebody uses.
-        force_torque: Whether the ankles have force-torque sensors that somebody uses.
+        seed: Of all noise; each sensor draws from its own stream.
+        proximity: Whether the soles have proximity sensors.
+        force_torque: Whether the ankles have force-torque sensors.
         plant: How sensors differ from their model; None for no difference.
 
     Attributes:
-        body_skin: Reads the skin of the upper body; None for a robot without, or before there is one.
-        body_links: Reads where links with skin are on the base that move against it; None for a robot without.
+        body_skin: Reads the skin of the upper body, or None.
+        body_links: Reads where moving links with skin are on the base.
     """
 
     def __init__(
@@ -101,11 +101,11 @@ class SensorSuite:
         """Read the soles, which is due every `skin_every` physics steps.
 
         Args:
-            near: Soles whose proximity somebody asks for.
-            everything: Measure proximity that no caller asks for too; readings stay the same.
+            near: Soles whose proximity is asked for.
+            everything: Measure all proximity; readings stay the same.
 
         Returns:
-            The contacts of both soles from which the skins were read, until they are read again.
+            The contacts of both soles from which the skins were read.
         """
         data = self._world.data
         feet = self._contacts.read()
@@ -114,14 +114,13 @@ class SensorSuite:
         return feet
 
     def read_body(self) -> Sensors:
-        """Read encoders and IMU, with the soles' latest readings: what of it has arrived by now."""
+        """What has arrived by now of encoders, IMU and the soles' latest readings."""
         read = self._read_now()
         if self._line is None:
             return read
         return self._line.passed(read.time, read).changed(time=read.time)
 
     def _read_now(self) -> Sensors:
-        """What encoders and IMU read at this instant, with the soles' latest readings."""
         joints, gyro, specific = self._body.read()
         if self._imu_to_base is not None:
             gyro, specific = self._imu_to_base.dot(gyro), self._imu_to_base.dot(specific)
@@ -137,7 +136,7 @@ class SensorSuite:
         )
 
     def _ankles(self) -> dict[Side, NDArray[np.float64]]:
-        """Wrench (6,) that each foot exerts on its leg, in the sensor's frame; empty without sensors."""
+        """Wrench (6,) of each foot on its leg, in the sensor's frame; empty without sensors."""
         if self._ankle_noise is None:
             return {}
         s, data = self._sensing, self._world.data.sensordata
@@ -153,12 +152,11 @@ class SensorSuite:
 
 
 def _dead_taxels(count: int, share: float, chance: np.random.Generator) -> list[int]:
-    """The taxels of a sole that are dead, by chance."""
     return chance.permutation(count)[: round(share * count)].tolist()  # type: ignore[no-any-return]
 
 
 def _skin(world: World, sensing: Sensing, side: Side, foam: float) -> SoleSkin:
-    """The skin of one sole under so much foam in m more than its rubber, free of noise."""
+    """The noise-free skin of one sole under so much foam in m more than its rubber."""
     geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
     site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole + foam
     layer = sensing.layer + foam if sensing.taxels == "elastic" else None
@@ -189,14 +187,13 @@ def _proximity(
     rng: np.random.Generator,
     colours: GroundColours | None,
 ) -> ProximitySensor:
-    """The proximity sensors of one sole."""
     site, layout = world.robot.legs[side].sole_site, world.robot.layouts[side]
     rays = SoleProximity(world.model, layout, site, sensing.proximity_range, world.ground_top, colours)
     return ProximitySensor(rays, sensing.proximity_noise, sensing.proximity_bias, rng, dead)
 
 
 def _imu_to_base(world: World) -> NDArray[np.float64] | None:
-    """Rotation (3, 3) from the frame that the IMU is mounted in to that of the base; None where they are the same."""
+    """Rotation (3, 3) from the IMU's frame to that of the base; None where they are the same."""
     model = world.model
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)

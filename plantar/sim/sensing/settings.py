@@ -1,4 +1,4 @@
-"""What the sensors do to the truth, as a scene's `[sensing]` table gives it."""
+"""What the sensors do to the truth: a scene's `[sensing]` table."""
 
 from __future__ import annotations
 
@@ -8,29 +8,27 @@ __all__ = ["Sensing"]
 
 
 class Sensing(Settings):
-    """What the sensors do to the truth. Standard deviations (1 sigma) of white noise; SI.
+    """Standard deviations (1 sigma) of white noise, rates and delays, SI.
 
-    Skin and ankle sensors are made for the robot that wears them: their noise and range go with its weight and leg. An
-    IMU and an encoder are what can be bought, for every robot.
+    Skin and ankle sensors scale with the robot's weight and leg; an IMU and an encoder are the same for every robot.
 
     Attributes:
-        taxels: How the ground's load comes to lie on the taxels: on springs side by side ("winkler", the fast default),
-            or through an elastic layer whose parts move each other ("elastic"), which no fit of the controller knows.
+        taxels: Springs side by side ("winkler"), or an elastic layer ("elastic"), which no fit of the controller knows.
         layer: Thickness of that layer in m: the H1's shoe is 12 mm thick.
         skin_rate: Sampling rate of the soles in Hz.
         force_noise: Of each taxel in N: 0.15 kg on a robot of 86 kg.
         delay_periods: Whole skin periods between sampling and delivery.
-        proximity_range: Range of the taxels' proximity sensors in m.
-        proximity_noise: Of each proximity reading in m.
-        proximity_bias: What every proximity reading is too long by in m; negative: too short.
-        dead_taxels: Share of each sole's taxels that are dead; the seed chooses which.
-        encoder_noise: Of each joint encoder in rad.
-        gyro_noise: Of each gyro axis in rad/s.
-        accelerometer_noise: Of each accelerometer axis in m/s^2.
-        body_skin: Whether the skin of the upper body is read, in a scene where somebody touches it.
-        force_torque: Whether the ankles have force-torque sensors that somebody reads.
-        ankle_force_noise: Of each axis of their force in N.
-        ankle_torque_noise: Of each axis of their torque in N m.
+        proximity_range: In m.
+        proximity_noise: Of each reading in m.
+        proximity_bias: Added to every reading in m.
+        dead_taxels: Share of each sole's taxels; the seed chooses which.
+        encoder_noise: Of each joint in rad.
+        gyro_noise: Of each axis in rad/s.
+        accelerometer_noise: Of each axis in m/s^2.
+        body_skin: Whether the skin of the upper body is read, in a scene with touch.
+        force_torque: Whether the ankles have force-torque sensors.
+        ankle_force_noise: Of each axis in N.
+        ankle_torque_noise: Of each axis in N m.
     """
 
     taxels: str = choice("winkler", "elastic")

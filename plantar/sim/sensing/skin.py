@@ -1,4 +1,4 @@
-"""Simulated sole skin: the force on each taxel from MuJoCo's contacts, and what the electronics deliver of it.
+"""Simulated sole skin: the force on each taxel from MuJoCo's contacts, and what the electronics deliver.
 
 A rigid box under an eccentric load lifts a corner by micrometres, where rubber stays pressed. Give the sole's geoms a
 `gap` of 1 mm: MuJoCo then reports such corners, and those within REACH belong to the patch.
@@ -44,17 +44,17 @@ class SoleSkin:
         layout: The sole.
         site: Name of the site that is the sole frame, for example "left_sole".
         geoms: Names of the sole's collision geoms.
-        rubber: Thickness in m of the sole's rubber, see `SolePressure`.
+        rubber: Thickness in m, see `SolePressure`.
         reach: Largest gap in m between sole and ground that the rubber closes.
-        layer: Thickness in m of an elastic layer that spreads the load, see `ElasticPressure`; springs do where None.
-        rim_stiffness: Stiffness of the sole next to the taxels over theirs, see `BlindRim`; 0 where they carry all.
+        layer: Thickness in m of an elastic layer, see `ElasticPressure`; None for springs.
+        rim_stiffness: Stiffness next to the taxels over theirs, see `BlindRim`.
 
     Raises:
         RobotError: If the model has no such site or geom.
         LayoutError: If a taxel does not face the ground.
 
     Attributes:
-        springs: What contacts press on where each cell is a spring of its own that carries all; else None.
+        springs: What contacts press on where each cell is a spring that carries all; else None.
     """
 
     def __init__(
@@ -93,12 +93,12 @@ class SoleSkin:
 
     @property
     def pressed(self) -> int:
-        """How often forces were spread over its taxels."""
+        """How often forces were spread over the taxels."""
         return int(self._in_sole.pressed)
 
     @property
     def in_air(self) -> int:
-        """How often there was nothing to spread."""
+        """How often the sole carried no load."""
         return int(self._in_sole.in_air)
 
     def contacts(self, data: Any) -> ContactSet:
@@ -110,10 +110,10 @@ class SoleSkin:
 
         Args:
             data: The MjData after `mj_step` or `mj_forward`.
-            contacts: The sole's contacts where they are known already.
+            contacts: The sole's contacts where known already.
 
         Returns:
-            Forces (n,) in N, none negative; zeros for a sole in the air.
+            Forces (n,) in N, none negative; zeros in the air.
         """
         if data is not self._data:
             self._look_in(data)
@@ -135,7 +135,7 @@ class SoleSkin:
 
         Args:
             data: The MjData after `mj_step` or `mj_forward`.
-            contacts: The sole's contacts where they are known already.
+            contacts: The sole's contacts where known already.
             sample: Samples the taxels.
 
         Returns:
@@ -149,7 +149,7 @@ class SoleSkin:
         return read
 
     def _look_in(self, data: Any) -> None:
-        """See contacts from where the sole is in the data."""
+        """Express contacts in the sole's frame."""
         self._data = data
         self._in_sole.look_from(data.site_xpos[self.site_id], data.site_xmat[self.site_id].reshape(3, 3))
 
@@ -160,13 +160,13 @@ class SkinElectronics:
 
     Attributes:
         rate_hz: Sampling rate in Hz.
-        noise_std_N: Standard deviation of the white noise on each taxel in N (0.15 kg by default, T Table 2).
-        delay_periods: Whole sampling periods between taking a sample and delivering it; until the first one arrives
-            the first sample is delivered.
-        dead: Indices of dead taxels: they read NaN.
+        noise_std_N: Standard deviation on each taxel in N (0.15 kg by default, T Table 2).
+        delay_periods: Whole sampling periods between sample and delivery; the first sample is delivered until one
+            arrives.
+        dead: Indices of taxels that read NaN.
 
     Raises:
-        InputError: If a value is outside what is allowed.
+        InputError: If a value is out of range.
     """
 
     rate_hz: float = 250.0
@@ -186,18 +186,17 @@ class SkinElectronics:
 class SkinSensor:
     """A skin as its electronics deliver it: sampled, noisy, clipped to its range, late.
 
-    A sample is taken at the first physics step at or after each multiple of the period, counted from the first call;
-    between samples the last one stays.
+    A sample is taken at the first physics step at or after each multiple of the period, counted from the first call.
 
     Args:
         skin: The noise-free skin.
         electronics: Rate, noise, delay and dead taxels.
-        rng: Source of the noise; the same seed and calls give the same noise. None needs electronics without noise.
-        proximity: Proximity of the same sole, sampled together with the forces; None where the skin has none.
-        errors: What the taxels make of the forces; None for taxels that read what is on them.
+        rng: Source of the noise; None needs electronics without noise.
+        proximity: Of the same sole, sampled with the forces; None without.
+        errors: What the taxels make of the forces; None without.
 
     Raises:
-        InputError: If there is noise and no source of it, or a dead taxel does not exist.
+        InputError: If there is noise and no source, or a dead taxel does not exist.
     """
 
     def __init__(
@@ -234,24 +233,23 @@ class SkinSensor:
         self._taken = 0
 
     def reset(self) -> None:
-        """Forget all samples; the noise goes on where it is."""
+        """Forget all samples, not the state of the noise."""
         self._queue.clear()
         self._taken = 0
 
     def read(
         self, data: Any, contacts: FootContacts | None = None, *, near: bool = True, everything: bool = False
     ) -> Reading:
-        """What the electronics deliver at this instant; call it at every physics step.
+        """What the electronics deliver now; call it at every physics step.
 
         Args:
             data: The MjData after `mj_step` or `mj_forward`.
-            contacts: The sole's contacts where they are known already.
-            near: Whether somebody asks for this sole's proximity.
-            everything: Measure proximity in any case; the reading holds it only where it is asked for.
+            contacts: The sole's contacts where known already.
+            near: Whether this sole's proximity is asked for.
+            everything: Measure proximity in any case; the reading holds it only where asked for.
 
         Returns:
-            The reading; its time is that of the sample in s, so `data.time - reading.time` is its age. The same object
-            comes back until a newer sample arrives.
+            The reading, with the sample's time in s; the same object until a newer sample arrives.
         """
         now = float(data.time)
         if not self._queue:
@@ -270,8 +268,7 @@ class SkinSensor:
     def _told(
         self, now: float, data: Any, contacts: FootContacts | None, distance: NDArray[np.float64] | None
     ) -> NDArray[np.float64]:
-        """Force (n,) on each taxel in N as it is sampled with the taxels' errors; what they silence of the distances
-        becomes NaN, too."""
+        """Sampled force (n,) in N with the taxels' errors; distances that they silence become NaN."""
         force = self.skin.taxel_forces(data, contacts)
         if self._errors is not None:
             force = self._errors.read(force, now)

@@ -1,18 +1,15 @@
 """Spread a normal load over the taxels of a sole (model "contact patches").
 
-The sole collides as a rigid box, which is cheap and tips over exactly at its edge, but carries its load on a few
-corner points. A rubber sole carries it on an area. So the contact points of each geom pair span a patch of the sole
-plane, and the pair's normal wrench (fz, tx, ty), which is exact, is spread over the cells that the patch covers as the
-load of an elastic foundation that cannot pull (Winkler), each cell a piston with a stiff cap:
+The sole collides as a rigid box, which carries its load on a few corner points; rubber carries it on an area. The
+contact points of each geom pair span a patch, and the pair's exact normal wrench (fz, tx, ty) is spread over the
+covered cells as the load of an elastic foundation that cannot pull (Winkler):
 
     f_i = A_i max(0, a + b x_i + c y_i)      with a, b, c such that the forces have the pair's wrench,
 
-A_i the covered area of cell i and (x_i, y_i) its centroid. Where a cell is covered whole, that is the taxel's own
-position, and the taxels' centre of pressure is the true one; where an edge cuts a cell, the taxel still reports at its
-centre, as a real one does. A load beyond the outermost covered centroids goes to the nearest point among them; a
-contact along a line or at a point presses on the strip or square that the rubber's thickness makes of it; a contact
-on the sole's bare rim is carried by the cells nearest to it. In every case the taxel forces add up to the true normal
-force.
+A_i the covered area of cell i and (x_i, y_i) its centroid; a cut cell still reports at its centre, as a real one does.
+A load beyond the outermost centroids goes to the nearest point among them, a line or point contact presses on the strip
+or square that the rubber's thickness makes of it, and one on the bare rim on the nearest cells. Taxel forces always add
+up to the true normal force.
 """
 
 from __future__ import annotations
@@ -42,7 +39,7 @@ _LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing
 
 
 class SolePressure:
-    """Spreads a normal load over the taxels of a sole. Geometry is computed once a patch; no MuJoCo in here.
+    """Spreads a normal load over the taxels of a sole; geometry is computed once a patch.
 
     Args:
         layout: The sole.
@@ -91,8 +88,8 @@ class SolePressure:
         """Taxel forces of a load on a patch.
 
         Args:
-            patch: Contact points (x, y) in the sole frame in m; the patch is their convex hull.
-            force: Normal force in N; 0 or less loads nothing.
+            patch: Contact points (k, 2) in the sole frame in m; the patch is their convex hull.
+            force: Normal force in N; 0 or less loads no taxel.
             center_of_pressure: Point (2,) in the sole frame in m where the load acts.
 
         Returns:
@@ -109,7 +106,7 @@ class SolePressure:
         Args:
             contacts: The contacts.
             vectors: Position, force and torque of each in turn in the sole frame (at least 3 k, 3).
-            reach: Gap in m beyond which a contact that carries nothing is left out.
+            reach: Gap in m beyond which a contact without load is left out.
 
         Returns:
             Forces (n,) in N, none negative.
@@ -118,14 +115,7 @@ class SolePressure:
         return out
 
     def along_taxels(self, force: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Forces along the taxels' own axes of vertical ones.
-
-        Args:
-            force: Vertical force (n,) on each taxel in N.
-
-        Returns:
-            Forces (n,) in N, the larger the more a taxel leans.
-        """
+        """Forces (n,) in N along the taxels' axes of vertical ones (n,)."""
         return force if self._gain is None else np.asarray(force * self._gain)
 
     def _make_patch(self, points: NDArray[np.float64]) -> PressedPatch:
@@ -156,7 +146,7 @@ class SolePressure:
         )
 
     def _within_cells(self, polygon: NDArray[np.float64]) -> float:
-        """Area in m^2 of a patch that the cells cover together, wherever it is."""
+        """Area in m^2 of a patch that the cells cover together."""
         if self._hull is None:
             return polygon_area(polygon)
         import shapely
@@ -181,8 +171,7 @@ class SolePressure:
 
 
 def _spread_slowly(shape: PressedPatch, force: float, out: NDArray[np.float64]) -> None:
-    """Spread the load that a patch could not spread from the cells that carried it last over `out` (n,): first from
-    those that would carry it if all were held, then from those that `_damped` finds."""
+    """Spread a load over `out` (n,) by the cells that carry it if all are held, else by those of `_damped`."""
     u, area, carried = np.asarray(shape.u), np.asarray(shape.area), np.asarray(shape.carried)
     inverse, load = np.asarray(shape.inverse), np.array([1.0, shape.x, shape.y])
     if not carried.any():
@@ -237,8 +226,7 @@ def _damped(
 
 
 def _pseudo_inverse(matrix: NDArray[np.float64], least: float) -> NDArray[np.float64]:
-    """Pseudo-inverse of a symmetric matrix (n, n) without negative eigenvalues, in a fifth of `np.linalg.pinv`'s time;
-    eigenvalues below a share of the largest one count as zero."""
+    """Pseudo-inverse of a symmetric semidefinite matrix (n, n), in a fifth of `np.linalg.pinv`'s time."""
     values, vectors = np.linalg.eigh(matrix)
     values, vectors = values[::-1], np.ascontiguousarray(vectors[:, ::-1])
     limit = least * values[0]
@@ -251,7 +239,7 @@ def _largest(residual: NDArray[np.float64]) -> float:
 
 
 def _solve_symmetric(m: list[float], b: list[float], share: float) -> NDArray[np.float64]:
-    """Solve a symmetric 3 x 3 system given as (11, 12, 13, 22, 23, 33), made regular by a share of its trace."""
+    """Solve a symmetric 3 x 3 system given as (11, 12, 13, 22, 23, 33), regularised by a share of its trace."""
     ridge = share * (m[0] + m[3] + m[5]) + 1e-300
     a, d, f = m[0] + ridge, m[3] + ridge, m[5] + ridge
     c, e, g = m[1], m[2], m[4]  # [[a, c, e], [c, d, g], [e, g, f]]

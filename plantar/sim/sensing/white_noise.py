@@ -13,17 +13,10 @@ _TOGETHER = 64  # samples that are drawn at once: a draw of forty numbers costs 
 
 
 def white_noise(rng: np.random.Generator, mean: float, std: float | NDArray[np.float64], count: int) -> NoiseRows:
-    """Samples of noise without end: the same numbers as `rng.normal(mean, std, count)` gives again and again, as long
-    as no other caller draws from the source.
+    """Yields samples (count,) without end: the numbers of repeated `rng.normal(mean, std, count)`, drawn many at a
+    time.
 
-    Args:
-        rng: The source.
-        mean: Mean of each number.
-        std: Standard deviation of each, or of all.
-        count: Numbers of a sample.
-
-    Returns:
-        Iterates over samples (count,).
+    No other caller may draw from `rng`; `std` is one number or one of each.
 
     Example:
         >>> samples = white_noise(np.random.default_rng(1), 0.0, 2.0, 3)

@@ -1,4 +1,4 @@
-"""The surface of a model's bodies as triangles, where the model's state has them."""
+"""The surface of a model's bodies as triangles."""
 
 from __future__ import annotations
 
@@ -24,12 +24,9 @@ Triangles = NDArray[np.float64]
 
 
 def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]]:
-    """Geoms of some bodies.
+    """Ids of the drawn geoms of `bodies` of a `model`, without markers, and of those that collide; planes are neither.
 
-    Takes `model`.
-
-    Returns:
-        Ids of those that are only drawn, without markers, and of those that collide; planes are neither.
+    Returns both lists.
     """
     shapes = [i for i in range(model.ngeom) if int(model.geom_bodyid[i]) in bodies and model.geom_type[i] != _PLANE]
     size = {i: float(model.geom_rbound[i]) for i in shapes}
@@ -42,10 +39,7 @@ def shapes_of(model: Any, bodies: Collection[int]) -> tuple[list[int], list[int]
 
 
 def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
-    """Triangles (n, 3, 3) of a geom in the world in m.
-
-    Takes `model` and `data`; returns the triangles; round shapes are faceted.
-    """
+    """Returns the triangles (n, 3, 3) of a `geom` in the world in m, of `model` and `data`; round ones faceted."""
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
         mesh = int(model.geom_dataid[geom])
@@ -59,7 +53,7 @@ def geom_triangles(model: Any, data: Any, geom: int) -> Triangles:
 
 
 def convex_surface(points: NDArray[np.float64]) -> Triangles:
-    """Triangles (n, 3, 3) of the convex hull of points (m, 3), outward counter-clockwise; none where they are flat."""
+    """Triangles (n, 3, 3) of the convex hull of points (m, 3), counter-clockwise from outside; none where flat."""
     try:
         hull = ConvexHull(points)
     except (QhullError, ValueError):
@@ -72,14 +66,11 @@ def convex_surface(points: NDArray[np.float64]) -> Triangles:
 
 
 def resting_plane(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    """The plane on which a body would come to rest.
-
-    Args:
-        points: Points (n, 3) of its surface, z up.
+    """The plane on which a body with surface points (n, 3), z up, would come to rest.
 
     Returns:
         Outward normal (3,) of the largest plane on the lower side of their convex hull, and its area over that of the
-        silhouette from above: 0, and straight down, where there is none within 45 degrees.
+        silhouette from above: straight down and 0 where there is none within 45 degrees.
     """
     down = np.array([0.0, 0.0, -1.0])
     try:

@@ -1,4 +1,4 @@
-"""What would go wrong with a robot in a scene, measured without physics: each with the value that works."""
+"""Obstacles to a robot's walk in a scene, measured without physics, each with the value that works."""
 
 from __future__ import annotations
 
@@ -46,15 +46,13 @@ _MOVING = 1.2  # of a torque limit: what is missing for some ticks, the other jo
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that was measured.
+    """One measured thing.
 
     Attributes:
-        name: What.
-        value: What it is.
-        limit: What it may be at most or has to be at least.
-        unit: Unit of both.
+        limit: What the value may be at most or has to be at least.
+        unit: Of both.
         holds: Whether it is within.
-        text: The same in words, with the value that works where it is not.
+        text: The same in words, with the value that works.
     """
 
     name: str
@@ -67,13 +65,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class RobotCheck:
-    """What was measured of a robot in a scene.
-
-    Attributes:
-        robot: Name of the robot.
-        scene: Name of the scene.
-        findings: Each thing that was measured.
-    """
+    """What was measured of a robot in a scene."""
 
     robot: str
     scene: str
@@ -86,7 +78,7 @@ class RobotCheck:
 
     @property
     def failures(self) -> list[str]:
-        """What would go wrong, a line each."""
+        """The findings that do not hold, a line each."""
         return [f"{f.name}: {f.text}" for f in self.findings if not f.holds]
 
     def as_dict(self) -> dict[str, Any]:
@@ -95,17 +87,14 @@ class RobotCheck:
         return {"robot": self.robot, "scene": self.scene, "holds": self.holds, "findings": found}
 
     def text(self) -> str:
-        """The same for people."""
+        """The same as text."""
         lines = [f"  {'ok  ' if f.holds else 'FAIL'} {f.name}: {f.text}" for f in self.findings]
         end = "nothing found that would go wrong" if self.holds else "something would go wrong"
         return "\n".join([f"{self.robot} in {self.scene}: {end}", *lines])
 
 
 def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
-    """Measure what would go wrong with a robot.
-
-    Takes a robot `file`, or the name of a built-in robot, and the `scene` whose plan it has to walk; returns what was
-    measured.
+    """Returns what was measured of a robot `file`, or built-in name, that has to walk the plan of a `scene`.
 
     Raises:
         RobotError: If the robot cannot be read or simulated.
@@ -127,7 +116,6 @@ class _Checked:
         self.walked = self._walked()
 
     def result(self) -> RobotCheck:
-        """What was measured."""
         stands = settled(self.robot, self.legs, self.walked.feet, self.walked.com_height)
         model, configuration = self.legs.model, self.legs.configuration
         reach = plan_reach(self.robot, self.legs, self.walked)
@@ -136,7 +124,7 @@ class _Checked:
         return RobotCheck(self.robot.name, self.scene.name, tuple(found))
 
     def _walked(self) -> Walked:
-        """The scene's walk as it is planned; one at a velocity by steps in place."""
+        """The scene's planned walk; one at a velocity by steps in place."""
         walk, robot = self.scene.walk, self.robot
         steps = walk.steps if walk.velocities(0) is None else _STEPS
         feet, plan = self._planned(min(steps, _STEPS), 1.0)
@@ -153,7 +141,7 @@ class _Checked:
         )
 
     def _planned(self, count: int, share: float) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
-        """So many footsteps of a share of the scene's length, and where the feet stand before."""
+        """So many footsteps of a share of the scene's length, and the feet before."""
         walk = self.scene.walk
         return straight_plan(
             count,
@@ -164,7 +152,7 @@ class _Checked:
         )
 
     def _reach(self, reach: PlanReach, stands: float) -> list[Finding]:
-        """Whether the legs reach what the plan asks of them."""
+        """Whether the legs reach the plan."""
         holds = max(reach.missed, stands) <= _MISSED and reach.knee >= _BENT
         bend = math.degrees(reach.knee)
         text = f"the straightest knee is bent by {bend:.0f} degrees {reach.straightest:.1f} s into the walk"
@@ -197,8 +185,7 @@ class _Checked:
     def _roll_most(self) -> float:
         """How far in rad a sole that carries alone may be off level.
 
-        The legs of a robot that rocks lean with their soles, which carry on their outer edge then: up to where the CoM
-        comes over the middle of the sole, it swings back.
+        Legs of a robot that rocks lean with their soles, up to where the CoM comes over the middle of the sole.
         """
         if not self.robot.rocks:
             return ROLL_MOST
@@ -206,7 +193,7 @@ class _Checked:
         return math.atan(0.5 * (feet["left"].y - feet["right"].y) / self.walked.com_height)
 
     def _working_height(self) -> float | None:
-        """The greatest height in m at which the knees stay bent by twice what is needed; None where none is found."""
+        """Greatest height in m at which the knees stay bent by twice what is needed, or None."""
         low = self.walked.com_height
         for _ in range(12):
             low -= 0.03 * self.body.leg
@@ -216,7 +203,7 @@ class _Checked:
         return None
 
     def _working_length(self) -> str:
-        """How long steps may be that the legs reach at their height, in words."""
+        """Length of steps that the legs reach at their height, in words."""
         walk = self.scene.walk
         for share in (0.8, 0.6, 0.4, 0.2):
             feet, plan = self._planned(len(self.walked.steps), share)
@@ -226,7 +213,6 @@ class _Checked:
         return "no height and no shorter step works: see [posture] and the joints' limits"
 
     def _apart(self) -> Finding:
-        """Whether the soles keep apart side by side."""
         outlines = {s: self.robot.layouts[s].outline[:, 1] for s in SIDES}
         feet = self.walked.feet
         gap = float(feet["left"].y + outlines["left"].min() - feet["right"].y - outlines["right"].max())
@@ -238,7 +224,7 @@ class _Checked:
         return Finding("stance", round(1e3 * gap, 1), round(1e3 * least, 1), "mm", gap >= least, text)
 
     def _gains(self, model: Any, configuration: Any) -> list[Finding]:
-        """Whether servos are soft enough for what they swing and stiff enough for what they carry."""
+        """Whether servos are soft enough for the swing leg and stiff enough for the robot's weight."""
         robot, body = self.robot, self.body
         inertia = joint_inertia(robot, model, configuration)
         stiffness, damping = np.array(robot.stiffness), np.array(robot.damping)
@@ -352,7 +338,6 @@ class _Checked:
         return found
 
     def _relief(self, other: PlanReach, limits: Any, joint: int, name: str) -> str:
-        """What makes a torque fit."""
         if other.carrying[joint] <= limits[joint]:
             return "walk.lean = true works" if name == "upright" else "walk.lean = false works"
         for higher in (0.03, 0.06, 0.1):
@@ -372,7 +357,7 @@ def _foot_parts(model: Any, name: str, site: str) -> set[int]:
 
 
 def _levelled(normal: Any) -> Any:
-    """Rotation (3, 3) from a sole frame on the plane with an outward normal (3,) to the sole frame as it is."""
+    """Rotation (3, 3) from a frame on the plane with an outward normal (3,) to the present sole frame."""
     up = -np.asarray(normal)
     forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
     forward /= float(np.linalg.norm(forward))

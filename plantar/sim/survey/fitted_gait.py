@@ -1,4 +1,4 @@
-"""Numbers of a walk that fit a robot: posture, height of the CoM, stance, pace and gains, none of them guessed."""
+"""A walk that fits a robot: posture, height of the CoM, stance, pace and gains."""
 
 from __future__ import annotations
 
@@ -102,15 +102,15 @@ Array = NDArray[np.float64]
 
 
 class FittedGait:
-    """A robot with numbers that fit, and what they rest on.
+    """A robot with numbers that fit, and their reasons.
 
     Attributes:
         robot: The robot.
-        body: How large it is.
-        inertia: Inertia about the joints of a leg.
-        reach: What level steps of a third of a leg ask of it.
-        notes: What could not be met, and what was assumed.
-        rotors: Rotor inertia in kg m^2 about each joint of a leg that the copy of the model has and the model has not.
+        body: Its size.
+        inertia: About the joints of a leg.
+        reach: Demands of level steps of a third of a leg.
+        notes: What was not met, and what was assumed.
+        rotors: Rotor inertia in kg m^2 about each joint of a leg that the copy of the model has in addition.
     """
 
     def __init__(
@@ -127,14 +127,12 @@ class FittedGait:
 
 
 def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int = 6) -> Walked:
-    """Level steps of a third of a leg at the robot's own pace.
-
-    Returns the walk.
+    """Returns level steps of a third of a leg at the pace of a `robot`, which leans its trunk as scenes demand.
 
     Args:
-        robot: The robot, which leans its trunk as scenes ask for it.
-        body: How large it is.
-        com_height: Height of its CoM in m.
+        robot: The robot.
+        body: Its size.
+        com_height: Of its CoM in m.
         steps: Number of steps.
     """
     feet, plan = straight_plan(steps, length=STEP_SHARE * body.leg, width=robot.stance_width)
@@ -143,14 +141,15 @@ def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int =
 
 
 def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Array | None = None) -> FittedGait:
-    """Fit a walk's numbers to a robot whose names, soles and limits are known.
-
-    Returns the robot with them.
+    """Fit a walk to a robot whose names, soles and limits are known.
 
     Args:
         draft: The robot; its posture, gait and gains are replaced.
-        gains: The model's own stiffness in N m/rad and damping in N m s/rad of each joint of a leg; empty for none.
-        rotors: Rotor inertia in kg m^2 about each joint of a leg that was assumed; None for none.
+        gains: The model's own stiffness in N m/rad and damping in N m s/rad of each joint of a leg, or empty.
+        rotors: Assumed rotor inertia in kg m^2 about each joint of a leg, or None.
+
+    Returns:
+        The robot with its numbers.
 
     Raises:
         RobotError: If the legs cannot stand on both soles.
@@ -213,7 +212,7 @@ def _gains(
     gains: Sequence[tuple[float, float]],
     notes: list[str],
 ) -> tuple[Array, Array]:
-    """Stiffness and damping of each joint of a leg: the model's own where they hold the robot, else fitted ones."""
+    """Stiffness and damping of each joint of a leg: the model's own where they hold the robot, else fitted."""
     stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
     if gains:
         own, unit = np.array(gains), body.weight * height
@@ -234,7 +233,6 @@ def _gains(
 
 
 def _balance(body: BodyScale) -> dict[str, Any]:
-    """Gains of h1's balance law, in the beat of the robot's legs."""
     beats = {"dcm_gain": 0.742, "zmp_gain": 0.124, "com_gain": 0.247}
     return {"law": "com_admittance", **{k: float(f"{v / body.beat:.3g}") for k, v in beats.items()}}
 
@@ -264,12 +262,8 @@ def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
 
 
 def stance_width(robot: Robot, legs: LegModel) -> float:
-    """Distance in m of the feet side by side: as the model has them, or so far that the soles keep a gap.
-
-    Takes `robot` and `legs`.
-
-    Returns:
-        The distance of the sole frames' origins.
+    """Returns the distance in m of the feet of a `robot` side by side: as in the model of its `legs`, or wider where
+    soles would touch.
     """
     angles = np.array([*robot.posture["left"], *robot.posture["right"]])
     feet = legs.posture(angles).positions
@@ -288,9 +282,8 @@ def _seed_height(robot: Robot, legs: LegModel) -> float:
 
 
 def _paced(robot: Robot, height: float, slower: float) -> Robot:
-    """The robot with the pace of a pendulum of its height in m: h1's, in the time sqrt(h / g), or slower.
-
-    One that rocks has its own.
+    """The robot with the pace of a pendulum of its height in m: h1's in sqrt(h / g), or slower, or that of one that
+    rocks.
     """
     if robot.rocks:
         return rocking(robot, height)
@@ -303,7 +296,7 @@ def _paced(robot: Robot, height: float, slower: float) -> Robot:
 def _stepping(
     robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
 ) -> tuple[Robot, BodyScale, PlanReach]:
-    """The robot with the walk that costs least, and the leg that its steps are shares of."""
+    """The robot with the cheapest walk, and the leg length that scales its steps."""
     best: _Tried | None = None
     heights = seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -_LOWER)
     for share in (_rocking_share(robot, body, seed),) if robot.rocks else _SHORTER:
@@ -335,7 +328,6 @@ def _stepping(
 
 
 def _other_paces(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
-    """The walk at another pace that costs less, if there is one."""
     best = found
     for pace in _OTHER_PACES:
         paid = found.paid + _OTHER_SPEED * abs(math.log2(pace))
@@ -346,7 +338,7 @@ def _other_paces(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
 
 @dataclass(frozen=True)
 class _Tried:
-    """A walk that the legs reach, and what it costs against the best there could be."""
+    """A walk that the legs reach, and its cost over the best possible."""
 
     cost: float
     paid: float
@@ -356,7 +348,7 @@ class _Tried:
 
 
 def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
-    """The robot at other stances and leans, each with what that costs, cheapest first."""
+    """The robot at other stances and leans with their costs, cheapest first."""
     outline = robot.layouts["left"].outline[:, 1]
     least = -2.0 * float(outline.min()) + _GAP * float(np.ptp(outline))
     widths = [robot.stance_width]
@@ -376,7 +368,7 @@ def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
 def _least(
     best: _Tried | None, robot: Robot, legs: LegModel, body: BodyScale, heights: Array, paid: float
 ) -> _Tried | None:
-    """The walk that costs least: the one that was found, or one at another height in m."""
+    """The cheapest walk: the one found, or one at another height in m."""
     own, worse = math.inf, 0
     for height in heights.tolist():
         tried = _tried(robot, legs, body, height, paid)
@@ -392,7 +384,7 @@ def _least(
 
 
 def _tried(robot: Robot, legs: LegModel, body: BodyScale, height: float, paid: float) -> _Tried | None:
-    """A walk at a height in m of the CoM; None where the legs do not reach it."""
+    """A walk at a height in m of the CoM, or None where the legs do not reach it."""
     robot = replace(_paced(robot, height, robot.pace), com_height=math.floor(1e4 * height) / 1e4)
     reach = plan_reach(robot, legs, straight_walk(robot, body, robot.com_height, _QUICK_STEPS), _bears)
     if not _bears(reach.missed, reach.knee, reach.spare):
@@ -410,7 +402,6 @@ def _bears(missed: float, knee: float, spare: Array) -> bool:
 
 
 def _refined(best: _Tried, legs: LegModel) -> _Tried:
-    """The walk at the best height near one."""
     step = 0.5 * _LOWER * best.body.leg
     while step > 2e-3 * best.body.leg:
         near = best.robot.com_height + step * np.array([1.0, -1.0])
@@ -420,7 +411,7 @@ def _refined(best: _Tried, legs: LegModel) -> _Tried:
 
 
 def _nearest(robot: Robot, legs: LegModel, body: BodyScale, seed: float) -> str:
-    """What is missing of the walk that is missed by least: which limit, and by how much."""
+    """The limit that is missed by least, and by how much."""
     short = replace(body, leg=_SHORTER[-1] * body.leg)
     found = []
     for height in seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -2.0 * _LOWER):
@@ -438,15 +429,13 @@ def _nearest(robot: Robot, legs: LegModel, body: BodyScale, seed: float) -> str:
 
 
 def _rocking_share(robot: Robot, body: BodyScale, height: float) -> float:
-    """Share of the leg that the steps of a robot that rocks are shares of: they are as short as they are quick, so that
-    it walks as fast as h1 in legs a beat."""
+    """Share of the leg that scales a rocking robot's steps: short as they are quick, so that it walks as fast as h1."""
     rocks = rocking(robot, height)
     return min(1.0, (rocks.single_support + rocks.double_support) / (_H1_STEP * body.beat))
 
 
 def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
-    """The least number of beats a pace at which quick steps leave the motors something to balance with; the largest one
-    that is tried where none does. One that rocks steps in its own time."""
+    """The least number of beats a pace at which quick steps leave the motors a reserve for balance, or the largest."""
     if robot.rocks:
         step = robot.single_support + robot.double_support
         return float(f"{step / ((QUICK_SINGLE + QUICK_DOUBLE) * body.beat):.3g}")
@@ -465,8 +454,7 @@ def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
 
 
 def _approach_support(robot: Robot, legs: LegModel, body: BodyScale) -> float:
-    """The least t_ss in s at which a swing that comes down slowly leaves the motors something to balance with; 0 where
-    that is the robot's own, or where it rocks and comes down as quickly as ever."""
+    """The least t_ss in s at which a swing that comes down slowly leaves the motors a reserve; 0: the robot's own."""
     if robot.rocks or not robot.effort_limits:
         return 0.0
     limits = np.array(robot.effort_limits)
@@ -488,14 +476,12 @@ def _ankle(robot: Robot, legs: LegModel) -> int:
 
 
 def _angles(robot: Robot, legs: LegModel, configuration: Array) -> dict[Side, tuple[float, ...]]:
-    """Joint angles of each leg in rad in a configuration."""
     places = {s: [legs.model.joint(n).qposadr[0] for n in robot.legs[s].joints] for s in SIDES}
     return {s: tuple(float(configuration[i]) for i in places[s]) for s in SIDES}
 
 
 def _crouch(robot: Robot, legs: LegModel, body: BodyScale, asked: float) -> float:
-    """How much lower in m the robot can walk: its joints stay in range, and below three quarters of their torque or the
-    share that it takes at its own height."""
+    """How much lower in m the robot can walk, within its joints' range and three quarters of their torque."""
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     fits = 0.0
     for lower in _CROUCHES:

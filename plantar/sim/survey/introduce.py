@@ -1,4 +1,4 @@
-"""From a model file to a robot that walks: survey, shoes, numbers, robot file and picture, in this order."""
+"""From a model file to a robot that walks: survey, shoes, gait, robot file and picture."""
 
 from __future__ import annotations
 
@@ -42,21 +42,21 @@ _NO_NAME = re.compile(r"[^A-Za-z0-9_.-]+")
 
 
 class ShoesMade(Protocol):
-    """What is to be known of the shoes that were built."""
+    """What shoes that were built provide."""
 
     @property
     def thickness(self) -> float:
-        """Outer contact face below the bare sole in m."""
+        """From outer contact face to bare sole in m."""
         ...
 
     @property
     def mass(self) -> float | None:
-        """Mass of one in kg; None where it is not known."""
+        """Of one in kg, or None."""
         ...
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was found, assumed and decided."""
+        """Findings, assumptions and decisions."""
         ...
 
 
@@ -70,11 +70,9 @@ class Introduced:
     """A robot that was introduced.
 
     Attributes:
-        robot: The robot.
         survey: What was found in its model.
-        fitted: The numbers of its walk.
-        shoes: Its shoes.
-        files: Names of all files that were written.
+        fitted: Its walk.
+        files: Names of all written files.
     """
 
     robot: Robot
@@ -84,7 +82,7 @@ class Introduced:
     files: tuple[str, ...]
 
     def as_dict(self, output: Path) -> dict[str, Any]:
-        """Plain JSON values; files are named as they are below a folder."""
+        """Plain JSON values, with files below a folder."""
         robot, survey = self.robot, self.survey
         return {
             "name": robot.name,
@@ -108,7 +106,7 @@ class Introduced:
         }
 
     def text(self, output: Path) -> str:
-        """The same for people."""
+        """The same as text."""
         robot, survey, body = self.robot, self.survey, self.fitted.body
         turns = " and ".join(f"{np.degrees(survey.soles[s].turn):.1f}" for s in SIDES)
         joints, taxels, file = robot.legs["left"].joints, len(robot.layouts["left"]), output / "robot.toml"
@@ -134,10 +132,13 @@ def introduce(
     make_shoes: MakeShoes,
     progress: Callable[[float, str], None] | None = None,
 ) -> Introduced:
-    """Write a robot file, a copy of the model, shoes and a picture for a robot.
+    """Write a robot file, a copy of the model, shoes and a picture for a robot; returns the robot and its reasons.
 
-    Takes the model's `file` (MJCF or URDF), an existing `folder`, what builds its shoes (`make_shoes`), and `progress`,
-    which receives fraction and text; returns the robot, and what it rests on.
+    Args:
+        file: The model, MJCF or URDF.
+        folder: Existing folder.
+        make_shoes: Builds the shoes.
+        progress: Called with the fraction done and a text.
 
     Raises:
         RobotError: If the file holds no robot that can walk on two legs; the message explains why.
@@ -169,7 +170,7 @@ def introduce(
 
 
 def _fitted(draft: Robot, gains: Sequence[tuple[float, float]]) -> FittedGait:
-    """The robot with the numbers of its walk; joints too light for any servo get a rotor in the copy of the model."""
+    """The robot with its walk; joints too light for any servo get a rotor in the copy of the model."""
     fitted = fit_gait(draft, gains)
     assumed = rotor_inertia(fitted.inertia, fitted.body.mass, fitted.robot.com_height, CONTROL_PERIOD)
     if draft.model_file is None or not assumed.any():
@@ -180,7 +181,7 @@ def _fitted(draft: Robot, gains: Sequence[tuple[float, float]]) -> FittedGait:
 
 
 def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: str) -> Robot:
-    """The robot with its names, soles and limits; the numbers of its walk are still to be found."""
+    """The robot with its names, soles and limits, before its walk is found."""
     joints = {s: tuple(survey.joint_names(s)) for s in SIDES}
     thickness = shoes.thickness
     layouts = {s: read_layout(folder / f"layout_{s}.json") for s in SIDES}
@@ -232,7 +233,7 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
 
 
 def _copy_licences(model: Path, folder: Path) -> None:
-    """What the model's author allows goes with the copy."""
+    """The model's licence goes with the copy."""
     for place in (model.parent, model.parent.parent):
         found = [p for pattern in _LICENCES for p in sorted(place.glob(pattern)) if p.is_file()]
         for licence in found:

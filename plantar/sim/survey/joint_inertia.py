@@ -1,4 +1,4 @@
-"""What a leg's servos move: inertia about each joint while its foot swings, and while its foot carries the robot."""
+"""Inertia about each joint of a leg while its foot swings, and while its foot carries the robot."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ __all__ = ["JointInertia", "floating_inertia", "joint_inertia"]
 
 @dataclass(frozen=True)
 class JointInertia:
-    """Inertia about each joint of a leg in kg m^2, the lesser one of both legs, with the rotor's.
+    """Inertia about each joint of a leg in kg m^2, the lesser of both legs, with the rotor's.
 
     Attributes:
-        swing: Of what a joint turns where the robot floats freely: 1 / (M^-1)_jj.
-        stance: Of all that stands on a joint whose foot stands still.
+        swing: With the robot floating freely: 1 / (M^-1)_jj.
+        stance: Of all above a joint whose foot stands still.
         armature: The rotor's share.
-        damping: The joint's own damping in N m s/rad.
+        damping: The joint's own in N m s/rad.
     """
 
     swing: NDArray[np.float64]
@@ -34,14 +34,8 @@ class JointInertia:
 
 
 def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) -> JointInertia:
-    """Measure the inertia about the joints of the legs.
-
-    Returns the inertia about each joint.
-
-    Args:
-        robot: The robot.
-        model: The robot alone as it is simulated, with its shoes.
-        configuration: Configuration (nq,) in which it stands.
+    """Returns the inertia about the legs' joints of a `robot` in a `configuration` (nq,) of its `model` alone, with
+    shoes.
     """
     data = _at(model, configuration)
     free = _floating(model, data)
@@ -56,20 +50,13 @@ def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) 
 
 
 def floating_inertia(model: Any, configuration: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Inertia about each joint where the robot floats freely: 1 / (M^-1)_jj.
-
-    Args:
-        model: The robot alone as it is simulated.
-        configuration: Its configuration (nq,).
-
-    Returns:
-        The inertia (nv,) in kg m^2, or kg of what slides.
+    """Returns the inertia (nv,) in kg m^2, or kg, of a `model` that floats freely in a `configuration` (nq,): 1 /
+    (M^-1)_jj.
     """
     return _floating(model, _at(model, configuration))
 
 
 def _at(model: Any, configuration: NDArray[np.float64]) -> Any:
-    """State of a model in a configuration (nq,)."""
     data = mujoco.MjData(model)
     data.qpos[:] = configuration
     mujoco.mj_forward(model, data)

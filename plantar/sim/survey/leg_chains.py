@@ -1,4 +1,4 @@
-"""The legs of a model: two like chains of hinges from the body to what is lowest, found without a look at names."""
+"""The legs of a model, found without names: two alike chains of hinges from the body to the lowest link."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Leg:
     Attributes:
         joints: Ids of its hinges from hip to ankle.
         foot: Id of the body that the last one moves.
-        parts: Ids of all bodies that move with the foot, its toes among them.
+        parts: Ids of all bodies that move with the foot, toes included.
         toes: Names of hinges below the foot, which are held.
         ankle: Point (3,) of the model's world in m that the foot turns about.
     """
@@ -49,12 +49,12 @@ class Leg:
 
 @dataclass(frozen=True)
 class Legs:
-    """Both legs, and how the model has to be turned to stand upright and look along x.
+    """Both legs, and the model's rotation to stand upright and look along x.
 
     Attributes:
         by_side: The legs.
         pelvis: Id of the body that both hang on.
-        rotation: Rotation (3, 3) from the model's world to one with x forward, y left, z up.
+        rotation: Rotation (3, 3) from the model's world to x forward, y left, z up.
         notes: How that was found.
     """
 
@@ -65,9 +65,7 @@ class Legs:
 
 
 def find_legs(model: Any, data: Any, where: str) -> Legs:
-    """Find the legs.
-
-    Takes `model`, `data` and `where`; returns the legs.
+    """Returns the legs of a `model` in the state `data`; errors name the file `where`.
 
     Raises:
         RobotError: If there are not just two legs of four hinges or more; the message shows what there is.
@@ -97,7 +95,7 @@ class _Tree:
                 self.points[i] = np.concatenate([geom_triangles(model, data, g).reshape(-1, 3) for g in shapes])
 
     def chain(self, link: int) -> list[int]:
-        """A link and those that it hangs on, without the world."""
+        """A link and its ancestors, without the world."""
         found = []
         while link > 0:
             found.append(link)
@@ -105,20 +103,18 @@ class _Tree:
         return found
 
     def joints(self, link: int) -> list[int]:
-        """Joints between a link and the one above it, without a free one."""
+        """Joints between a link and its parent, without a free one."""
         first, count = int(self.model.body_jntadr[link]), int(self.model.body_jntnum[link])
         return [j for j in range(first, first + count) if self.model.jnt_type[j] != mujoco.mjtJoint.mjJNT_FREE]
 
     def hinges(self, links: list[int]) -> list[int]:
-        """Hinges of some links in their order."""
         return [j for i in links for j in self.joints(i) if self.model.jnt_type[j] == mujoco.mjtJoint.mjJNT_HINGE]
 
     def below(self, link: int) -> list[int]:
-        """A link and all that hangs on it."""
         return [i for i in self.links if link in self.chain(i)]
 
     def pelvis(self, pair: tuple[list[int], list[int]]) -> int:
-        """The body that both chains hang on; the first body of the robot where that is the world."""
+        """The body that both chains hang on, or the robot's first body."""
         top = self.above[pair[0][0]]
         if top > 0:
             return top
@@ -127,7 +123,7 @@ class _Tree:
 
 
 def _upwards(tree: _Tree, where: str) -> tuple[Array, tuple[str, ...]]:
-    """Which way is up (3,) in the model's world: away from what hangs farthest from the body."""
+    """Up (3,) in the model's world: away from what hangs farthest from the body."""
     model, data = tree.model, tree.data
     ends = [i for i in tree.points if len(tree.hinges(tree.chain(i))) >= LEAST_JOINTS]
     if not ends:
@@ -165,7 +161,7 @@ def _axis_name(axis: Array) -> str:
 
 
 def _pair(tree: _Tree, up: Array, where: str) -> tuple[list[int], list[int]]:
-    """The links of the two legs from hip to lowest end."""
+    """Links of the two legs from hip to lowest end."""
     height = {i: float((p @ up).min()) for i, p in tree.points.items()}
     top = max(float((p @ up).max()) for p in tree.points.values())
     ends = sorted((i for i in height if len(tree.hinges(tree.chain(i))) >= LEAST_JOINTS), key=height.__getitem__)
@@ -199,7 +195,7 @@ def _pair(tree: _Tree, up: Array, where: str) -> tuple[list[int], list[int]]:
 
 
 def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
-    """Links of two chains below the last one that they share, from the top down."""
+    """Links of two chains below their last common one, from the top."""
     one, two = tree.chain(a)[::-1], tree.chain(b)[::-1]
     shared = 0
     while shared < min(len(one), len(two)) and one[shared] == two[shared]:
@@ -208,7 +204,7 @@ def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
 
 
 def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
-    """The leg of a chain of links: the foot is the highest one that stands on the floor, too; below it are toes."""
+    """The leg of a chain of links: the foot is the highest one on the floor, with toes below."""
     model, data = tree.model, tree.data
     up = _above_sole(tree.points[chain[-1]], up)
     floor = float((tree.points[chain[-1]] @ up).min())
@@ -231,7 +227,7 @@ def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
 
 
 def _above_sole(points: Array, up: Array) -> Array:
-    """Direction (3,) that points up from the plane that a foot would rest on, in whatever posture."""
+    """Direction (3,) up from the plane that a foot would rest on."""
     side = np.eye(3)[int(np.abs(up).argmin())]
     level = np.stack([np.cross(side, up), np.cross(up, np.cross(side, up)), up])
     level /= np.linalg.norm(level, axis=1, keepdims=True)
@@ -240,7 +236,7 @@ def _above_sole(points: Array, up: Array) -> Array:
 
 
 def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:
-    """Where the last two axes of a leg meet, or the middle of the last one over the foot where they are parallel."""
+    """Where the last two axes of a leg meet, or the middle of the last one over the foot where parallel."""
     a, b = hinges[-1], hinges[-2]
     p, u, q, v = data.xanchor[a], data.xaxis[a], data.xanchor[b], data.xaxis[b]
     parallel = float(u @ v)
@@ -253,7 +249,7 @@ def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:
 
 
 def _facing(tree: _Tree, up: Array, legs: list[Leg], where: str) -> tuple[Array, tuple[str, ...]]:
-    """Rotation from the model's world to x forward, y left, z up, and what was found."""
+    """Rotation from the model's world to x forward, y left, z up, and its reasons."""
     data = tree.data
     hips = [data.xanchor[leg.joints[0]] for leg in legs]
     apart = max((legs[0].ankle - legs[1].ankle, hips[0] - hips[1]), key=lambda d: float(np.linalg.norm(d)))
@@ -275,7 +271,7 @@ def _facing(tree: _Tree, up: Array, legs: list[Leg], where: str) -> tuple[Array,
 
 
 def _forward_votes(tree: _Tree, legs: list[Leg], forward: Array, up: Array) -> tuple[float, str]:
-    """Above 0 where toes and knees show that a direction is forward, below 0 for the opposite."""
+    """Positive where toes and knees show that a direction is forward, negative for the opposite."""
     toes = knees = 0.0
     for leg in legs:
         foot = np.concatenate([tree.points[i] for i in tree.below(leg.foot) if i in tree.points]) @ forward

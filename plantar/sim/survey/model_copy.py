@@ -1,7 +1,6 @@
-"""A copy of a robot's model as it walks: one floating base that stands upright, the legs' joints, all else held.
+"""A copy of a robot's model as it walks: one upright floating base, the legs' joints, all else held.
 
-The copy is an MJCF that stands by itself in its folder, whatever format the model had
-and wherever its meshes were: inertias as MuJoCo compiled them, feet as they are, other meshes drawn in fewer triangles.
+It is an MJCF complete in its folder: inertias as MuJoCo compiled them, feet unchanged, other meshes in fewer triangles.
 """
 
 from __future__ import annotations
@@ -47,28 +46,21 @@ def write_model_copy(
     held: Mapping[str, float],
     imu: tuple[str, str, str] | None,
 ) -> str:
-    """Write the copy and its meshes.
-
-    Returns name of the body that is kept upright.
+    """Write the copy and its meshes; returns the name of the body that is kept upright.
 
     Args:
         model: The compiled model with all of its joints.
         legs: Its legs.
-        folder: Where to write "model.xml" and the meshes.
+        folder: For "model.xml" and the meshes.
         name: Name of the robot.
-        held: Angles in rad by name at which joints are held that are not the legs'; the others as the file has them.
-        imu: What the IMU is, "site" or "body", its name, and the name of the copy's site; None for none.
+        held: Angles in rad by name of other joints; the rest as in the file.
+        imu: "site" or "body" of the IMU, its name, and the name of the copy's site; or None.
     """
     return _Copy(model, legs, folder, held).written(name, imu)
 
 
 def add_rotors(file: Path, rotors: Mapping[str, float]) -> None:
-    """Give joints of a copy a rotor inertia.
-
-    Args:
-        file: The copy.
-        rotors: Inertia in kg m^2 by the joint's name.
-    """
+    """Give joints of the copy `file` the inertia `rotors` in kg m^2, by the joint's name."""
     root = ElementTree.fromstring(file.read_text(encoding="utf-8"))
     for joint in root.iter("joint"):
         if joint.get("name") in rotors:
@@ -77,14 +69,7 @@ def add_rotors(file: Path, rotors: Mapping[str, float]) -> None:
 
 
 class _Copy:
-    """The copy while it is written.
-
-    Args:
-        model: The compiled model.
-        legs: Its legs.
-        folder: Where it is written.
-        held: Angles in rad of held joints by name.
-    """
+    """The copy while it is written: of a `model` with `legs`, in a `folder`, with angles of `held` joints in rad."""
 
     def __init__(self, model: Any, legs: Legs, folder: Path, held: Mapping[str, float]) -> None:
         self.model, self.legs, self.folder = model, legs, folder
@@ -100,7 +85,7 @@ class _Copy:
         self.positions, self.rotations = data.xpos, data.xmat.reshape(-1, 3, 3)
 
     def written(self, name: str, imu: tuple[str, str, str] | None) -> str:
-        """Write it; gives the name of the body that is kept upright."""
+        """Write it; returns the name of the body that is kept upright."""
         model, legs = self.model, self.legs
         root = Element("mujoco", model=name)
         SubElement(root, "compiler", angle="radian", autolimits="true", meshdir=MESH_FOLDER, balanceinertia="true")
@@ -136,12 +121,11 @@ class _Copy:
         return body
 
     def _height(self, top: int) -> float:
-        """Height in m at which the lowest ankle is as far above the ground as the legs are long: about standing."""
+        """Height in m at which the lowest ankle is a leg's length above the ground."""
         ankles = [float((self.legs.rotation @ leg.ankle)[2]) for leg in self.legs.by_side.values()]
         return 1.2 * (float((self.legs.rotation @ self.positions[top])[2]) - min(ankles))
 
     def _body(self, parent: Element, body: int, position: NDArray[np.float64], rotation: Any, free: bool) -> None:
-        """Write a body and all that hangs on it."""
         model = self.model
         element = SubElement(
             parent, "body", name=model.body(body).name, pos=_text(position), quat=_quaternion(rotation)
@@ -210,7 +194,7 @@ class _Copy:
         SubElement(element, "geom", attributes)
 
     def _mesh(self, mesh: int, whole: bool) -> str:
-        """File of a mesh as MuJoCo has it; one that is not of a foot loses what is not seen from afar."""
+        """File of a mesh; one that is not of a foot is simplified."""
         if mesh not in self.meshes:
             model = self.model
             first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
@@ -225,7 +209,6 @@ class _Copy:
         return self.meshes[mesh]
 
     def _imu(self, root: Element, kind: str, name: str, site: str) -> None:
-        """Put the IMU's site where it is."""
         model = self.model
         body = model.body(name).id if kind == "body" else int(model.site(name).bodyid[0])
         at, turn = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))

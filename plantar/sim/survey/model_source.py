@@ -1,4 +1,4 @@
-"""A robot's model as its author left it, MJCF or URDF: with what its file states of motors and sensors."""
+"""A robot's model as its author left it, MJCF or URDF, with the motors and sensors of its file."""
 
 from __future__ import annotations
 
@@ -47,17 +47,15 @@ class ModelSource:
     """A compiled model, and what its file states besides bodies, joints and shapes.
 
     Attributes:
-        file: The file.
-        name: The model's name.
         model: The compiled model with all of its joints, without motors or constraints.
-        efforts: Largest torque in N m of each joint whose motor or joint the file limits, by the joint's name.
-        speeds: Largest speed in rad/s of each joint that the file limits, by name.
-        gains: Stiffness in N m/rad and damping in N m s/rad of each joint that a position servo moves, by name.
-        imus: Sites and bodies that may be the IMU, as "site" or "body" and the name, the likeliest first: what carries
-            a gyro, what carries an accelerometer, what is called IMU.
-        coupled: Pairs of joint names of which the file lets the first follow the second.
-        loops: Pairs of bodies that the file ties together outside the tree of joints.
-        upper_posture: Joint angles of the file's first keyframe by name; empty where it has none.
+        efforts: Largest torque in N m of each joint with a limit, by name.
+        speeds: Largest speed in rad/s of each joint with a limit, by name.
+        gains: Stiffness in N m/rad and damping in N m s/rad of each joint with a position servo, by name.
+        imus: Sites and bodies that may be the IMU, "site" or "body" and the name, the likeliest first: with a gyro,
+            with an accelerometer, called IMU.
+        coupled: Pairs of joint names of which the first follows the second.
+        loops: Pairs of bodies tied together outside the tree of joints.
+        upper_posture: Joint angles of the file's first keyframe by name, or empty.
         notes: What was left out or changed in reading.
     """
 
@@ -76,7 +74,7 @@ class ModelSource:
 
 @dataclass
 class _Stated:
-    """What a file states, collected before it is removed from the model."""
+    """Statements of a file, collected before they are removed from the model."""
 
     efforts: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
@@ -88,14 +86,15 @@ class _Stated:
 def read_model(file: Path, folder: Path) -> ModelSource:
     """Read a robot's model.
 
-    Returns the model.
-
     Args:
         file: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file, or a scene that includes the robot.
-        folder: A folder for meshes that have to be converted.
+        folder: For meshes that have to be converted.
+
+    Returns:
+        The model.
 
     Raises:
-        RobotError: If it cannot be read, or names files that lie where they may not.
+        RobotError: If it cannot be read, or names files outside of where they may be.
     """
     check_model(file, RobotError)
     stated = _Stated()
@@ -135,7 +134,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
 
 
 def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Stated) -> str:
-    """A URDF as MuJoCo reads it: meshes by their full names in kinds that it knows, its own settings."""
+    """A URDF for MuJoCo: meshes by their full names in kinds that it reads, its own settings."""
     for link in root.iter("link"):
         for shape in [*link.findall("visual"), *link.findall("collision")]:
             mesh = shape.find("geometry/mesh")
@@ -169,9 +168,7 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Sta
 
 
 def _locked(joint: ElementTree.Element, file: Path) -> str:
-    """Name of a joint whose limits leave no range, which is fixed then; empty for any other.
-
-    MuJoCo would take it as one without limits.
+    """Name of a joint whose limits leave no range, which MuJoCo would take as one without limits; empty for others.
 
     Raises:
         RobotError: If the limits contradict each other, or hold it at another angle than 0.
@@ -192,7 +189,6 @@ def _locked(joint: ElementTree.Element, file: Path) -> str:
 
 
 def _number(text: str | None) -> float:
-    """A number, 0 where it is none or not finite."""
     try:
         value = float(text or "0")
     except ValueError:
@@ -201,7 +197,7 @@ def _number(text: str | None) -> float:
 
 
 def _name_all(spec: Any) -> None:
-    """Give every body and joint a name: what follows finds them by it."""
+    """Give every body and joint a name."""
     for kind, elements in (("body", spec.bodies), ("joint", spec.joints)):
         taken = {e.name for e in elements}
         for i, element in enumerate(elements):
@@ -211,7 +207,7 @@ def _name_all(spec: Any) -> None:
 
 
 def _drop_other_things(spec: Any, notes: list[str]) -> None:
-    """Remove other things of a scene, as tables and balls: the robot is the one with most hinges."""
+    """Remove other things of a scene: the robot is the one with most hinges."""
     things = list(spec.worldbody.bodies)
     if len(things) < 2:
         return
@@ -224,12 +220,11 @@ def _drop_other_things(spec: Any, notes: list[str]) -> None:
 
 
 def _joints_below(body: Any) -> list[Any]:
-    """Joints of a body and of all that hangs on it."""
     return [*body.joints, *(joint for child in body.bodies for joint in _joints_below(child))]
 
 
 def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> None:
-    """Take out textures, and meshes that cannot be read with the shapes made of them."""
+    """Take out textures, and meshes that cannot be read with their shapes."""
     for material in spec.materials:
         material.textures = [""] * len(material.textures)
     for part in ("textures", "skins", "hfields", "flexes"):
@@ -262,7 +257,7 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
 
 
 def _is_empty(geom: Any) -> bool:
-    """Whether a simple shape has a size of 0, which MuJoCo refuses: such shapes mark a place."""
+    """Whether a simple shape has a size of 0, which marks a place and MuJoCo refuses."""
     sizes = _SIZES.get(mujoco.mjtGeom(geom.type), 0)
     if sizes == 2 and math.isfinite(geom.fromto[0]):
         sizes = 1
@@ -275,7 +270,7 @@ def _first_keyframe(spec: Any) -> NDArray[np.float64] | None:
 
 
 def _angles_of(model: Any, qpos: NDArray[np.float64] | None) -> dict[str, float]:
-    """Angles of the hinges in a keyframe by name; none where it is of another model."""
+    """Angles of the hinges in a keyframe by name; empty where it is of another model."""
     if qpos is None or len(qpos) != model.nq or not np.isfinite(qpos).all():
         return {}
     hinges = [i for i in range(model.njnt) if model.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE]
@@ -283,7 +278,7 @@ def _angles_of(model: Any, qpos: NDArray[np.float64] | None) -> dict[str, float]
 
 
 def _collect_motors(spec: Any, stated: _Stated) -> None:
-    """Largest torque of each joint: of its motor by force or control range, or of the joint itself; gains of servos."""
+    """Largest torque of each joint: of its motor by force or control range, or of the joint; gains of servos."""
     for joint in spec.joints:
         limited = joint.actfrclimited != mujoco.mjtLimited.mjLIMITED_FALSE
         if limited and joint.actfrcrange[0] < joint.actfrcrange[1]:
@@ -309,7 +304,6 @@ def _collect_motors(spec: Any, stated: _Stated) -> None:
 
 
 def _imus_of(spec: Any) -> tuple[tuple[str, str], ...]:
-    """What carries a gyro, what carries an accelerometer, and sites and bodies that are called IMU."""
     found = []
     for kind in (mujoco.mjtSensor.mjSENS_GYRO, mujoco.mjtSensor.mjSENS_ACCELEROMETER):
         found += [("site", s.objname) for s in spec.sensors if s.type == kind and spec.site(s.objname) is not None]
@@ -331,7 +325,6 @@ def _compiled(spec: Any, file: Path) -> Any:
 
 
 def _bodies_of(model: Any, pair: tuple[str, str]) -> tuple[str, str]:
-    """The bodies of two ends that are bodies or sites."""
     names = []
     for name in pair:
         site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, name) if name else -1

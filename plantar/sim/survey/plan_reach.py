@@ -1,4 +1,4 @@
-"""What a walk's plan asks of the legs, without physics: knees, joint ranges and torques over all its instants."""
+"""Demands of a walk's plan on the legs, without physics: knees, joint ranges and torques over all its instants."""
 
 from __future__ import annotations
 
@@ -39,17 +39,17 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Walked:
-    """A walk that is looked at.
+    """A walk to be examined.
 
     Attributes:
-        feet: Where the feet stand at first.
+        feet: At the start.
         steps: The footsteps.
         timing: Its durations.
         swing_height: Clearance of the swing foot in m.
-        com_height: Height of the CoM above the soles in m.
+        com_height: Of the CoM above the soles in m.
         lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
         approach_height: Height in m above the ground from which the swing foot comes down slowly.
-        approach_speed: Speed of that in m/s.
+        approach_speed: In m/s.
     """
 
     feet: Mapping[Side, Footstep]
@@ -64,16 +64,16 @@ class Walked:
 
 @dataclass(frozen=True)
 class PlanReach:
-    """What a plan asks of the legs.
+    """Demands of a plan on the legs.
 
     Attributes:
         missed: Largest distance in m by which CoM or a standing sole misses its place, or a tenth of a swinging one's.
-        knee: Least bend of a knee in rad; negative where one would bend backwards.
+        knee: Least bend of a knee in rad; negative where it would bend backwards.
         straightest: Time in s of that.
-        spare: Least distance of each joint of a leg that carries to its limits in rad, both legs taken together.
-        torque: Largest torque in N m that each joint of a leg needs, both legs taken together: to carry, and to move
-            itself against its own damping and the inertia of what it swings.
-        carrying: The same without what moving takes.
+        spare: Least distance of each joint of a carrying leg to its limits in rad, over both legs.
+        torque: Largest torque in N m of each joint of a leg, over both legs: to carry, and to move against damping and
+            inertia.
+        carrying: The same to carry alone.
         roll: Largest angle in rad by which a sole that carries alone is off level: of legs without ankle roll.
     """
 
@@ -92,16 +92,8 @@ def standing_feet(width: float) -> dict[Side, Footstep]:
 
 
 def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_height: float) -> float:
-    """Stand the legs on their feet, from the robot's posture.
-
-    Args:
-        robot: The robot.
-        legs: Its kinematics, which hold the posture that was found.
-        feet: Where the soles stand.
-        com_height: CoM height in m.
-
-    Returns:
-        The error in m or rad that is left.
+    """Stand the `legs` of a `robot` on `feet` with the CoM at `com_height` in m; returns the error in m or rad that is
+    left.
     """
     middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.ankle_reach)) for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], feet["left"].z + com_height])
@@ -121,17 +113,16 @@ def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_hei
 def plan_reach(
     robot: Robot, legs: LegModel, walked: Walked, bears: Callable[[float, float, Array], bool] = lambda *_: True
 ) -> PlanReach:
-    """Go through a walk as it is planned, on level ground, and see what the legs have to do.
+    """Go through a planned walk on level ground.
 
     Args:
         robot: The robot.
         legs: Its kinematics.
         walked: The walk.
-        bears: Asked after each instant, of `missed`, `knee` and `spare` so far, which only get worse; the rest of a
-            walk for which it states no is not looked at.
+        bears: Given `missed`, `knee` and `spare` so far, which only get worse, after each instant; False ends the pass.
 
     Returns:
-        What it asks of them. The torques of a walk that was not looked at to its end are infinite.
+        Demands on the legs; torques of a pass that was ended are infinite.
     """
     found = _Pass(robot, legs, walked)
     for time in np.arange(_BEGIN, found.plan.schedule.walking_end + found.every, found.every).tolist():
@@ -142,7 +133,7 @@ def plan_reach(
 
 
 class _Pass:
-    """A walk while it is gone through: what was seen so far."""
+    """The state of a pass through a walk."""
 
     def __init__(self, robot: Robot, legs: LegModel, walked: Walked) -> None:
         self.legs, self.walked = legs, walked
@@ -162,7 +153,7 @@ class _Pass:
         self.centre = 0.5 * (walked.feet["left"].y + walked.feet["right"].y)
 
     def look(self, time: float) -> None:
-        """Solve for the legs at an instant in s, and note what they have to do."""
+        """Solve for the legs at an instant in s, and note their demands."""
         walked, legs, feet = self.walked, self.legs, self.feet
         phase, reference = self.plan.schedule.at(time), self.plan.at(time)
         for foot in walked.steps[: phase.step]:
@@ -210,13 +201,12 @@ class _Pass:
         )
 
     def broken_off(self) -> PlanReach:
-        """What was seen of a walk that the legs do not bear."""
+        """The demands so far of a walk that the legs do not bear."""
         never = np.full(len(self.spare), math.inf)
         spare = self.spare if self.missed < _HOPELESS else -never
         return PlanReach(self.missed, self.knee, self.straightest, spare, never, never, math.pi)
 
     def result(self) -> PlanReach:
-        """What the whole walk asks of the legs."""
         moved = np.gradient(np.array(self.angles), self.every, axis=0)
         moving = self.probe.damping * moved + self.probe.swinging * np.gradient(moved, self.every, axis=0)
         torque, carrying = (
@@ -234,8 +224,6 @@ def _shares(vrp: Array, feet: Mapping[Side, Footstep], middles: Mapping[Side, Ar
 
 
 class _Probe:
-    """Reads knees and joint ranges off a solution."""
-
     def __init__(self, robot: Robot, legs: LegModel) -> None:
         model = legs.model
         self._data = stood(robot, model)
@@ -274,7 +262,7 @@ class _Probe:
         return min(bends, default=math.pi)
 
     def off(self, side: Side, position: Array) -> float:
-        """Distance in m of a sole from a position (3,), in the posture whose knees were read last."""
+        """Distance in m of a sole from a position (3,), in the posture of the last `knees`."""
         return float(np.linalg.norm(self._data.site_xpos[self._soles[side]] - position))
 
     def com_off(self, com: Array) -> float:
@@ -283,15 +271,15 @@ class _Probe:
         return float(np.linalg.norm(self._data.subtree_com[self._root] - com))
 
     def tilt(self, side: Side) -> float:
-        """Angle in rad of a sole against level ground, in the posture whose knees were read last."""
+        """Angle in rad of a sole against level ground, likewise."""
         return math.acos(min(1.0, float(self._data.site_xmat[self._soles[side], 8])))
 
     def angles(self, legs: LegModel) -> Array:
-        """Angles (k,) in rad of the joints of both legs in the posture that the legs hold."""
+        """Angles (k,) in rad of the joints of both legs."""
         return np.asarray(legs.configuration[self._places])
 
     def spare(self, legs: LegModel, sides: Sequence[Side]) -> Array:
-        """Distance of each joint of some legs to its limits in rad, the lesser one of both legs."""
+        """Distance of each joint of some legs to its limits in rad, the lesser of both legs."""
         angles = legs.configuration[self._places]
         spare = np.minimum(angles - self._low, self._high - angles).reshape(2, -1)
         return np.asarray(spare[[SIDES.index(s) for s in sides]].min(axis=0))

@@ -25,12 +25,11 @@ _COLOURS = ((0.85, 0.2, 0.2, 1.0), (0.2, 0.65, 0.25, 1.0), (0.2, 0.35, 0.85, 1.0
 
 
 def draw_robot(robot: Robot, path: Path) -> Path:
-    """Draw the robot in its posture; red, green and blue lines are x, y and z of each sole's frame.
-
-    Takes `path`; returns the path.
+    """Draw the `robot` in its posture at `path`, with x, y and z of each sole's frame in red, green and blue; returns
+    the path.
 
     Raises:
-        InputError: If nothing can be rendered here; the message names the cause.
+        InputError: If no renderer can be made here; the message names the cause.
     """
     legs = build_leg_model(robot)
     settled(robot, legs, standing_feet(robot.stance_width), robot.com_height)
@@ -58,7 +57,7 @@ def draw_robot(robot: Robot, path: Path) -> Path:
 
 
 def _bones(robot: Robot, world: World) -> list[Line]:
-    """Lines from joint to joint of each leg, and between the hips: all that is seen of a model without shapes."""
+    """Lines from joint to joint of each leg, for a model without shapes."""
     model, data = world.model, world.data
     chains = {s: [data.xanchor[model.joint(n).id].copy() for n in robot.legs[s].joints] for s in SIDES}
     ends = [(chains["left"][0], chains["right"][0])]
@@ -69,6 +68,5 @@ def _bones(robot: Robot, world: World) -> list[Line]:
 
 
 def _axes(data: mujoco.MjData, site: int, length: float) -> list[Line]:
-    """The axes of a frame, so long in m."""
     start, rotation = data.site_xpos[site].copy(), data.site_xmat[site].reshape(3, 3)
     return [Line(start, start + length * rotation[:, i], 0.03 * length, colour) for i, colour in enumerate(_COLOURS)]

@@ -1,4 +1,4 @@
-"""The robot file that is written: every value with a word on how it was found."""
+"""The robot file that is written: every value with its reason."""
 
 from __future__ import annotations
 
@@ -38,13 +38,7 @@ def roll_pitch_yaw(rotation: NDArray[np.float64]) -> list[float]:
 
 
 def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], weighed: bool) -> str:
-    """Text of a robot file.
-
-    Takes `survey`, `fitted`, `shoe_notes` and `weighed`.
-
-    Returns:
-        TOML that `plantar.robots.load_robot` reads.
-    """
+    """Returns the TOML of a robot file from `survey`, `fitted`, `shoe_notes` and whether shoes were `weighed`."""
     robot = fitted.robot
     lines = [
         *_comment(
@@ -78,7 +72,6 @@ def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], we
 
 
 def _comment(text: str) -> list[str]:
-    """Comment lines of a text."""
     lines = [""]
     for word in text.split():
         if len(lines[-1]) + len(word) > _WIDTH:
@@ -98,7 +91,6 @@ def _places(values: Iterable[float], decimals: int) -> str:
 
 
 def _shoe(survey: Survey, robot: Robot, notes: Sequence[str], weighed: bool) -> list[str]:
-    """Where the soles are."""
     left, right = (robot.sole_origins[s] for s in SIDES)
     turns = {s: roll_pitch_yaw(robot.sole_rotations[s]) for s in SIDES}
     lines = ["[shoe]", *_comment("; ".join((*survey.soles["left"].notes, *notes)) + ".")]
@@ -205,7 +197,7 @@ def _gait(fitted: FittedGait) -> list[str]:
 
 
 def _approaching(robot: Robot) -> list[str]:
-    """The time of a swing that comes down slowly, where the motors need more than the usual one."""
+    """The time of a swing that comes down slowly, where it is not the usual one."""
     if not robot.approach_support:
         return []
     lines = _comment(
@@ -216,7 +208,7 @@ def _approaching(robot: Robot) -> list[str]:
 
 
 def _loaded(robot: Robot) -> list[str]:
-    """Where soles are loaded, and whether the robot rocks, where that is not as usual."""
+    """Where soles are loaded, and whether the robot rocks, where unusual."""
     lines = []
     if robot.ankle_reach < 1.0:
         lines += _comment("The ankles cannot bear the weight on the toes; no farther from them is the sole loaded:")
@@ -282,7 +274,7 @@ def _balance(fitted: FittedGait) -> list[str]:
 
 
 def _rocking() -> list[str]:
-    """How the attitude of a robot that rocks is estimated; see `plantar.gait.estimate.estimator`."""
+    """Attitude estimation of a robot that rocks; see `plantar.gait.estimate.estimator`."""
     return [
         "[estimator]",
         *_comment("Feet that come down on an edge turn, which only the gyro shows: they correct the heading slowly."),

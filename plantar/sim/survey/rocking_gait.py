@@ -1,13 +1,11 @@
 """The gait of legs without ankle roll: quick steps that rock from one foot to the other.
 
-Such a sole is level where its leg is vertical in the frontal plane, so a robot cannot bring its CoM over a foot without
-standing on the edge of it. It need not: a pendulum of height h that is carried at p to the side, p half the feet's
-distance, swings from the middle towards the foot and back in a time T, and comes as near as
+Such a sole is level only where its leg is vertical in the frontal plane. A pendulum of height h that is carried at p to
+the side, half the feet's distance, swings towards the foot and back in a time T, and leans by atan(y / h), with
 
     y = p (1 - 1 / cosh(w T / 2)),    w = sqrt(g / h)
 
-(the symmetric orbit of the linear inverted pendulum; Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001).
-The leg leans by atan(y / h) then, and so does the sole. Steps that are quick enough keep that small.
+(Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001). Quick steps keep that small.
 """
 
 from __future__ import annotations
@@ -36,22 +34,12 @@ _SHORTEST = 0.2  # s: the least that the timing of a walk allows
 
 
 def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
-    """Whether a leg has two joints that roll, in hip and ankle, so that it leans while its sole stays level.
-
-    Takes `robot`, `legs` and `side`; returns whether it has.
-    """
+    """Returns whether the leg of a `side` of `legs` of a `robot` has two joints that roll, in hip and ankle."""
     return len(rolling_joints(robot, side, legs.model, stood(robot, legs.model))) >= 2
 
 
 def rocking(robot: Robot, com_height: float) -> Robot:
-    """The robot with the time of a step in which its legs lean little.
-
-    Returns the robot.
-
-    Args:
-        robot: The robot.
-        com_height: Height of its CoM in m.
-    """
+    """Returns the `robot`, whose CoM is at `com_height` in m, with the time of a step in which its legs lean little."""
     beat = math.sqrt(com_height / GRAVITY)
     near = min(_NEAR, com_height * math.tan(LEAN_MOST) / (0.5 * robot.stance_width))
     step = 2.0 * beat * math.acosh(1.0 / (1.0 - near))
@@ -62,15 +50,8 @@ def rocking(robot: Robot, com_height: float) -> Robot:
 
 
 def ankle_reach(robot: Robot, weight: float, ankle: int) -> float | None:
-    """How far from itself, along the sole, an ankle bears the robot that is too weak to bear it on the toes.
-
-    Args:
-        robot: The robot.
-        weight: Its weight in N.
-        ankle: Which joint of a leg pitches the foot.
-
-    Returns:
-        The distance in m; None where it bears the robot on the toes.
+    """Returns how far from itself along the sole in m joint `ankle` of a `robot` bears its `weight` in N; None: up to
+    the toes.
     """
     if not robot.effort_limits:
         return None

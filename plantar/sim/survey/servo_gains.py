@@ -1,4 +1,4 @@
-"""Gains of a leg's servos from what they move, what the robot weighs, and how often they are commanded."""
+"""Gains of a leg's servos from inertia, weight and control period."""
 
 from __future__ import annotations
 
@@ -27,16 +27,15 @@ def servo_gains(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Gains of the servos of a leg.
 
-    A joint is as stiff as the walk needs it, 12 m g h, as the robot h1 is; a light one only so far that the foot's own
-    swing, of frequency sqrt(k / I), moves by 1.5 rad in a control period: what is commanded there comes in steps, and a
-    stiffer servo would answer each with a blow. It is damped critically for what it swings, or as h1 is where that is
-    more, less what the joint has.
+    Stiffness is 12 m g h, as of h1; for a light joint only so much that the foot's own swing, of frequency sqrt(k / I),
+    moves by 1.5 rad in a control period. Damping is critical for the swing, or as of h1 where that is more, less the
+    joint's own.
 
     Args:
-        inertia: Inertia about each joint of a leg.
-        mass: Mass of the robot in kg.
-        com_height: Height of its CoM in m.
-        beat: Time scale sqrt(leg / g) of its legs in s.
+        inertia: About each joint of a leg.
+        mass: Of the robot in kg.
+        com_height: Of its CoM in m.
+        beat: Time scale sqrt(leg / g) in s.
         period: Control period in s.
 
     Returns:
@@ -53,19 +52,17 @@ def servo_gains(
 def rotor_inertia(inertia: JointInertia, mass: float, com_height: float, period: float) -> NDArray[np.float64]:
     """Rotor inertia to assume where a model states none and a joint would be too light for its servo.
 
-    The least stiffness that holds the robot up swings a bare foot by more than `SAMPLED` in a control period: it
-    chatters on the ground. Real joints carry their motor's rotor, geared up. What is missing up to that phase is
-    assumed: for Unitree's G1, whose URDF states none, 0.0035 and 0.0066 kg m^2 about the ankle, which has 0.007.
+    It keeps a bare foot's swing under the least stiffness that holds the robot to `SAMPLED` in a control period; more
+    would chatter. For Unitree's G1, whose URDF states none, 0.0035 and 0.0066 kg m^2 about the ankle, which has 0.007.
 
     Args:
-        inertia: Inertia about each joint of a leg.
-        mass: Mass of the robot in kg.
-        com_height: Height of its CoM in m.
+        inertia: About each joint of a leg.
+        mass: Of the robot in kg.
+        com_height: Of its CoM in m.
         period: Control period in s.
 
     Returns:
-        Inertia in kg m^2 to add about each joint of a leg, of two digits; 0 where the model states a rotor's, or where
-        none is missing.
+        Inertia in kg m^2 to add about each joint of a leg, of two digits; 0 where none is missing.
     """
     least = LEAST_STIFFNESS * mass * GRAVITY * com_height
     missing = least * (period / SAMPLED) ** 2 - inertia.swing

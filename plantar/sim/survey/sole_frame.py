@@ -1,4 +1,4 @@
-"""The sole of a foot: the plane that the foot would come to rest on, and its frame, whatever the body's frame is."""
+"""The sole of a foot: the plane that the foot would come to rest on, and its frame."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class Sole:
     """The bare sole of a foot. Its frame: x forward, y left, z up, origin on the sole plane below the ankle.
 
     Attributes:
-        origin: Its origin (3,) in the frame of the foot's body in m.
-        rotation: Rotation (3, 3) from the sole frame to the frame of the foot's body.
+        origin: (3,) in the frame of the foot's body in m.
+        rotation: Rotation (3, 3) from the sole frame to that of the foot's body.
         triangles: The foot's surface (n, 3, 3) in the sole frame in m.
         low: Least x and y (2,) of the sole in m.
         high: Greatest x and y (2,) of the sole in m.
         turn: Angle in rad between the sole's normal and the nearest axis of the body's frame.
-        area: Area of the outline's convex hull in m^2.
+        area: Of the outline's convex hull in m^2.
         notes: How it was found.
     """
 
@@ -55,11 +55,11 @@ class Sole:
 
 @dataclass(frozen=True)
 class Rested:
-    """What of a foot's shapes it stands on.
+    """The shapes of a foot that it stands on.
 
     Attributes:
         kind: "drawn" or "colliding".
-        surface: Triangles (n, 3, 3) of those shapes in m, in the axes that were asked for.
+        surface: Triangles (n, 3, 3) of those shapes in m, in the wanted axes.
         normal: Outward normal (3,) of the plane that they would rest on.
         share: Area of that plane over the silhouette from above.
     """
@@ -71,18 +71,10 @@ class Rested:
 
 
 def rested(model: Any, data: Any, parts: Collection[int], rotation: Array) -> Rested | None:
-    """Find the plane that a foot would come to rest on.
+    """Returns the plane that a foot of bodies `parts` of `model` in state `data` would rest on; None without shapes.
 
-    What is drawn counts, or what collides where that is flat below and what is drawn is not.
-
-    Args:
-        model: The model.
-        data: Its state.
-        parts: Ids of the foot's bodies.
-        rotation: Rotation (3, 3) from the model's world to axes with z up.
-
-    Returns:
-        The plane; None for a foot without shapes.
+    Drawn shapes count, or colliding ones where only these are flat below. `rotation` (3, 3) is from the model's world
+    to axes with z up.
     """
     found = []
     drawn, colliding = shapes_of(model, parts)
@@ -98,19 +90,12 @@ def rested(model: Any, data: Any, parts: Collection[int], rotation: Array) -> Re
 
 
 def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> Sole:
-    """Find the sole of a foot.
+    """Returns the sole of a `leg` of `model` in state `data`, the posture of the file `where`.
 
-    Returns the sole.
-
-    Args:
-        model: The model.
-        data: Its state in the posture of the file.
-        leg: The leg.
-        rotation: Rotation (3, 3) from the model's world to one with x forward, y left, z up.
-        where: The file, for messages.
+    `rotation` (3, 3) is from the model's world to x forward, y left, z up.
 
     Raises:
-        RobotError: If the foot has no shape that it could stand on.
+        RobotError: If the foot has no shape to stand on.
     """
     name = model.body(leg.foot).name
     found = rested(model, data, leg.parts, rotation)
@@ -165,7 +150,7 @@ def find_sole(model: Any, data: Any, leg: Leg, rotation: Array, where: str) -> S
 
 
 def _axes(surface: Array, normal: Array) -> tuple[Array, float]:
-    """Rotation (3, 3) from the sole's axes to the robot's, and by how much the foot's long side turns it in rad."""
+    """Rotation (3, 3) from the sole's axes to the robot's, and the turn of the foot's long side in rad."""
     up = -normal
     forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
     forward /= float(np.linalg.norm(forward))
@@ -210,7 +195,7 @@ def _covered(triangles: Array) -> float:
 
 
 def _hull_area(points: Array) -> float:
-    """Area of the convex hull of points (n, 2) in m^2; 0 where they are on a line."""
+    """Area of the convex hull of points (n, 2) in m^2; 0 on a line."""
     try:
         return float(ConvexHull(points).volume)
     except (QhullError, ValueError):

@@ -1,7 +1,4 @@
-"""Surfaces from mesh files: what MuJoCo reads stays as it is, Collada and text STL become binary STL.
-
-URDFs name meshes in Collada (.dae) as often as in STL, which MuJoCo does not read.
-"""
+"""Surfaces from mesh files: Collada and text STL, which MuJoCo does not read, become binary STL."""
 
 from __future__ import annotations
 
@@ -26,13 +23,7 @@ Triangles = NDArray[np.float64]
 
 
 def mesh_for_mujoco(path: Path, folder: Path) -> Path | None:
-    """A mesh file that MuJoCo reads.
-
-    Takes `path` and `folder`.
-
-    Returns:
-        The file itself, a converted one, or None where it is missing or of no kind that can be read.
-    """
+    """Returns the file `path`, one converted into `folder`, or None where it is missing or cannot be read."""
     kind = path.suffix.lower()
     if not path.is_file():
         return None
@@ -67,9 +58,7 @@ def stl_bytes(triangles: Triangles) -> bytes:
 
 
 def simplified(triangles: Triangles, cells: int) -> Triangles:
-    """Triangles (n, 3, 3) with corners drawn together on a lattice, as fine as so many cells along the longest side.
-
-    Takes `triangles`; returns fewer triangles that look alike.
+    """Returns fewer `triangles` (n, 3, 3): corners drawn together on a lattice of `cells` along the longest side.
 
     Example:
         >>> fine = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1e-3, 0, 0], [0, 1e-3, 0]]], dtype=float)
@@ -98,17 +87,15 @@ def _binary_stl(data: bytes) -> Triangles:
 
 
 def _text_stl(data: bytes) -> Triangles:
-    """Corners of a text STL: its lines "vertex x y z"."""
     lines = (line.split() for line in data.decode("utf-8", "replace").splitlines())
     corners = [[float(v) for v in words[1:4]] for words in lines if len(words) == 4 and words[0].lower() == "vertex"]
     return np.array(corners, dtype=float).reshape(-1, 3, 3)
 
 
 def _collada(path: Path) -> Triangles:
-    """Triangles of a Collada file in m, its nodes put where they are.
+    """Triangles of a Collada file in m, its nodes in place.
 
-    Which of its axes the file states is up is passed over: RViz and Gazebo do, so that authors of URDFs have set their
-    meshes by what they saw there (github.com/ros-visualization/rviz/issues/1045).
+    Its up axis is ignored, as RViz and Gazebo do (github.com/ros-visualization/rviz/issues/1045).
     """
     root = parse_xml(read_input(path, RobotError, _MOST_BYTES), RobotError, str(path))
     for element in root.iter():
@@ -139,7 +126,7 @@ def _collada(path: Path) -> Triangles:
 
 
 def _collada_matrix(node: Element) -> NDArray[np.float64]:
-    """Pose (4, 4) of a node in the one above it."""
+    """Pose (4, 4) of a node in its parent."""
     at = np.eye(4)
     for element in node:
         step = np.eye(4)

@@ -1,4 +1,4 @@
-"""What a robot's model states of its legs, feet, torso and motors, before anything is decided."""
+"""Legs, feet, torso and motors of a robot's model, before decisions."""
 
 from __future__ import annotations
 
@@ -27,16 +27,14 @@ class Survey:
     """What was found in a model.
 
     Attributes:
-        source: The model.
-        legs: Its legs.
         soles: The bare sole of each foot.
-        held: Angles in rad by name at which other joints are held.
-        imu: What the IMU is, "site" or "body", and its name; None where the model has none on the body.
-        efforts: Largest torque in N m of each joint of a leg, the lesser one of both; None where the model has none.
-        speeds: Largest speed in rad/s of each joint of a leg; empty where the model does not state of every one.
-        gains: Stiffness in N m/rad and damping in N m s/rad of each joint of the left leg; empty where the model does
-            not state of every one.
-        notes: What a user should know, each a sentence.
+        held: Angles in rad by name of other joints.
+        imu: "site" or "body" of the IMU, and its name; or None.
+        efforts: Largest torque in N m of each joint of a leg, the lesser of both; or None.
+        speeds: Largest speed in rad/s of each joint of a leg; empty unless the model states all.
+        gains: Stiffness in N m/rad and damping in N m s/rad of each joint of the left leg; empty unless the model
+            states all.
+        notes: For the user, each a sentence.
     """
 
     source: ModelSource
@@ -51,7 +49,7 @@ class Survey:
 
     @property
     def mass(self) -> float:
-        """Mass of the robot in kg."""
+        """Of the robot in kg."""
         return float(mujoco.mj_getTotalmass(self.source.model))
 
     def joint_names(self, side: Side) -> list[str]:
@@ -59,14 +57,12 @@ class Survey:
         return [self.source.model.joint(j).name for j in self.legs.by_side[side].joints]
 
     def foot_name(self, side: Side) -> str:
-        """Name of the body of a foot."""
+        """Name of a foot's body."""
         return str(self.source.model.body(self.legs.by_side[side].foot).name)
 
 
 def survey_model(file: Path, folder: Path) -> Survey:
-    """Find legs, soles, IMU and limits of a robot.
-
-    Takes `folder`; returns what was found.
+    """Returns legs, soles, IMU and limits of the robot in `file`; converted meshes go to `folder`.
 
     Raises:
         RobotError: If the file cannot be read, or holds no robot on two legs.
@@ -102,7 +98,6 @@ def survey_model(file: Path, folder: Path) -> Survey:
 
 
 def _refuse_odd_legs(source: ModelSource, legs: Legs) -> None:
-    """Refuse legs of unlike numbers of joints."""
     counts = {s: len(legs.by_side[s].joints) for s in SIDES}
     if counts["left"] != counts["right"]:
         raise RobotError(
@@ -111,7 +106,7 @@ def _refuse_odd_legs(source: ModelSource, legs: Legs) -> None:
 
 
 def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
-    """Legs that the file closes to loops: here they walk as the tree of their joints."""
+    """Legs closed to loops, which walk here as the tree of their joints."""
     model = source.model
     moved = {int(model.jnt_bodyid[j]) for leg in legs.by_side.values() for j in leg.joints}
 
@@ -127,7 +122,7 @@ def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
 
 
 def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]:
-    """Angles at which joints that are not the legs' are held: of the first keyframe, else as the file has them."""
+    """Angles of held joints: of the first keyframe, else as in the file."""
     model = source.model
     hinges = {j for leg in legs.by_side.values() for j in leg.joints}
     held, outside = {}, []
@@ -152,7 +147,7 @@ def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]
 
 
 def _on_body(model: Any, legs: Legs, imu: tuple[str, str]) -> bool:
-    """Whether an IMU does not move against the pelvis but by joints that are held."""
+    """Whether an IMU moves against the pelvis by held joints only."""
     kind, name = imu
     body = model.body(name).id if kind == "body" else int(model.site(name).bodyid[0])
     moved = {int(model.jnt_bodyid[j]) for leg in legs.by_side.values() for j in leg.joints}
@@ -177,7 +172,6 @@ def _coupled_notes(source: ModelSource, names: Mapping[Side, list[str]]) -> list
 
 
 def _unlike(soles: Mapping[Side, Sole]) -> list[str]:
-    """What a user should know of feet that do not mirror each other."""
     left, right = soles["left"], soles["right"]
     mirrored = np.array([[right.low[0], -right.high[1]], [right.high[0], -right.low[1]]])
     gap: NDArray[np.float64] = np.abs(mirrored - [left.low, left.high])

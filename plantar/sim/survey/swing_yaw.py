@@ -1,8 +1,8 @@
 """How long a step takes whose swinging leg does not turn the standing sole on the ground.
 
-A leg that is thrown forward next to the standing one pushes the rest of the robot back, about the vertical through the
-standing sole, and friction has to hold that. Unitree's G1, whose legs are a fifth of its mass each, turns its sole by
-one or two degrees a step where the leg takes a sixth of what friction holds, and by seven once it has stepped down.
+A leg thrown forward pushes the robot back about the vertical through the standing sole; friction has to hold that.
+Unitree's G1, whose legs are a fifth of its mass each, turns its sole by one or two degrees a step where the leg takes a
+sixth of friction, and by seven once it has stepped down.
 """
 
 from __future__ import annotations
@@ -30,9 +30,8 @@ _PEAK = 10.0 / math.sqrt(3.0)
 
 
 def swinging_mass(robot: Robot, legs: LegModel) -> float:
-    """Mass in kg that goes as far forward as the foot: each part of a leg by how far below the hip it is.
-
-    Takes `robot` and `legs`; returns the mass.
+    """Returns the mass in kg of `legs` of a `robot` that goes forward as the foot: each part by how far below the hip
+    it is.
     """
     model, data = legs.model, stood(robot, legs.model)
     hip = int(model.joint(robot.legs["left"].joints[0]).bodyid[0])
@@ -43,9 +42,9 @@ def swinging_mass(robot: Robot, legs: LegModel) -> float:
 
 
 def least_single_support(robot: Robot, legs: LegModel, body: BodyScale, step: float) -> float:
-    """The least t_ss in s at which friction holds the standing sole with plenty to spare.
+    """The least t_ss in s, in hundredths, at which friction holds the standing sole with plenty to spare.
 
-    Returns the time, in hundredths of a second.
+    Returns it from:
 
     Args:
         robot: The robot, with its stance and layouts.

@@ -26,12 +26,9 @@ _LOGS = ("distributed", "distributed.client", "tornado", "tornado.application", 
 
 
 class ClusterWorkers:
-    """The workers of a Dask scheduler.
+    """The workers of a Dask scheduler at an `address` such as tcp://host:8786 or tls://host:8786.
 
     Dask restarts the run of a dead worker on another one, as often as its setting `allowed-failures` allows.
-
-    Args:
-        address: Address of the scheduler, as tcp://host:8786 or tls://host:8786.
 
     Raises:
         DependencyError: If Dask's `distributed` is not installed.
@@ -103,7 +100,7 @@ class ClusterWorkers:
             self._client.close(timeout=_ANSWER)
 
     def _outcome(self, future: Any) -> list[tuple[Task, Row]]:
-        """Row of a task that ended, if it gave one."""
+        """Row of a task that ended, or None."""
         task = self._tasks[future]
         try:
             row: Row = future.result(timeout=_ANSWER)

@@ -1,4 +1,4 @@
-"""The figures of a sweep, each drawn from the rows of its table alone."""
+"""The figures of a sweep, drawn from its table alone."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, An
         rows: The rows.
 
     Returns:
-        Figures by name: "limit" of a limit search; of others "completed", "map" over the first two numeric settings,
-        and "distributions" over the grid's points; those with something to draw.
+        Figures by name: "limit" of a limit search; else "completed", "map" over the first two numeric settings, and
+        "distributions" over the grid's points.
     """
     scene = plan.checked.scene
     if isinstance(plan, LimitSearch):
@@ -51,8 +51,7 @@ def figures_of(plan: Plan, found: Mapping[str, Any], rows: Rows) -> dict[str, An
 
 
 def bars_of(points: Sequence[Mapping[str, Any]], scene: str) -> Any:
-    """Returns a figure of completed runs at all `points` of `run_sweep`'s result with Wilson's 95 % intervals, titled
-    `scene`."""
+    """Returns a figure of completed runs at all `points` of a sweep with Wilson's 95 % intervals, titled `scene`."""
     figure, axis = new_figure(min(max(5.0, 1.2 + 1.05 * len(points)), _WIDEST), 4.0)
     names = ["\n".join(f"{k}={v}" for k, v in p["settings"].items()) or scene for p in points]
     shares = np.array([100.0 * p["completed"] / p["runs"] if p["runs"] else 0.0 for p in points])
@@ -72,7 +71,7 @@ def bars_of(points: Sequence[Mapping[str, Any]], scene: str) -> Any:
 
 
 def _limits(plan: LimitSearch, limits: Sequence[Mapping[str, Any]], rows: Rows) -> Any:
-    """Outcomes along the setting, the curve that they make likely, and the limit's interval; a row a grid point."""
+    """Outcomes along the setting, the likely curve, and the limit's interval; a row a grid point."""
     figure, axes = new_figure(7.0, 0.8 + 2.9 * len(limits), len(limits), squeeze=False)
     for axis, point, found in zip(axes[:, 0], plan.sweep.points(), limits, strict=True):
         keys = [key for key in plan.tried(point, rows) if not rows[key]["error"]]
@@ -101,7 +100,7 @@ def _limits(plan: LimitSearch, limits: Sequence[Mapping[str, Any]], rows: Rows) 
 
 
 def _groups(axis: Any, values: Any, completed: Any) -> None:
-    """Share and Wilson interval of runs that are neighbours along a setting, as many in each group."""
+    """Share and Wilson interval of equal groups of runs along a setting."""
     order = np.argsort(values, kind="stable")
     for group in np.array_split(order, min(_GROUPS, max(1, len(order) // 5))):
         if len(group):
@@ -112,7 +111,7 @@ def _groups(axis: Any, values: Any, completed: Any) -> None:
 
 
 def _numbers(texts: Sequence[str]) -> list[float] | None:
-    """Numbers of a setting's values, without a unit; None where one is not a number."""
+    """Numbers of a setting's values, without a unit, or None."""
     try:
         return [float(text.split()[0]) for text in texts]
     except (ValueError, IndexError):
@@ -120,7 +119,7 @@ def _numbers(texts: Sequence[str]) -> list[float] | None:
 
 
 def _map(plan: Plan, rows: Rows) -> Any:
-    """Completed runs over the first two settings that take numbers, with Wilson's intervals in words."""
+    """Completed runs over the first two numeric settings, with Wilson's intervals in words."""
     axes = plan.checked.axes
     columns = [(name, _numbers([key[0][i] for key in rows])) for i, name in enumerate(axes)]
     numeric = [(name, np.array(found)) for name, found in columns if found and len(set(found)) > 1]
@@ -163,7 +162,7 @@ def _cells(values: Any) -> tuple[Any, list[str]]:
 
 
 def _distributions(points: Sequence[Mapping[str, Any]], rows: Rows, scene: str) -> Any:
-    """Every run's figures at each grid point, completed or not, with their median."""
+    """Every run's figures at each grid point with their median."""
     if 1.05 * len(points) >= _WIDEST or not rows:
         return None
     columns = [name for name in _SHOWN if any(row.get(name) for row in rows.values())]

@@ -1,4 +1,4 @@
-"""Values of a setting as texts: split from a list, and written in one form, so that 1.0 and 1 are the same value."""
+"""Values of a setting as texts: split from a list, and in one canonical form (1.0 is 1)."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ def split_values(text: str) -> list[str]:
 
 
 def is_word(key: str) -> bool:
-    """Whether a setting takes its text unchanged: a name or a path, never a number."""
+    """Whether a setting takes its text unchanged: a name or a path."""
     return key in ("robot", "machine", "kind", "terrain.kind")
 
 
 def canonical(text: str, *, word: bool = False) -> str:
-    """Returns the one text for all TOML values or bare words `text` with the same meaning; of a `word` (`is_word`) only
-    quotes are removed.
+    """Returns the one text for all TOML values or bare words `text` with the same meaning; a `word` only loses its
+    quotes.
 
     Raises:
         InputError: If the text begins like a TOML value and is none, or is not printable.
@@ -79,7 +79,7 @@ def canonical(text: str, *, word: bool = False) -> str:
 
 
 def _parsed(text: str) -> Any:
-    """What a text means in TOML, or None for a bare word."""
+    """A text's TOML value, or None for a bare word."""
     try:
         return parse_toml(f"v = {text}")["v"]
     except ValueError:

@@ -1,4 +1,4 @@
-"""What the rows of a sweep depend on besides its settings: file contents, and versions."""
+"""File contents and versions that the rows of a sweep depend on."""
 
 from __future__ import annotations
 
@@ -24,11 +24,8 @@ _FOLDERS = re.compile(rb"""\b(?:meshdir|texturedir|assetdir)\s*=\s*["']([^"']+)[
 
 
 def inputs_of(scene: str, robot: str) -> dict[str, str]:
-    """Versions of the libraries that decide a motion, and SHA-256 of all files that a run of a `scene` with a `robot`
-    reads.
-
-    Returns them by their names in messages; files are the scene's, the robot's, its layouts, its model and what that
-    names.
+    """Returns versions of the deciding libraries, and SHA-256 of all files that a `scene` with a `robot` reads, by
+    name.
 
     Raises:
         SceneError: If the scene is unknown.
@@ -47,7 +44,7 @@ def inputs_of(scene: str, robot: str) -> dict[str, str]:
 
 
 def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
-    """Returns in words how inputs differ from `before` to `now`; empty for no change.
+    """Returns in words how inputs differ from `before` to `now`, or an empty text.
 
     Example:
         >>> changes({"plantar": "1.0", "layout a": "9f"}, {"plantar": "1.1", "layout a": "e0"})
@@ -76,7 +73,6 @@ def _digest(path: Path, error: type[PlantarError]) -> str:
 
 
 def _files_of(robot: str) -> Iterator[tuple[str, Path]]:
-    """The robot's files by their names in messages."""
     loaded = load_robot(robot)
     yield f"robot file {loaded.path.name}", loaded.path
     layout = read_toml(loaded.path, RobotError, str(loaded.path))["shoe"]["layout"]
@@ -88,7 +84,6 @@ def _files_of(robot: str) -> Iterator[tuple[str, Path]]:
 
 
 def _files_of_machine(machine: str) -> Iterator[tuple[str, Path]]:
-    """The machine's files by their names in messages."""
     from plantar.sim.companion.machine import load_machine  # MuJoCo, which a walk's sweep does not need here
 
     loaded = load_machine(machine)
@@ -103,7 +98,7 @@ def _files_of_model(model: Path) -> Iterator[tuple[str, Path]]:
 
 
 def _named_by(model: Path) -> dict[str, Path]:
-    """Files that an MJCF or URDF names, and what these name: meshes, height fields, textures and parts."""
+    """Files that an MJCF or URDF names, and what these name."""
     found: dict[str, Path] = {}
     folders = [model.parent]
     waiting = [model]

@@ -1,10 +1,9 @@
 """Where the outcome of runs changes along a setting, and how well their outcomes show it.
 
-The share of completed runs is a logistic curve of the setting, between a lapse and one less the lapse: some runs fail
-or succeed for other reasons. The limit is where half of the runs are completed. Limit, width and lapse have a
-probability on a grid, at first flat in the limit, in the logarithm of the width and over three lapses; the limit's
-interval integrates over the others. (Kontsevich and Tyler, Bayesian adaptive estimation of psychometric slope and
-threshold, Vision Research 39, 1999.)
+The share of completed runs is a logistic curve between a lapse and one less the lapse; the limit is at one half. Limit,
+width and lapse have a probability on a grid, at first flat in the limit, in the logarithm of the width and over three
+lapses. (Kontsevich and Tyler, Bayesian adaptive estimation of psychometric slope and threshold, Vision Research 39,
+1999.)
 """
 
 from __future__ import annotations
@@ -35,8 +34,8 @@ class LimitCurve:
     Attributes:
         rising: Whether more runs are completed at larger values.
         limits: Possible limits (n,) in the unit of the setting, ascending.
-        probability: Probability (n,) of each; their sum is 1.
-        widths: Possible widths (k,) of the curve in that unit.
+        probability: Probability (n,) of each.
+        widths: Possible widths (k,) in that unit.
         joint: Probability (k, n, lapses) of width, limit and lapse together.
 
     Example:
@@ -58,13 +57,12 @@ class LimitCurve:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The values between which the limit is with a probability of 95 %, for a number of runs that was chosen
-        before."""
+        """The 95 % interval of the limit, for a number of runs that was chosen before."""
         return self.quantile(0.025), self.quantile(0.975)
 
     @property
     def interval_of_search(self) -> tuple[float, float]:
-        """The same in 95 of 100 searches that ended because this interval was narrow enough, by a probability of 98 %.
+        """The 95 % interval of a search that ended because it was narrow enough: a probability of 98 %.
 
         Such a search ends early where chance makes the curve look too steep: `interval` holds the limit in only 90 of
         100 (`tests/sim/sweep/test_limit_search.py` counts).
@@ -82,16 +80,15 @@ class LimitCurve:
         return float(self.probability[(low <= self.limits) & (self.limits <= high)].sum())
 
     def share(self, value: float) -> float:
-        """Expected share of runs that are completed at a value, 0 to 1."""
+        """Expected share, 0 to 1, of completed runs at a value."""
         rising = float((self.joint * _shares(value, self.limits, self.widths)).sum())
         return rising if self.rising else 1.0 - rising
 
     def agreement(self, values: Sequence[float], completed: Sequence[bool]) -> float:
-        """Probability, 0 to 1, that runs of this very curve are as far from it as these: tiny where no curve explains
-        them.
+        """Probability, 0 to 1, that runs of this curve are as far from it as these: tiny where no curve explains them.
 
-        So it is where the seed chooses what the limit depends on. Pearson's chi square of groups of ten runs or more by
-        `values`, with whether each was `completed`; returns 1 below 40 runs, too few.
+        Returns Pearson's chi square of groups of ten runs or more by `values`, with whether each was `completed`; 1
+        below 40 runs.
         """
         if len(values) < 4 * _GROUP:
             return 1.0
@@ -105,8 +102,9 @@ class LimitCurve:
         return float(chdtrc(len(groups) - 3, square))  # limit, width and lapse were chosen by the runs
 
     def turned(self, part: float, low: float, high: float) -> float:
-        """Returns the value between `low` and `high` at which a `part` (0 to 1, one half at the limit) of the change
-        from all to none, or none to all, is expected; to a thousandth of the range."""
+        """Returns the value between `low` and `high` at which a `part` (0 to 1, one half at the limit) of the change is
+        expected, to a thousandth of the range.
+        """
         weights = self.joint.sum(2)
         step = high - low
         for _ in range(10):
@@ -118,8 +116,9 @@ class LimitCurve:
 
 
 def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, high: float) -> LimitCurve:
-    """Returns what `values` and whether each run was `completed` show of a limit, tried from `low` to `high`; a
-    ValueError where `low` is not below `high`. Where the direction is unclear, the likelier one."""
+    """Returns what `values` and whether each was `completed` show of a limit between `low` and `high`, in the likelier
+    direction; a ValueError where `low` is not below `high`.
+    """
     if not low < high:
         raise ValueError(f"range {low} to {high} is empty")
     span = high - low

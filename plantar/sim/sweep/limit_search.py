@@ -1,4 +1,4 @@
-"""Search the limit of one setting with the runs that show most of it, until it is known well enough."""
+"""Search the limit of one setting with the most informative runs, until it is known well enough."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class LimitSearch:
     Attributes:
         sweep: Scene, grid and, as "seeds", the most runs at each point; every run has its own seed.
         limit: The setting and its range.
-        within: Width of the limit's 95 % interval, as a share of the limit, at which the search ends.
+        within: Width of the limit's 95 % interval, as a share of the limit, that ends the search.
 
     Raises:
         InputError: If the share is not above 0 and below 1, or the setting is given twice.
@@ -54,7 +54,7 @@ class LimitSearch:
 
     @cached_property
     def checked(self) -> Sweep:
-        """The sweep of both ends of the range, which checks them."""
+        """The checked sweep of both ends of the range."""
         ends = (self.limit.text(self.limit.low), self.limit.text(self.limit.high))
         return self.sweep.with_axes([(self.limit.name, ends)])
 
@@ -64,8 +64,7 @@ class LimitSearch:
         return self.checked.identity() | {"limit": ends, "first_seed": self.sweep.first_seed}
 
     def runs(self, rows: Rows) -> Iterator[Run | None]:
-        """The runs, in an order that depends on outcomes alone; None while outcomes of the growing `rows` are
-        needed."""
+        """The runs, in an order that depends on outcomes alone; None while more `rows` are needed."""
         chains = [self._chain(point, rows) for point in self.sweep.points()]
         while chains:
             waiting = True
@@ -81,18 +80,18 @@ class LimitSearch:
                 yield None
 
     def found(self, rows: Rows) -> dict[str, Any]:
-        """The result of the rows of the runs that ended.
+        """The result of the rows.
 
         Returns:
             "limits": for each grid point its settings, the searched setting ("setting", "unit", "range"), its "limit",
-            the 95 % "interval" of that and its "width" as a share of the limit (None where the limit is not in the
-            range), whether it is known well enough ("reached"), whether larger values hold ("rising"), how well one
-            curve explains the runs ("agreement"), runs, completed, and the errors of impossible runs.
+            the 95 % "interval" and its "width" as a share of the limit (None outside of the range), whether it is known
+            well enough ("reached"), whether larger values hold ("rising"), how well one curve explains the runs
+            ("agreement"), runs, completed, and the errors of impossible runs.
         """
         return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """How far the search is, 0 to 1, and in words: the runs that are needed go with the square of 1 / width."""
+        """Progress, 0 to 1, and in words: the needed runs go with the square of 1 / width."""
         widths = [_width(self.curve(self.tried(point, rows), rows)) for point in self.sweep.points()]
         widest = max(widths)
         words = f"{100.0 * widest:.0f} %" if widest < 10.0 else "its range"
@@ -104,16 +103,16 @@ class LimitSearch:
         return sorted((key for key in rows if key[0][:-1] == values), key=lambda key: key[1])
 
     def curve(self, keys: Sequence[Key], rows: Rows) -> LimitCurve:
-        """Returns what the outcomes of the runs `keys` in `rows` show; impossible runs are left out."""
+        """Returns the curve of the outcomes of the runs `keys` in `rows`, without impossible runs."""
         return limit_curve(*self._outcomes(keys, rows), self.limit.low, self.limit.high)
 
     def _outcomes(self, keys: Sequence[Key], rows: Rows) -> tuple[list[float], list[bool]]:
-        """The setting's value and whether it was completed, of each run that was possible."""
+        """The setting's value and whether it was completed, of each possible run."""
         ran = [key for key in keys if not rows[key]["error"]]
         return [self.limit.value(key[0][-1]) for key in ran], [rows[key]["completed"] == "True" for key in ran]
 
     def _chain(self, point: Sequence[str], rows: Rows) -> Iterator[Run | None]:
-        """The runs of a grid point; None while outcomes have to be waited for."""
+        """The runs of a grid point; None while outcomes are awaited."""
         keys: list[Key] = []
         for number, seed in enumerate(self.sweep.seed_range):
             if number < 2 * _ENDS:

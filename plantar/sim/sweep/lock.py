@@ -1,4 +1,4 @@
-"""One process at a time in a folder: a lock that the system releases however its owner ends."""
+"""One process at a time in a folder."""
 
 from __future__ import annotations
 
@@ -19,12 +19,7 @@ _PLACE = 1 << 20  # where Windows locks a byte: behind the owner's name, which s
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold a folder's lock.
-
-    The open file is locked: a file that a killed process left behind locks none out.
-
-    Args:
-        folder: An existing folder.
+    """Hold the lock of an existing folder; the system releases it however its owner ends.
 
     Raises:
         InputError: If another process holds it (the message names it), or the file system has no locks.

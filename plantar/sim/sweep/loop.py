@@ -1,6 +1,6 @@
-"""Many runs: a scene over a grid of settings and seeds, on this machine's cores or on a Dask cluster.
+"""Many runs of a scene, on this machine's cores or on a Dask cluster.
 
-Every finished run is a row that is appended to results.csv at once, so a sweep that was stopped goes on where it was.
+Every finished run is appended to results.csv at once, so that a stopped sweep continues.
 """
 
 from __future__ import annotations
@@ -94,11 +94,11 @@ def run_sweep(
 
 
 class _Tasks:
-    """The runs of a plan that have no row yet, as tasks; None while the next one depends on rows to come.
+    """The runs of a plan without a row, as tasks; None while the next one depends on rows to come.
 
     Attributes:
         keys: Key of each task's row.
-        count: Number of runs of the plan so far, those with a row too.
+        count: Number of runs of the plan so far.
     """
 
     def __init__(self, plan: Plan, inputs: Mapping[str, Mapping[str, str]], rows: Rows) -> None:
@@ -133,10 +133,7 @@ def _workers(count: int, scheduler: str | None) -> Iterator[Workers]:
 
 
 def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Iterator[tuple[Task, Row]]:
-    """Run tasks, as many at a time as there is room for, until all have given their rows or a signal comes.
-
-    A task is None while the next one depends on rows to come.
-    """
+    """Run tasks in the available room until all have given their rows or a signal comes."""
     running, more = 0, True
     while not note.number:
         while more and pool.room > 0:
@@ -155,5 +152,5 @@ def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Ite
 
 
 def _anywhere(name: str) -> str:
-    """A scene's or robot's name or file as a worker in another folder finds it."""
+    """A scene's or robot's name or file, valid in another folder."""
     return str(Path(name).absolute()) if Path(name).suffix == ".toml" else name

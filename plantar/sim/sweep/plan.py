@@ -30,23 +30,23 @@ _LAST_SEED = 2**62
 
 
 class Plan(Protocol):
-    """Which runs a table has: all points of a grid, random points, or points that follow from outcomes."""
+    """Which runs a table has."""
 
     @property
     def checked(self) -> Sweep:
-        """A sweep with the same axes, whose points were checked."""
+        """A sweep with the same axes and checked points."""
 
     def identity(self) -> dict[str, Any]:
-        """What all rows of a table share besides file contents: JSON values by name."""
+        """What all rows share besides file contents: JSON values by name."""
 
     def runs(self, rows: Rows) -> Iterator[Run | None]:
-        """The runs in an order that depends on outcomes alone; None while outcomes of the growing `rows` are needed."""
+        """The runs in an order that depends on outcomes alone; None while more `rows` are needed."""
 
     def found(self, rows: Rows) -> dict[str, Any]:
         """The result of the rows."""
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """How far the runs are, 0 to 1, and in words."""
+        """Progress, 0 to 1, and in words."""
 
 
 @dataclass(frozen=True)
@@ -55,14 +55,14 @@ class Sweep:
 
     Attributes:
         scene: Name or file of the scene.
-        grid: For each setting the values to try, as texts; kept in their canonical form.
+        grid: For each setting the values to try, as canonical texts.
         seeds: Number of seeds.
         robot: Robot to use instead of the scene's, or None.
         settings: "key=value" settings of all runs.
         first_seed: The first of the consecutive seeds.
 
     Raises:
-        InputError: If a key or value comes twice, however it is written, or two points are the same scene.
+        InputError: If a key or value comes twice, or two points are the same scene.
         SceneError: If a setting is unknown or not allowed.
         RobotError: If the robot is unknown or invalid.
     """
@@ -103,14 +103,8 @@ class Sweep:
         settings: Sequence[str] = (),
         first_seed: int = 0,
     ) -> Sweep:
-        """A sweep from the command line's texts.
-
-        Args:
-            scene: As of the class, like `seeds`, `robot`, `settings` and `first_seed`.
-            grid: Texts "key=a,b,c"; values are TOML, bare words texts, as in "size=[1, 2],[3, 4]".
-
-        Returns:
-            The checked sweep; errors as of the class.
+        """Returns a sweep of texts `grid` "key=a,b,c" (TOML values or bare words, as in "size=[1, 2],[3, 4]"); `scene`,
+        `seeds`, `robot`, `settings`, `first_seed` and errors as of the class.
         """
         axes = []
         for text in grid:
@@ -137,11 +131,11 @@ class Sweep:
 
     @property
     def checked(self) -> Sweep:
-        """This sweep itself: all its points were checked when it was made."""
+        """This sweep."""
         return self
 
     def runs(self, rows: Rows) -> Iterator[Run]:
-        """Settings and seed of every run: all points for one seed before the next, so that a part shows the whole."""
+        """Settings and seed of every run: all points for one seed before the next."""
         for seed in self.seed_range:
             for point in self.points():
                 yield point, seed
@@ -155,7 +149,7 @@ class Sweep:
         }
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """How far the runs are, 0 to 1, and in words."""
+        """Progress, 0 to 1, and in words."""
         wanted = [key_of(*run) for run in self.runs(rows)]
         done = sum(key in rows for key in wanted)
         return done / len(wanted), f"{done} of {len(wanted)} rows"
@@ -191,7 +185,7 @@ class Sweep:
         return self.opened(point).robot
 
     def identity(self) -> dict[str, Any]:
-        """What all rows of a table share besides file contents. Points and seeds may be added, other changes not."""
+        """What all rows share besides file contents. Points and seeds may be added, other changes not."""
         scene = self.opened(self.points()[0])
         settings = {}
         for key, _, value in (s.partition("=") for s in self.settings):
@@ -205,7 +199,7 @@ class Sweep:
         }
 
     def _check_points(self) -> None:
-        """Load every point's scene and robot, and refuse what is given twice under two names."""
+        """Load every point's scene and robot, and refuse two names for one point."""
         files: dict[str, str] = {}
         given = [s.partition("=")[0] for s in self.settings]
         seen: dict[str, str] = {}
@@ -229,8 +223,9 @@ class Sweep:
 
 
 def point_result(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:
-    """Returns the result of a `point` over its rows `ran`: settings, runs, completed, the 95 % Wilson interval of their
-    share, how many failed each criterion ("reasons"), and the errors of impossible runs."""
+    """Returns the result of a `point` over its rows `ran`: settings, runs, completed, 95 % Wilson interval of their
+    share, failures by criterion ("reasons"), and the errors of impossible runs.
+    """
     completed = sum(row["completed"] == "True" for row in ran)
     return {
         "settings": settings_of(point),

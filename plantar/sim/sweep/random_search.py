@@ -19,13 +19,11 @@ __all__ = ["RandomSearch"]
 
 @dataclass(frozen=True)
 class RandomSearch:
-    """Runs at random points, the same ones at every point of a grid.
-
-    The point of a seed depends on the seed and the ranges alone: more seeds add points.
+    """Runs at random points, the same ones at every point of a grid; more seeds add points.
 
     Attributes:
         sweep: Scene, grid, and seeds: one point a seed.
-        ranges: The settings that are drawn, each uniformly from its range.
+        ranges: The settings that are drawn uniformly from their ranges.
 
     Raises:
         InputError: If no setting is drawn, or one is given twice.
@@ -43,7 +41,7 @@ class RandomSearch:
 
     @cached_property
     def checked(self) -> Sweep:
-        """The sweep of the ends of all ranges, which checks them."""
+        """The checked sweep of the ends of all ranges."""
         return self.sweep.with_axes([(r.name, (r.text(r.low), r.text(r.high))) for r in self.ranges])
 
     def identity(self) -> dict[str, Any]:
@@ -69,7 +67,7 @@ class RandomSearch:
         return {"points": [point_result(point, ran) for point, ran in ran_at.items()]}
 
     def progress(self, rows: Rows) -> tuple[float, str]:
-        """How far the runs are, 0 to 1, and in words."""
+        """Progress, 0 to 1, and in words."""
         wanted = [key_of(*run) for run in self.runs(rows)]
         done = sum(key in rows for key in wanted)
         return done / len(wanted), f"{done} of {len(wanted)} rows"

@@ -29,7 +29,6 @@ class Results:
     """Rows of results.csv, open to append to, made by `open_results`.
 
     Attributes:
-        path: The file.
         rows: Its rows by the values of their axes and their seed.
     """
 
@@ -49,8 +48,7 @@ class Results:
         self._size = whole
 
     def append(self, row: Mapping[str, Any]) -> None:
-        """Add a row, a value for every column, to file and table; line breaks become spaces. It is then on disk, or not
-        at all.
+        """Add a row, a value for every column, to file and table, on disk or not at all; line breaks become spaces.
 
         Raises:
             InputError: If the file cannot be written; the rows before stay.
@@ -111,7 +109,7 @@ def open_results(
     Args:
         folder: Folder of results.csv and sweep.json; made if needed.
         identity: What all rows share (`Sweep.identity`).
-        inputs: For each robot what its rows depend on besides (`inputs_of`).
+        inputs: Per robot what its rows depend on (`inputs_of`).
         axes: Settings of the grid, the table's first columns.
         columns: Columns after those and the seed.
 

@@ -1,4 +1,4 @@
-"""The address of a Dask scheduler: which are allowed, and what makes one trustworthy."""
+"""The address of a Dask scheduler: form and trust."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _VARIABLE = "DASK_DISTRIBUTED__COMM__TLS__"
 
 
 def check_address(address: str) -> str:
-    """The address of a scheduler with its scheme, as Dask takes it; an InputError for other addresses.
+    """The address with its scheme; an InputError for other addresses.
 
     Example:
         >>> check_address("192.0.2.1:8786")
@@ -53,7 +53,7 @@ def tls_files(environment: Mapping[str, str] = os.environ) -> dict[str, str]:
 
 
 def network_note(address: str) -> str:
-    """A warning about a scheduler that is reached over a network without authentication; empty for others.
+    """A warning about a scheduler on a network without authentication, or an empty text.
 
     Example:
         >>> network_note("tcp://127.0.0.1:8786")

@@ -22,7 +22,7 @@ class SweepStopped(KeyboardInterrupt):
 
 
 class StopNote:
-    """The first signal that asked for a stop, 0 for none; later ones are ignored."""
+    """The first signal that asked for a stop, or 0."""
 
     def __init__(self) -> None:
         self.number = 0

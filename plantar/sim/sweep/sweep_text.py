@@ -12,9 +12,10 @@ _ODD = 1e-3
 
 
 def sweep_text(result: Mapping[str, Any], scene: str) -> str:
-    """Completed runs of each grid point and why others failed, or its limit, and the files.
+    """Returns lines of `run_sweep`'s `result`: completed runs of each grid point and failures, or its limit, and the
+    files.
 
-    Returns lines of `run_sweep`'s `result`; `scene` names a sweep without a grid.
+    `scene` names a sweep without a grid.
     """
     lines = [_limit_text(found, scene) for found in result.get("limits", ())]
     for point in result.get("points", ()):

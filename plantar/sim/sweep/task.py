@@ -53,8 +53,9 @@ _COMPANION = ("completed", "fell", "sim_time_s", "real_time_factor", "control_p9
 
 @dataclass(frozen=True)
 class Task:
-    """A worker's task: a `scene`, the `robot` to use instead of its own, "key=value" `settings`, a `seed`, and the
-    `inputs` (`inputs_of`) when the sweep began; empty to skip that check."""
+    """A worker's task: a `scene`, another `robot`, "key=value" `settings`, a `seed`, and the first `inputs`
+    (`inputs_of`), empty to skip that check.
+    """
 
     scene: str
     robot: str | None
@@ -71,16 +72,9 @@ def columns_of(scene: Scene | CompanionScene) -> tuple[str, ...]:
 
 
 def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -> Row:
-    """One run as a flat row; an error of the scenario becomes a row too, a missing library a DependencyError.
+    """Returns one run as a flat row: a `scene`, another `robot` or None, "key=value" `settings` and a `seed`.
 
-    Args:
-        scene: Name or file of the scene.
-        robot: Robot to use instead of the scene's, or None.
-        settings: "key=value" settings.
-        seed: Seed.
-
-    Returns:
-        Values of the result columns.
+    An error of the scenario becomes a row too, a missing library a DependencyError.
     """
     try:
         loaded = open_scene(scene, settings, robot)
@@ -100,7 +94,7 @@ def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -
 
 
 def _of_walk(summary: Mapping[str, Any]) -> Row:
-    """The columns that a walk's row takes from tables of its summary."""
+    """Columns from tables of a walk's summary."""
     impacts = sorted(summary["impacts_N"])
     return {
         "impact_median_N": impacts[len(impacts) // 2] if impacts else "",
@@ -126,7 +120,7 @@ def criteria_of(row: Mapping[str, str]) -> list[str]:
 
 
 def run_task(task: Task) -> Row:
-    """Run a task on a worker; a defect in one run becomes its row, so that the others go on.
+    """Run a task on a worker; a defect in one run becomes its row.
 
     Raises:
         ImportError: If no run is possible here.
@@ -144,7 +138,7 @@ def run_task(task: Task) -> Row:
 
 
 def _check_inputs(task: Task) -> None:
-    """Refuse to run on other files or versions: rows of one table would not belong together."""
+    """Refuse to run on other files or versions."""
     if task.inputs and task.robot is not None:
         try:
             what = changes(dict(task.inputs), inputs_of(task.scene, task.robot))

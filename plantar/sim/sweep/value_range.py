@@ -1,4 +1,4 @@
-"""The range of a searched setting, and which of its values are tried."""
+"""The range of a searched setting."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class ValueRange:
         name: The setting.
         low: Smallest value.
         high: Largest value.
-        unit: Share of a body in which both are given, such as "sole"; empty for the setting's own unit.
+        unit: Share of a body in which both are given, such as "sole", or empty.
         whole: Whether only whole numbers are tried.
 
     Raises:
@@ -46,8 +46,7 @@ class ValueRange:
 
     @classmethod
     def from_text(cls, text: str, option: str) -> ValueRange:
-        """Returns the range of `text` "key=from:to" of a command's `option`; both ends may be body shares of the same
-        unit.
+        """Returns the range of `text` "key=from:to" of a command's `option`; both ends may be shares of the same unit.
 
         Raises:
             InputError: If the text is malformed, or the range empty.

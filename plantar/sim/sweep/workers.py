@@ -72,7 +72,7 @@ class LocalWorkers:
         worker.begin(task)
 
     def finished(self, timeout: float) -> Sequence[tuple[Task, Row]]:
-        """Wait until a task ends, or for a time in s; the task of a dead worker starts again on a new one."""
+        """As of `Workers`; the task of a dead worker starts again on a new one."""
         if self._error is not None:
             raise self._error
         rows: list[tuple[Task, Row]] = []
@@ -107,7 +107,6 @@ class LocalWorkers:
         self._workers = []
 
     def _replace(self, worker: _Worker, task: Task) -> list[tuple[Task, Row]]:
-        """Replace a dead worker, or give up its task."""
         self._workers.remove(worker)
         how = worker.end()
         if worker.ready:
@@ -127,7 +126,7 @@ class LocalWorkers:
 
 
 class _Worker:
-    """A process and its pipe, with its present `task` or None, and whether it is `ready`: everything loaded."""
+    """A process and its pipe, with its present `task` or None, and whether it is `ready`."""
 
     def __init__(self, run: Callable[[Task], Row]) -> None:
         context = get_context("spawn")
@@ -183,7 +182,7 @@ def _answer(run: Callable[[Task], Row], task: Task) -> tuple[str, Row | PlantarE
 
 
 def _end_with_parent() -> None:
-    """End this worker when the sweep is killed: it would wait for another task for ever."""
+    """End this worker when the sweep is killed, instead of waiting for ever."""
     parent = parent_process()
     if parent is not None:
 
@@ -196,7 +195,7 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def _interrupts_held() -> Iterator[None]:
-    """Start a process with Ctrl-C blocked, which it inherits: it would print a traceback while it loads."""
+    """Start a process with Ctrl-C blocked, so that it prints no traceback while it loads."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

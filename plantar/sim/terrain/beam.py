@@ -17,17 +17,15 @@ _CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
 
 class Beam(Terrain):
-    """A beam between two platforms, along the walk.
+    """A beam between two platforms, along the walk (T 4.4.5.3).
 
     Attributes:
-        width: Width of the beam in m.
+        width: In m.
         length: Distance in m between the platforms.
-        start: Distance in m from the middle of the standing feet to the beam; it begins later where a standing foot
-            would be on it, as of a robot with short steps.
-        offset: Distance in m of the beam's middle line from the soles' centres, across the walk: positive to the left
-            of the walking direction.
+        start: Distance in m from the middle of the standing feet to the beam, longer where a foot would be on it.
+        offset: Of the middle line from the soles' centres in m, positive to the left.
         offset_range: Largest offset in m that the seed adds, either way.
-        yaw: Angle in degrees of the beam to the walk, about its near end.
+        yaw: Angle in degrees to the walk, about the near end.
         depth: Depth of the floor below in m.
     """
 

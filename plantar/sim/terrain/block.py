@@ -1,4 +1,4 @@
-"""An obstacle on level ground where a foot is planned to land: a slab, a wedge, a small block, pebbles."""
+"""An obstacle on level ground where a foot is planned to land."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ __all__ = ["Block"]
 
 
 class Block(Terrain):
-    """An obstacle on level ground under one step.
+    """A slab, wedge, small block or pebbles under one step.
 
     Attributes:
         step: The step (from 0) under which it lies.
         top: Height in m of its upper face's middle.
-        length: Length in m along the foot.
-        width: Width in m across the foot.
+        length: In m along the foot.
+        width: In m across the foot.
         along: Its middle in m from the sole's centre, forward.
         across: The same, outward.
         pitch: Slope in degrees along the foot; positive falls to the front.
         roll: Slope in degrees across the foot; positive rises to the left.
-        shape: "box", or "spheres": three spheres in a triangle of that length and width.
+        shape: "box", or "spheres": three in a triangle of that length and width.
         at: Origin of `along` and `across`: the sole's "center" or the "ankle".
-        clear: Distance in m along the foot that a box keeps from the same foot's previous and next footholds, by being
-            shorter (for soles that are long for their steps); 0 does not shorten it.
+        clear: Distance in m that a box keeps from the same foot's neighbouring footholds by being shorter; 0: not
+            shortened.
         slide: Distance in m from outside, from which it slides in during the swing; 0 for a fixed one.
         height_range: Largest height in m that the seed adds to `top`, either way.
     """
@@ -63,7 +63,6 @@ class Block(Terrain):
         return place + (foot.ankle - foot.center if self.at == "ankle" else 0.0)
 
     def _room(self, foot: Footprint, feet: PlannedFeet) -> float:
-        """Length in m of a box that keeps clear of the same foot's previous and next footholds."""
         if self.clear == 0.0:
             return self.length
         forward = np.array([math.cos(foot.yaw), math.sin(foot.yaw)])

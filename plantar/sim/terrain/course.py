@@ -20,13 +20,12 @@ _SHAPES = {"box": 3, "sphere": 1, "ellipsoid": 3, "cylinder": 2}
 
 
 class Course(Terrain):
-    """Solids on a floor, as `[[terrain.solid]]` tables give them.
+    """Solids on a floor, listed as `[[terrain.solid]]` tables.
 
     Attributes:
         floor: Height in m of the floor under them.
-        solid: The solids: `shape` (box, sphere, ellipsoid, cylinder), `size` (half sizes in m; a sphere's radius; a
-            cylinder's radius and half height), `position` of the centre in m, and `angles` (roll, pitch, yaw) in
-            degrees.
+        solid: Tables of `shape` (box, sphere, ellipsoid, cylinder), `size` (half sizes in m; radius; radius and half
+            height), `position` of the centre in m, and `angles` (roll, pitch, yaw) in degrees.
     """
 
     floor: float = number(0.0, "m", -10, 10)

@@ -1,8 +1,7 @@
-"""Continuous contacts of a box, such as a sole, on marked boxes and cylinders, in MuJoCo.
+"""Continuous contacts of marked boxes and cylinders, such as a sole, in MuJoCo's table of collision functions.
 
 MuJoCo's own contacts of two nearly parallel boxes change with a nanometre of motion: one instead of four for single
-steps. A marked geom uses `FaceContacts` through MuJoCo's public table of collision functions; others keep MuJoCo's.
-Rays, distances and pictures still see boxes and cylinders.
+steps. Rays, distances and pictures still see boxes and cylinders.
 """
 
 from __future__ import annotations
@@ -50,7 +49,7 @@ def install_face_contacts() -> None:
 
 
 class _Addresses:
-    """Offsets in bytes, in MuJoCo's structures, of the addresses of the arrays that contacts are made from."""
+    """Offsets in bytes of the arrays' addresses in MuJoCo's structures."""
 
     def __init__(self) -> None:
         model, data = _spheres()
@@ -61,7 +60,7 @@ class _Addresses:
 
 
 def _offset(structure: Any, array: Any) -> int:
-    """Distance in bytes of an array's address from the head of the structure that holds it."""
+    """Distance in bytes of an array's address from the head of its structure."""
     wanted = array.ctypes.data
     word = ctypes.sizeof(ctypes.c_size_t)
     for offset in range(0, _SEARCHED, word):
@@ -78,7 +77,7 @@ def _stride() -> int:
 
 
 def _spheres() -> tuple[Any, Any]:
-    """The smallest model and data of two touching spheres; MuJoCo's empty arrays have the address of the next array."""
+    """Smallest model and data of two touching spheres; MuJoCo's empty arrays have the address of the next array."""
     sphere = "<geom size='1'/>"
     model = mujoco.MjModel.from_xml_string(
         f"<mujoco><worldbody>{sphere}<body><freejoint/>{sphere}</body></worldbody></mujoco>"
@@ -89,7 +88,6 @@ def _spheres() -> tuple[Any, Any]:
 
 
 def _library() -> ctypes.CDLL:
-    """MuJoCo's own library, as loaded by its package."""
     for path in Path(mujoco.__file__).parent.glob("*mujoco*"):
         if path.suffix in (".dylib", ".dll") or ".so" in path.suffixes:
             return ctypes.CDLL(str(path))

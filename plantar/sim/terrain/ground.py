@@ -1,7 +1,7 @@
-"""Common to all kinds of ground: solids, their motion, and the planned footprints.
+"""Solids, their motion and the planned footprints: common to all kinds of ground.
 
-A kind of ground is a frozen dataclass of a scene's `[terrain]` table. It turns planned footprints and a random
-generator into a `Ground`, which is plain geometry; only `Ground.add_to` knows the simulator.
+A kind is a frozen dataclass of a scene's `[terrain]` table that turns footprints and a random generator into a
+`Ground`; only `Ground.add_to` knows the simulator.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ class Footprint:
         side: Which foot.
         center: Centre (2,) of the sole's rectangle in the world in m.
         yaw: Heading in rad.
-        half: Half length and half width of the sole in m.
-        ankle: The sole frame's origin (2,) in the world in m, below the ankle.
-        lift_off: Time in s at which the swing to this place begins; -inf for a foot that stands at the start.
-        touchdown: Time in s at which the swing is planned to end.
+        half: Half length and half width in m.
+        ankle: The sole frame's origin (2,) in the world in m.
+        lift_off: Planned start of the swing in s; -inf for a foot that stands at the start.
+        touchdown: Planned end of the swing in s.
     """
 
     side: Side
@@ -47,40 +47,20 @@ class Footprint:
     touchdown: float = -math.inf
 
     def place(self, along: float, across: float) -> NDArray[np.float64]:
-        """A place of the footprint in the world.
-
-        Args:
-            along: Distance in m from its centre, forward.
-            across: Distance in m from its centre, to the left.
-
-        Returns:
-            Point (2,) in the world in m.
-        """
+        """Returns the point (2,) in the world, `along` in m forward and `across` in m left of the centre."""
         c, s = math.cos(self.yaw), math.sin(self.yaw)
         return np.asarray(self.center + np.array([c * along - s * across, s * along + c * across]))
 
 
 @dataclass(frozen=True)
 class PlannedFeet:
-    """The planned footprints.
-
-    Attributes:
-        standing: Footprint of each foot at the start.
-        steps: Footprints of the steps in order.
-    """
+    """The planned footprints: of each foot `standing` at the start, and of the `steps` in order."""
 
     standing: Mapping[Side, Footprint]
     steps: tuple[Footprint, ...]
 
     def middle(self, last: bool = False) -> NDArray[np.float64]:
-        """Middle between the soles' centres.
-
-        Args:
-            last: At the end of the walk instead of its start.
-
-        Returns:
-            Point (2,) in the world in m.
-        """
+        """Middle (2,) in m between the soles' centres at the start, or with `last` at the end of the walk."""
         feet = dict(self.standing)
         if last:
             for step in self.steps:
@@ -93,9 +73,9 @@ class Motion:
     """A move of a solid to another place, at constant speed.
 
     Attributes:
-        start: Time in s at which it begins.
-        duration: Its duration in s; 0 jumps.
-        position: The solid's centre at the end (3,) in m.
+        start: Time in s.
+        duration: In s; 0 jumps.
+        position: The solid's centre (3,) in m at the end.
     """
 
     start: float
@@ -108,11 +88,11 @@ class Solid:
     """A piece of ground.
 
     Attributes:
-        shape: "box", "sphere", "ellipsoid" or "cylinder" (its axis is z).
-        size: Half sizes (3,) in m; a sphere's radius; a cylinder's radius and half height first.
+        shape: "box", "sphere", "ellipsoid" or "cylinder" (along z).
+        size: Half sizes (3,) in m; a sphere's radius; a cylinder's radius and half height.
         position: Centre (3,) in the world in m.
         rotation: Rotation (3, 3) to the world.
-        motions: Its motions in order of time.
+        motions: In order of time.
     """
 
     shape: str
@@ -122,7 +102,7 @@ class Solid:
     motions: tuple[Motion, ...] = ()
 
     def at(self, time: float) -> NDArray[np.float64]:
-        """Its centre (3,) in the world in m at a time in s."""
+        """Centre (3,) in the world in m at a time in s."""
         position = self.position
         for motion in self.motions:
             if time < motion.start:
@@ -164,11 +144,7 @@ class Ground:
     facts: Mapping[str, float] = field(default_factory=dict)
 
     def seen_from_above(self) -> list[list[list[float]]]:
-        """Outlines of the solids' upper faces, for figures.
-
-        Returns:
-            For each solid its corners [[x, y], ...] in the world in m; a round one as a 16-gon.
-        """
+        """Corners [[x, y], ...] in the world in m of each solid's upper face; a round one is a 16-gon."""
         rings = []
         turns = np.linspace(0.0, 2.0 * math.pi, 17)[:-1]
         for solid in self.solids:
@@ -192,11 +168,7 @@ class Ground:
         return max([self.floor, *(solid.top for solid in self.solids)])
 
     def add_to(self, spec: Any) -> None:
-        """Add the floor as geom "ground" and the solids as "ground_0", "ground_1"... to a model.
-
-        Args:
-            spec: The `mujoco.MjSpec`.
-        """
+        """Add the floor as geom "ground" and the solids as "ground_0", "ground_1"... to a `mujoco.MjSpec`."""
         import mujoco
 
         from plantar.sim.terrain.face_contact import MARK, install_face_contacts
@@ -254,15 +226,7 @@ class Terrain(Settings):
     height: float = number(0.0, "m", -10, 10)
 
     def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Make the ground.
-
-        Args:
-            feet: The planned footprints.
-            rng: Generator of the scene's random choices.
-
-        Returns:
-            The ground.
-        """
+        """Returns the ground for planned `feet`, with the scene's random choices drawn from `rng`."""
         return self._laid_out(feet, rng)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:

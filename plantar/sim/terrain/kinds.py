@@ -15,12 +15,9 @@ __all__ = ["terrain_kinds"]
 
 @cache
 def terrain_kinds() -> dict[str, type[Terrain]]:
-    """Kinds of ground by the name in a scene's `[terrain] kind`: their class's, in lower case.
+    """Kinds of ground by their name in a scene: the class's in lower case; "flat", the default, comes first.
 
-    A new kind is a `Terrain` in a module of its own, here or in another package that names it as an entry point.
-
-    Returns:
-        The classes; "flat" first, the default.
+    A kind is a `Terrain` in a module of this folder or an entry point `plantar.terrain` of another package.
 
     Example:
         >>> list(terrain_kinds())[:3]

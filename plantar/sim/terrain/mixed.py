@@ -1,4 +1,4 @@
-"""A mixed course: under each step a piece of ground whose kind the seed draws."""
+"""A mixed course: the seed draws the kind of ground under each step."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ _PARTS = ("rear", "front", "inner", "outer")
 
 
 class Mixed(Terrain):
-    """Level stones, partial, higher and lower ones, slopes, slabs and pieces of a beam across the walk, as drawn.
+    """Level stones, partial, higher and lower ones, slopes, slabs and pieces of a beam across the walk.
 
-    The standing feet and the last two steps have level stones, and so has a step whose stone would overlap with one of
-    those, or with the last one of the same foot.
+    Level are those under the standing feet, the last two steps, and steps whose stone would overlap with these or the
+    last one of the same foot.
 
     Attributes:
         share_min: Smallest share of the sole's rectangle that a partial stone carries.
-        height_range: Largest difference in m of a stone from the expected ground.
+        height_range: Largest difference in m from the expected ground.
         slope_range: Largest slope in degrees, in any direction.
-        slab: Height in m of a slab.
-        beam_width: Width in m of a piece of a beam, along the foot.
+        slab: Height in m.
+        beam_width: Width in m along the foot.
         beam_offset: Largest distance in m of its middle from the sole's, either way.
         depth: Depth of the floor below in m.
     """
@@ -72,7 +72,7 @@ class Mixed(Terrain):
         return stone_under(foot, feet, self.height + rise, self.depth + rise)
 
     def _beam(self, stone: Solid, foot: Footprint, rng: np.random.Generator) -> Solid:
-        """The part of a stone that a beam across the foot leaves of it."""
+        """The part of a stone that a beam across the foot leaves."""
         away = float(rng.uniform(-1.0, 1.0)) * self.beam_offset
         forward = rotation_from_angles(foot.yaw)[:, 0]
         middle = np.array([*foot.center, stone.position[2]])

@@ -27,10 +27,10 @@ class Partial(Terrain):
     """Stones of which one carries only a part of the sole.
 
     Attributes:
-        step: The step (from 0) whose foothold is partial.
+        step: The step (from 0) with the partial foothold.
         share: Share of the sole's rectangle that it carries.
         part: Which part of the sole it carries.
-        rise: Height in m of that foothold above the others.
+        rise: Its height in m above the others.
         depth: Depth of the floor below in m.
     """
 
@@ -123,14 +123,13 @@ class Uneven(Terrain):
 
 
 class Pebbles(Terrain):
-    """Sloping stones with bumps; the standing feet, the last two steps, and steps whose stone overlaps with those have
-    level ones.
+    """Sloping stones with bumps; level under the standing feet, the last two steps, and steps that overlap with those.
 
     Attributes:
         bump_min: Smallest height in m of a bump.
         bump_max: Largest height.
         bump_radius: Radius in m of the sphere that a bump is a cap of.
-        bumps: Number of bumps on a stone.
+        bumps: Number on a stone.
         slope_range: Largest slope in degrees, in any direction.
         depth: Depth of the floor below in m.
     """
@@ -164,7 +163,7 @@ class Pebbles(Terrain):
     def _bumps(
         self, stone: Solid, foot: Footprint, places: NDArray[np.float64], heights: NDArray[np.float64]
     ) -> Iterator[Solid]:
-        """Caps of spheres on a stone's upper face, at places (n, 2) in m along and across the foot."""
+        """Caps of spheres at places (n, 2) in m along and across the foot."""
         normal = stone.rotation[:, 2]
         face = stone.position + stone.size[2] * normal
         for (along, across), height in zip(places.tolist(), heights.tolist(), strict=True):
@@ -176,42 +175,18 @@ class Pebbles(Terrain):
 
 
 def drawn_slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
-    """Pitch and roll in rad of a slope of at most `largest` degrees in a random direction.
-
-    Args:
-        rng: The random numbers.
-        largest: Largest slope in degrees.
-
-    Returns:
-        Pitch and roll in rad.
-    """
+    """Returns pitch and roll in rad of a slope of at most `largest` degrees in a random direction of `rng`."""
     size, way = math.radians(largest) * float(rng.uniform()), float(rng.uniform(0.0, 2.0 * math.pi))
     return size * math.cos(way), size * math.sin(way)
 
 
 def same_place(foot: Footprint, other: Footprint) -> bool:
-    """Whether two footprints are of the same foot at the same place, to a millimetre.
-
-    Args:
-        foot: One footprint.
-        other: The other one.
-
-    Returns:
-        True where they are.
-    """
+    """Returns whether `foot` and `other` are footprints of one foot at the same place, to a millimetre."""
     return foot.side == other.side and bool(np.hypot(*(foot.center - other.center)) < 1e-3)
 
 
 def overlapping(foot: Footprint, other: Footprint) -> bool:
-    """Whether the stones of two footprints of the same foot overlap, along the feet.
-
-    Args:
-        foot: One footprint.
-        other: The other one.
-
-    Returns:
-        True where they overlap.
-    """
+    """Returns whether the stones of `foot` and `other`, footprints of one foot, overlap along the feet."""
     dx, dy = (other.center - foot.center).tolist()
     along = math.cos(foot.yaw) * dx + math.sin(foot.yaw) * dy
     return bool(abs(along) < (1.0 + _MARGIN) * (foot.half[0] + other.half[0]))
@@ -227,7 +202,7 @@ def _distinct(feet: PlannedFeet) -> list[Footprint]:
 
 
 def _lane(foot: Footprint, feet: PlannedFeet, gap: float) -> float:
-    """Distance in m from a footprint's centre, inward, to the edge of its lane: half way to the other foot's."""
+    """Distance in m from a footprint's centre, inward, to half way to the other foot's."""
     inward = -1.0 if foot.side == "left" else 1.0
     gaps = []
     others: Sequence[Footprint] = [*feet.standing.values(), *feet.steps]
@@ -260,7 +235,7 @@ def stone_under(
         height: Height of the upper face in m.
         depth: Depth of the box in m.
         share: Share of the footprint that is carried.
-        part: Which part that is: "rear", "front", "inner" or "outer".
+        part: "rear", "front", "inner" or "outer".
         pitch: Slope of the upper face along the foot in rad.
         roll: Slope across it in rad.
         gap: Distance between the boxes of both feet in m.
