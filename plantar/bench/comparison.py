@@ -1,4 +1,4 @@
-"""Comparing routes to one result: time of a call, and error against an independent reference."""
+"""Routes to one result: time of a call, and error against an independent reference."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Route(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """What is right for each case, and what an error is measured by."""
+    """Right results for each case, and the unit of an error."""
 
     values: Sequence[ArrayLike]
     scales: Sequence[float] | None = None
@@ -41,14 +41,14 @@ class Result:
     """Time and error of one route.
 
     Attributes:
-        size: Active taxels, or what else the size is.
+        size: Active taxels, or another size.
         route: Name of the route.
         ours: Whether it is of this package.
         approximate: Whether it approximates by nature.
         median_us: Median time of a call in microseconds.
         spread: Interquartile range of the rounds, as a share of the median.
         ratio: Its time over that of our first route in the same run.
-        error: Largest relative error over the cases; None without a reference.
+        error: Largest relative error over the cases, or None.
     """
 
     kernel: str
@@ -66,7 +66,7 @@ class Result:
         return asdict(self)
 
     def without_error(self) -> Result:
-        """The same without an error, for a route that computes nothing to compare."""
+        """The same without an error."""
         return replace(self, error=None)
 
 
@@ -78,18 +78,18 @@ def compare(
     rounds: int = 9,
     most: float = 0.5,
 ) -> list[Result]:
-    """Time routes interleaved, and compare what they give with the reference.
+    """Time routes interleaved, and compare their results with the reference.
 
     Args:
         kernel: What is computed.
-        size: What size it has.
+        size: Its size.
         routes: The routes, our own first.
-        reference: What is right; None without a reference.
+        reference: Right results, or None.
         rounds: Rounds to take the median over.
         most: Time in s to spend on a route.
 
     Returns:
-        A result a route, in the order of the routes. A route that raises counts as wrong altogether: error 1.
+        A result a route, in order. A route that raises has error 1.
 
     Example:
         >>> routes = [Route("builtin", sum, [[1.0, 2.0]], ours=True), Route("first", min, [[1.0, 2.0]])]
@@ -117,7 +117,7 @@ def compare(
 
 
 def _runs(route: Route) -> bool:
-    """Whether a route takes all its cases: a shield against what it raises costs as much as a fast call."""
+    """Whether a route takes all its cases: catching errors costs as much as a fast call."""
     try:
         for case in route.cases:
             route.call(case)
@@ -127,7 +127,7 @@ def _runs(route: Route) -> bool:
 
 
 def _shielded(call: Callable[[Any], object]) -> Callable[[Any], object]:
-    """A library may raise on a case; it is timed all the same."""
+    """A route that may raise on a case and is timed all the same."""
 
     def run(case: Any) -> object:
         try:

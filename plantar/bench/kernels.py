@@ -31,14 +31,9 @@ RANDOM = (100, 300)
 
 
 def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Compare the kernels of support polygon, outline and shapes for one number of active taxels.
+    """Yields the name of each kernel of support polygon, outline and shapes and its routes' results.
 
-    Args:
-        size: One of `plantar.bench.soles.SIZES`.
-        rounds: Rounds to take the median over.
-
-    Yields:
-        Name of each kernel and the results of its routes.
+    `size` is one of `plantar.bench.soles.SIZES`; `rounds` are those of the median.
     """
     found = contacts(size)
     few = found[:4] if size == "dense" else found[:6]
@@ -64,13 +59,8 @@ def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Resul
 
 
 def compare_random_cells(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Measure the largest rectangle at any angle in outlines of cells at random, and how far off its proven bound is.
-
-    Args:
-        rounds: Rounds to take the median over.
-
-    Yields:
-        Name of the kernel and the results of its routes, for each number of cells.
+    """Yields the name of the kernel of the largest rectangle at any angle, and its routes' results in random outlines
+    of each size.
     """
     name = "rectangle in the outline, any angle, random cells"
     for cells in RANDOM:
@@ -228,7 +218,7 @@ def _outline_any_rectangle(found: Sequence[Contact]) -> Compared:
 
 
 def _best_known(outline: Outline, angle: float) -> float:
-    """Area in m^2 of the best rectangle known at an angle: ours once shapely finds it inside, or the reference's."""
+    """Area in m^2 of the best rectangle known at an angle: ours if shapely finds it inside, or the reference's."""
     ours = _area_inside(outline, inscribed.rectangle_in_outline(outline, angle))
     return ours if angle else max(ours, exact.outline_rectangle_area(outline.rings))
 

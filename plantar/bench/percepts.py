@@ -1,4 +1,4 @@
-"""Run time of what a controller and an analyst ask for: a tick, a whole percept, wrenches and recordings."""
+"""Run time for a controller and an analyst: a tick, a whole percept, wrenches and recordings."""
 
 from __future__ import annotations
 
@@ -40,14 +40,7 @@ _AIM = np.array([0.09, 0.06])
 
 
 def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
-    """Compare a walking tick, whole percepts and wrenches of both feet.
-
-    Args:
-        rounds: Rounds to take the median over.
-
-    Yields:
-        Name of what is measured and the results of its routes.
-    """
+    """Yields the name of a walking tick, whole percepts and wrenches of both feet, and their routes' results."""
     left, right = sole_of(51), sole_of(51, "right")
     pairs = [(a.force, b.force) for a, b in zip(contacts("20", 1), contacts("20", 2), strict=True)]
     feet = (left, right)
@@ -89,7 +82,7 @@ def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
 
 
 def _tick(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
-    """What a tick needs of one foot, from plantar in one call."""
+    """What a tick needs of one foot, in one call."""
     t = walking_tick(layout, force, _AIM, OFFSET)
     return t.active, t.position_cop, t.wrench, t.support_area, t.centroid, abs(polygon.area(t.safe_polygon)), t.clamped
 
@@ -110,7 +103,7 @@ def _tick_of_percept(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
 
 
 class _Assembled:
-    """The same of one foot from shapely and numpy; what does not change is prepared."""
+    """The same of one foot from shapely and numpy, with constants prepared."""
 
     def __init__(self, layout: SoleLayout) -> None:
         self.threshold = layout.force_threshold
@@ -119,7 +112,6 @@ class _Assembled:
         self.corners = Corners(layout)
 
     def tick(self, force: Array) -> tuple[Any, ...]:
-        """What a tick needs."""
         active = force > self.threshold
         kept = np.where(active, force, 0.0)
         points = self.corners.of(active)
@@ -180,7 +172,7 @@ def _ticks_exact(feet: tuple[SoleLayout, ...], pairs: list[tuple[Array, Array]])
 
 
 def _columns(layout: SoleLayout) -> Array:
-    """Wrench (n, 6) of 1 N on each taxel of a layout; returns it."""
+    """Returns the wrench (n, 6) of 1 N on each taxel."""
     normal = layout.rotations[:, :, 2]
     return np.hstack([normal, np.cross(layout.positions, normal)])
 
@@ -214,14 +206,10 @@ def _read_none(feet: tuple[SoleLayout, ...], readings: list[Reading]) -> None:
 
 
 def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
-    """Compare wrenches and support polygons of a whole recording, next to a copy of its memory.
+    """Yields names and routes' results of wrenches and support polygons of a recording of `frames`, next to a copy of
+    its memory.
 
-    Args:
-        frames: Frames of the recording.
-        rounds: Rounds to take the median over.
-
-    Yields:
-        Name of what is measured and the results of its routes.
+    `rounds` are those of the median.
     """
     layout = sole_of(TAXELS)
     rng = np.random.default_rng(4)
@@ -268,14 +256,7 @@ def _area(points: Array) -> float:
 
 
 def compare_forms(rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
-    """Compare the compiled form of the sole's kernel with the interpreted one; nothing where none is compiled.
-
-    Args:
-        rounds: Rounds to take the median over.
-
-    Yields:
-        Name of what is measured and the results of the two forms.
-    """
+    """Yields the compiled form of the sole's kernel next to the interpreted one, where it is compiled."""
     if not is_compiled("sole"):
         return
     found = contacts("20")

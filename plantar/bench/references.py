@@ -42,13 +42,8 @@ _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 def integers(points: Array) -> tuple[list[Point], int]:
-    """Points (n, 2) as integers without rounding: each coordinate times a common power of 2.
-
-    Args:
-        points: Finite points (n, 2) in m.
-
-    Returns:
-        The integer points and the power of 2.
+    """Points (n, 2) in m as integers without rounding: each coordinate times a common power of 2, which is returned
+    too.
 
     Example:
         >>> integers(np.array([[0.5, 3.0]]))
@@ -61,24 +56,12 @@ def integers(points: Array) -> tuple[list[Point], int]:
 
 
 def turn(a: tuple[Number, Number], b: tuple[Number, Number], c: tuple[Number, Number]) -> Number:
-    """Twice the signed area of a triangle, exact as its numbers are.
-
-    Args:
-        a: A corner (x, y).
-        b: The next one.
-        c: The last one.
-
-    Returns:
-        The area, positive where they go counter-clockwise.
-    """
+    """Returns twice the signed area of a triangle `a`, `b`, `c`, exact as its numbers; positive counter-clockwise."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def exact_hull(points: Iterable[tuple[Number, Number]]) -> list[tuple[Number, Number]]:
-    """Convex hull of points (x, y) by the monotone chain: its corners, counter-clockwise from the leftmost one.
-
-    Args:
-        points: The points, in whole numbers or fractions.
+    """Corners of the convex hull of points (x, y), whole numbers or fractions, counter-clockwise from the leftmost one.
 
     Example:
         >>> exact_hull([(0, 0), (2, 0), (1, 0), (0, 2), (1, 1)])
@@ -134,14 +117,8 @@ def centroid_exact(polygon: Array) -> Array:
 
 
 def closest_point_exact(polygon: Array, point: Array) -> Array:
-    """Point of a convex counter-clockwise polygon that is closest to a point (2,), in fractions.
-
-    Args:
-        polygon: Polygon (k, 2) in m.
-        point: Point in m.
-
-    Returns:
-        The closest point (2,) in m, rounded at the end.
+    """Returns the point (2,) in m of a convex counter-clockwise `polygon` (k, 2) closest to a `point` (2,), by
+    fractions.
     """
     ring = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
     px, py = (Fraction(float(v)) for v in point)
@@ -160,16 +137,10 @@ def closest_point_exact(polygon: Array, point: Array) -> Array:
 
 
 def inner_offset_area(polygon: Array, distance: float) -> float:
-    """Area in m^2 of what keeps a distance from every edge of a convex counter-clockwise polygon.
+    """Returns the area in m^2 that keeps a `distance` in m from every edge of a convex counter-clockwise `polygon` (k,
+    2).
 
-    Half planes cut one after another, in fractions rounded to 2^-200; lengths by integer square roots.
-
-    Args:
-        polygon: Polygon (k, 2) in m.
-        distance: Distance in m.
-
-    Returns:
-        The area; 0 where nothing is left.
+    Half planes are cut in turn, in fractions rounded to 2^-200; lengths by integer square roots.
     """
     unit = 1 << 200
     ring = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
@@ -299,14 +270,10 @@ def _rectangles(polygon: Array, angles: Array) -> Array:
 
 
 def rectangle_area(polygon: Array, angle: float = 0.0) -> float:
-    """Area in m^2 of the largest rectangle at an angle in a convex counter-clockwise polygon (k, 2).
+    """Returns the area in m^2 of the largest rectangle at an `angle` in rad in a convex counter-clockwise `polygon` (k,
+    2) in m.
 
-    Args:
-        polygon: Polygon in m.
-        angle: Angle of its first side in rad.
-
-    Returns:
-        The area: of each width the best place and of these the best width, both by golden section.
+    Both width and place are found by golden section.
 
     Example:
         >>> round(rectangle_area(np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])), 9)
@@ -320,9 +287,9 @@ def search_period(values: Callable[[Array], Array], period: float, samples: int,
 
     Args:
         values: Values (m,) at angles (m,) in rad.
-        period: Period in rad.
+        period: In rad.
         samples: Angles tried first.
-        finest: Step in rad at which the search ends.
+        finest: Last step in rad.
 
     Returns:
         The best value found.
@@ -346,31 +313,18 @@ def search_period(values: Callable[[Array], Array], period: float, samples: int,
 
 
 def rectangle_area_any_angle(polygon: Array, samples: int = 120) -> float:
-    """Area in m^2 of the largest rectangle at any angle in a convex counter-clockwise polygon.
+    """Returns the best area in m^2 of a rectangle at any angle in a convex counter-clockwise `polygon` (k, 2) in m.
 
-    Args:
-        polygon: Polygon (k, 2) in m.
-        samples: Angles tried first, over a quarter turn.
-
-    Returns:
-        The best area found: the samples, then a finer and finer search around the best four.
+    It tries `samples` of a quarter turn, then a finer and finer search around the best four.
     """
     return search_period(lambda angles: _rectangles(polygon, angles), 0.5 * math.pi, samples)
 
 
 def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-13) -> float:
-    """Area in m^2 of the largest parallelogram in a convex counter-clockwise polygon.
+    """Returns the best area in m^2 of a parallelogram in a convex counter-clockwise `polygon` (k, 2) in m.
 
-    With two sides in one direction, both as long as some length, the best is that length times the distance of the two
-    farthest chords that have it. The length is searched for by golden section, the direction over half a turn.
-
-    Args:
-        polygon: Polygon (k, 2) in m.
-        samples: Directions tried first.
-        finest: Step in rad at which the search around the best of them ends.
-
-    Returns:
-        The best area found.
+    With two sides of a length in one direction, the best is that length times the distance of the farthest chords that
+    have it; length by golden section, direction over `samples` of half a turn down to a step `finest` in rad.
     """
     size = len(polygon)
 
@@ -403,16 +357,10 @@ def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-13
 
 
 def outline_rectangle_area(rings: Sequence[Array]) -> float:
-    """Area in m^2 of the largest axis-aligned rectangle in an outline with islands and holes.
+    """Best area in m^2 of an axis-aligned rectangle in an outline of rims (k, 2) in m of islands and holes.
 
     Between two abscissae the edges block intervals of y, and the highest rectangle fills the largest gap inside. Pairs
-    of abscissae at and between the vertices are tried, then ever finer ones around the best of them.
-
-    Args:
-        rings: Rims of islands and holes (k, 2) in m.
-
-    Returns:
-        The best area found: never more than the largest one.
+    of abscissae at and between the vertices are tried, then ever finer ones around the best.
     """
     tail = np.concatenate(rings)
     head = np.concatenate([np.roll(r, -1, axis=0) for r in rings])
@@ -468,15 +416,7 @@ def outline_rectangle_area(rings: Sequence[Array]) -> float:
 
 
 def wrench_exact(columns: Array, force: Array) -> Array:
-    """Wrench (6,) of forces (n,) through columns (n, 6) of unit wrenches: `math.fsum` of exact products.
-
-    Args:
-        columns: Wrench of 1 N on each taxel.
-        force: Forces in N.
-
-    Returns:
-        The wrench in N and N m, each component rounded once.
-    """
+    """Returns the wrench (6,) of `force` (n,) in N through unit wrenches `columns` (n, 6), each part rounded once."""
     loads = [Fraction(float(f)) for f in force]
     sums = [
         sum((Fraction(float(c)) * f for c, f in zip(column, loads, strict=True)), Fraction(0)) for column in columns.T

@@ -1,4 +1,4 @@
-"""The kernels' comparison: what is measured, what is wanted, and the page, table and figure of it."""
+"""The kernels' comparison: measurements, targets, and their page, table and figure."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ __all__ = ["Target", "copy_share", "kernel_text", "measure_kernels", "targets", 
 
 @dataclass(frozen=True)
 class Target:
-    """Something wanted of the kernels, and what a run gave.
+    """A wanted figure of the kernels, and that of a run.
 
     Attributes:
         what: What is wanted.
-        figure: What the run gave; the worst of all sizes.
-        unit: Unit of both.
+        figure: Of the run; the worst of all sizes.
+        unit: Of both.
         at_least: Whether more is better.
         where: Where the worst was.
     """
@@ -53,7 +53,7 @@ def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds
     """Run the whole comparison and write its report.
 
     Args:
-        folder: Where to write; must exist.
+        folder: Existing folder.
         progress: Called with the fraction done and a text.
         rounds: Rounds to take the medians over.
 
@@ -100,7 +100,7 @@ def _of(results: Sequence[Result], kernel: str, route: str = "plantar") -> list[
 def _faster(results: Sequence[Result], kernel: str, wanted: float, route: str) -> Iterator[Target]:
     """How many times faster a route of ours is than the fastest library, at the size where it is least.
 
-    What gives another answer, computes in float32, or gets what ours makes on the way, is no rival.
+    Other answers, float32, and routes that use ours are left out.
     """
     found: list[tuple[float, str, str]] = []
     for mine in _of(results, kernel, route):
@@ -120,14 +120,7 @@ def _faster(results: Sequence[Result], kernel: str, wanted: float, route: str) -
 
 
 def targets(results: Sequence[Result]) -> list[Target]:
-    """What is wanted of the kernels next to what a run gave.
-
-    Args:
-        results: Results of the comparison.
-
-    Returns:
-        The targets whose kernels were measured.
-    """
+    """The targets whose kernels are among the results."""
     out = [target for wanted in _FASTER for target in _faster(results, *wanted)]
     for r in sorted(_of(results, "rectangle in the outline", _RASTER), key=lambda r: r.ratio)[:1]:
         out.append(Target(f"{r.kernel} against {_RASTER}", 100.0, r.ratio, "times", True, r.size))
@@ -157,7 +150,7 @@ def targets(results: Sequence[Result]) -> list[Target]:
 
 
 def copy_share(results: Sequence[Result]) -> float | None:
-    """Bytes a second that the wrench of a recording moves, over those of a copy; None where it was not measured.
+    """Bytes a second of a recording's wrench over those of a copy, or None.
 
     A copy reads and writes every byte; the wrench reads every byte and writes 6 numbers a frame.
     """
@@ -169,7 +162,7 @@ def copy_share(results: Sequence[Result]) -> float | None:
 
 
 def kernel_text(result: Mapping[str, Any]) -> str:
-    """The kernels' medians and errors, and which targets are met, for people."""
+    """The kernels' medians and errors, and which targets are met, as text."""
     kernel, lines = "", []
     for row in result["results"]:
         if row["kernel"] != kernel:
@@ -190,15 +183,7 @@ def _error(value: float | None) -> str:
 
 
 def write_kernel_report(folder: Path, results: Sequence[Result]) -> list[str]:
-    """Write kernels.md, kernels.csv and the figure kernels.png.
-
-    Args:
-        folder: Where to; exists.
-        results: Results of the comparison.
-
-    Returns:
-        Names of the files.
-    """
+    """Write kernels.md, kernels.csv and kernels.png of `results` into an existing `folder`; returns their names."""
     write_rows(folder / "kernels.csv", [r.as_dict() for r in results])
     write_text(folder / "kernels.md", _page(results))
     _draw(folder / "kernels.png", results)

@@ -1,6 +1,6 @@
-"""The other routes to the kernels' results: what scipy, shapely and cv2 do, and published approximations.
+"""Other routes to the kernels' results: scipy, shapely and cv2, and published approximations.
 
-Each takes what suits it best and returns what is compared: an area, a radius or a point.
+Each takes its best input and returns what is compared: an area, a radius or a point.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 
 class Corners:
-    """Corners of the active cells of a sole, by a table that is made once."""
+    """Corners of the active cells of a sole, by a table."""
 
     def __init__(self, layout: SoleLayout) -> None:
         most = max(len(c) for c in layout.corners)
@@ -65,14 +65,8 @@ def hull_cv2(points: NDArray[np.float32]) -> float:
 
 
 def alpha_shape_area(points: Array, radius: float) -> float:
-    """Area of the alpha shape of points: their Delaunay triangles with a circumradius below one.
-
-    Args:
-        points: Points (n, 2) in m.
-        radius: Circumradius in m.
-
-    Returns:
-        Area in m^2.
+    """Returns the area in m^2 of the alpha shape of `points` (n, 2) in m: Delaunay triangles with a circumradius below
+    `radius` in m.
     """
     from scipy.spatial import Delaunay
 
@@ -89,9 +83,8 @@ def closest_shapely(case: tuple[Array, Array]) -> tuple[float, float]:
 
 
 def rectangle_slsqp(polygon: Array) -> float:
-    """Area in m^2 of the largest axis-aligned rectangle in a convex counter-clockwise polygon (k, 2): scipy's SLSQP.
-
-    It gets exact gradients, and of each half plane the corner that reaches farthest.
+    """Area in m^2 of the largest axis-aligned rectangle in a convex counter-clockwise polygon (k, 2): scipy's SLSQP
+    with exact gradients.
     """
     from scipy.optimize import minimize
 
@@ -112,18 +105,11 @@ def rectangle_slsqp(polygon: Array) -> float:
 
 
 def interior_rectangle(rings: Sequence[Array], pixel: float = 1e-3) -> float:
-    """Area in m^2 of the largest axis-aligned rectangle of a raster, by the method of largestinteriorrectangle.
+    """Returns the area in m^2 of the best axis-aligned rectangle of pixels, of size `pixel` in m, in `rings` (k, 2) in
+    m of islands and holes.
 
-    From every pixel, runs to the right are followed downwards; the shortest so far times the depth is what a rectangle
-    from there can have (R. Marzeau's HorizontalAdjacency). The package compiles its loops with numba; here all pixels
-    take a step down at once, in numpy.
-
-    Args:
-        rings: Rims of islands and holes (k, 2) in m.
-        pixel: Pixel size in m.
-
-    Returns:
-        Area of the best rectangle of pixels.
+    The method of largestinteriorrectangle (R. Marzeau's HorizontalAdjacency): from every pixel, runs to the right are
+    followed downwards; here all pixels take a step down at once, in numpy.
     """
     mask = _raster(rings, pixel)
     rows, columns = mask.shape
@@ -143,7 +129,7 @@ def interior_rectangle(rings: Sequence[Array], pixel: float = 1e-3) -> float:
 
 
 def _raster(rings: Sequence[Array], pixel: float) -> NDArray[np.bool_]:
-    """Pixels (rows, columns) whose four corners lie inside rings: crossings of every line of corners, by parity."""
+    """Pixels (rows, columns) whose four corners lie inside rings: crossings of lines of corners, by parity."""
     low = np.min([r.min(axis=0) for r in rings], axis=0) - 0.5 * pixel
     high = np.max([r.max(axis=0) for r in rings], axis=0)
     columns, rows = (np.ceil((high - low) / pixel).astype(int) + 2).tolist()
@@ -183,14 +169,6 @@ def parallelogram_around(polygon: Array) -> float:
 
 
 def turned(points: Any, angles: int) -> list[Any]:
-    """Turn points by evenly spaced angles of a quarter turn.
-
-    Args:
-        points: Points (n, 2).
-        angles: How many.
-
-    Returns:
-        The turned points of each angle.
-    """
+    """Returns the `points` (n, 2) turned by `angles` evenly spaced angles of a quarter turn."""
     c, s = np.cos(a := 0.5 * math.pi * np.arange(angles) / angles), np.sin(a)
     return [points @ np.array([[x, -y], [y, x]]) for x, y in zip(c, s, strict=True)]

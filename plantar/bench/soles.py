@@ -1,5 +1,4 @@
-"""The soles and contacts that are measured: 51 cells of 691 mm^2 with 5, 20 or all active, and 1,000 small cells,
-and outlines of cells at random."""
+"""The measured soles: 51 cells of 691 mm^2 with 5, 20 or all active, 1,000 small cells, and random outlines."""
 
 from __future__ import annotations
 
@@ -48,21 +47,15 @@ class Contact:
 
 
 def foot_outline(length: float = 0.26, width: float = 0.155) -> NDArray[np.float64]:
-    """An ellipse-like sole outline (60, 2) in m about the origin, of a length and a width in m; returns its points."""
+    """Returns an ellipse-like sole outline (60, 2) in m about the origin, of a `length` and a `width` in m."""
     angle = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
     x, y = np.cos(angle), np.sin(angle)
     return np.column_stack([0.5 * length * np.sign(x) * np.abs(x) ** 0.7, 0.5 * width * np.sign(y) * np.abs(y) ** 0.7])
 
 
 def sole_of(taxels: int, side: str = "left") -> SoleLayout:
-    """A hexagonal sole with exactly so many whole cells.
-
-    Args:
-        taxels: Number of cells; 51 have 691 mm^2 each, others share the same total.
-        side: "left" or "right".
-
-    Returns:
-        The layout.
+    """Returns a hexagonal sole of a `side` with just so many `taxels`; 51 have 691 mm^2 each, others share the same
+    total.
 
     Example:
         >>> len(sole_of(51)), len(sole_of(7, "right"))
@@ -81,14 +74,7 @@ def sole_of(taxels: int, side: str = "left") -> SoleLayout:
 
 
 def contacts(size: str, seed: int = 0) -> list[Contact]:
-    """Contacts of one size: patches around a place, with holes on the dense sole, and cells scattered at random.
-
-    Args:
-        size: One of SIZES.
-        seed: Of the random places.
-
-    Returns:
-        The contacts, the same ones for the same seed.
+    """Returns contacts of one `size` of SIZES: patches, with holes on the dense sole, and cells drawn by `seed`.
 
     Example:
         >>> [int(c.active.sum()) for c in contacts("5")][:3], len(contacts("dense"))
@@ -127,15 +113,7 @@ def _lattice(cells: int) -> SoleLayout:
 
 
 def random_outline(active: int, share: float, seed: int) -> Outline:
-    """Outline of about so many active cells at random.
-
-    Args:
-        active: How many.
-        share: Share of the lattice's cells that are active.
-        seed: Of what is left to chance.
-
-    Returns:
-        The outline.
+    """Returns the outline of about so many `active` cells, a `share` of a lattice's, drawn by `seed`.
 
     Example:
         >>> outline = random_outline(50, 0.6, 0)

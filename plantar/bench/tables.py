@@ -1,4 +1,4 @@
-"""What the tables and figures of every benchmark are written by."""
+"""Tables and figures of every benchmark."""
 
 from __future__ import annotations
 
@@ -36,14 +36,7 @@ def cell(value: Any) -> str:
 
 
 def markdown_table(head: Sequence[str], lines: Iterable[Sequence[Any]]) -> str:
-    """A table in Markdown, without a line break at its end.
-
-    Args:
-        head: Names of the columns.
-        lines: Values of each line.
-
-    Returns:
-        The table.
+    """Returns a table in Markdown with columns `head` and values `lines`, without a line break at its end.
 
     Example:
         >>> print(markdown_table(("a", "b"), [("1", 2.0)]))
@@ -56,30 +49,23 @@ def markdown_table(head: Sequence[str], lines: Iterable[Sequence[Any]]) -> str:
 
 
 def made_on() -> str:
-    """When and on what a table is made, for its page."""
+    """When and on what a table is made."""
     return f"{time.strftime('%Y-%m-%d')}, {platform.machine()}, Python {platform.python_version()}"
 
 
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write rows of figures as a CSV file, with six digits.
-
-    Args:
-        path: The file.
-        rows: Values by column, the same columns in all of them.
-    """
+    """Write `rows`, each with the same columns, as a CSV file at `path`, with six digits."""
     names = list(rows[0]) if rows else []
     cells = ({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
     write_text(path, csv_text(names, mapping_rows(names, cells)))
 
 
 class GrowingTable:
-    """A CSV file whose rows are appended, each as its run ends, so that a benchmark that was stopped goes on.
-
-    What a run that was killed left of a row is cut off. The file is made by the first row.
+    """A CSV file whose rows are appended, so that a stopped benchmark continues; a cut row is dropped.
 
     Args:
         path: The file; its folder exists when the first row is added.
-        what: What it is a table of, for the message that refuses another one.
+        what: What it is a table of, for messages.
 
     Attributes:
         rows: Its rows, as text by column.
@@ -122,11 +108,11 @@ class Mark(NamedTuple):
     """A point of a figure of run time against error.
 
     Attributes:
-        error: Error; 0 is drawn at the figure's least.
-        group: What it belongs to, by which it is coloured and listed in the legend.
+        error: 0 is drawn at the figure's least.
+        group: For colour and legend.
         ours: Whether it is of this project.
         hollow: Whether it is drawn hollow, as approximations are.
-        text: What is written next to it.
+        text: Written next to it.
     """
 
     cost: float
@@ -139,13 +125,8 @@ class Mark(NamedTuple):
 
 
 def draw_errors(axis: Any, marks: Sequence[Mark], labels: tuple[str, str, str], least: float) -> None:
-    """Draw run time against error on logarithmic axes.
-
-    Args:
-        axis: Matplotlib's axes.
-        marks: The points.
-        labels: Title, name of the run time and name of the error.
-        least: Error at which a smaller one is drawn.
+    """Draw `marks` on logarithmic Matplotlib `axis`, with `labels` of title, run time and error, from the error `least`
+    on.
     """
     others = list(dict.fromkeys(m.group for m in marks if not m.ours))
     for group in dict.fromkeys(m.group for m in marks):

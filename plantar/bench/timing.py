@@ -1,8 +1,4 @@
-"""Timing several routes to one result so that their ratios can be trusted.
-
-Routes are interleaved: each round runs every route once, so that a machine that changes speed changes all of them.
-What counts is the median over the rounds and its spread, never a single time.
-"""
+"""Timing of interleaved routes to one result, so that a machine that changes speed changes all of them."""
 
 from __future__ import annotations
 
@@ -37,12 +33,12 @@ def time_routes(
 
     Args:
         routes: Each route's name and function of a case.
-        cases: Each route's cases, as many and in the same order for all of them.
+        cases: Each route's cases, in the same order.
         rounds: Rounds to take the median over.
         most: Time in s to spend on a route; a slow one gets fewer rounds, 2 or more.
 
     Returns:
-        Time of one call of each route: that of all its cases, divided by their number.
+        Mean time of one call of each route.
 
     Example:
         >>> times = time_routes({"sum": sum, "max": max}, {"sum": [[1, 2]], "max": [[1, 2]]}, rounds=3)

@@ -1,4 +1,4 @@
-"""What `plantar bench` can measure, a function a kind, by name; what a kind needs is loaded when it is asked for."""
+"""The kinds of `plantar bench`, a function each, loaded when needed."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ Progress = Callable[[float, str], None]
 
 @dataclass(frozen=True)
 class BenchOptions:
-    """Options of the kinds; `measure` refuses one that is given to a kind that does not take it.
+    """Options of the kinds; `measure` refuses one that a kind does not take.
 
     Attributes:
-        layout: Layout file of the sole, or None for the default one.
-        scenarios: How many scenarios of the whole loop.
+        layout: Layout file of the sole, or None.
+        scenarios: Number of scenarios of the whole loop.
         first: Number of the first one.
         scene: Walks to run; all where empty.
         robot: Robots to run them with; all where empty.
-        quick: Run what shows most, once.
-        policy: Python file of the policy to run; the built-in controller where None.
+        quick: Run the most informative cases, once.
+        policy: Python file of the policy, or None for the built-in controller.
         seeds: Runs of each trial.
     """
 
@@ -46,12 +46,7 @@ class BenchOptions:
 
 
 class Measured(NamedTuple):
-    """What was measured.
-
-    Attributes:
-        result: As plain JSON values, with the names of its files under "files" where it wrote some.
-        failures: What of it failed, a line each.
-    """
+    """Plain JSON values, with the names of written files under "files", and what failed, a line each."""
 
     result: dict[str, Any]
     text: str
@@ -59,15 +54,7 @@ class Measured(NamedTuple):
 
 
 def measure(what: str, options: BenchOptions, output: Path) -> Measured:
-    """Measure a kind, or all of them.
-
-    Args:
-        what: "all" or one of the kinds.
-        options: What the kind is asked for.
-        output: Folder for the files.
-
-    Returns:
-        What came of it, with the files' places.
+    """Returns what came of a kind `what`, or of "all", with `options`; files go to the folder `output`.
 
     Raises:
         InputError: If there is no such kind, or it does not take an option that was given.
@@ -161,7 +148,7 @@ def _contact(folder: Path, options: BenchOptions, progress: Progress) -> Measure
 
 
 def _skip(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    """Walks that skip what they do not need, and walks that skip nothing."""
+    """Walks with and without skipping."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.skipping import SCENES, measure_skipping, skip_text
 
@@ -180,7 +167,7 @@ _PARTS: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
 
 
 def _measure_parts(what: str, options: BenchOptions, output: Path, progress: Progress) -> Measured:
-    """One part, or all of them with scenes, the papers' experiments and the page; and bench.json."""
+    """One part, or all with scenes, the papers' experiments and the page; and bench.json."""
     names = tuple(_PARTS) if what == "all" else (what,)
     count = len(names) + (2 if what == "all" else 0)
     shares = [part_of(progress, i / count, 1 / count) for i in range(count)]

@@ -1,4 +1,4 @@
-"""Which room of the program the time of a run goes to, by looking at it a thousand times a second."""
+"""Share of each room of the program in the time of a run, sampled a thousand times a second."""
 
 from __future__ import annotations
 
@@ -37,13 +37,7 @@ and the legs' kinematics, counts for who called it."""
 
 
 def room_of(path: str) -> str | None:
-    """The room that a file belongs to.
-
-    Args:
-        path: The file, from the folder of `plantar` on, with slashes.
-
-    Returns:
-        A name of `ROOMS`; None for what all rooms share.
+    """Name in `ROOMS` of a file, from the folder of `plantar` on with slashes, or None.
 
     Example:
         >>> room_of("gait/estimate/skin_load.py"), room_of("gait/estimate/estimator.py"), room_of("lazy.py")
@@ -53,13 +47,12 @@ def room_of(path: str) -> str | None:
 
 
 class RoomTimes:
-    """Counts which room the program is in; a context manager for the main thread.
+    """Counts the present room; a context manager for the main thread.
 
-    Each time the clock rings, the innermost function that belongs to a room is counted. The bell is received when a
-    function of another language returns, so a long one is not interrupted and its caller is counted for it.
+    At each timer signal the innermost function of a room is counted; one in another language counts for its caller.
 
     Raises:
-        InputError: On a system whose Python has no such bell (Windows).
+        InputError: On a system whose Python has no such timer (Windows).
     """
 
     def __init__(self) -> None:
@@ -98,6 +91,6 @@ class RoomTimes:
 
     @property
     def shares(self) -> dict[str, float]:
-        """Share of each room in the time, in the order of `ROOMS`; nothing before it has been looked."""
+        """Share of each room in the time, in the order of `ROOMS`; empty without a sample."""
         total = sum(self._counts.values())
         return {room: self._counts[room] / total for room in ROOMS} if total else {}

@@ -1,4 +1,4 @@
-"""`plantar bench skip`: each scene with and without what it does not need, its physics alone, and the time by room."""
+"""`plantar bench skip`: each scene with and without skipping, its physics alone, and the time by room."""
 
 from __future__ import annotations
 
@@ -36,23 +36,20 @@ _SHAPES = ("polygon", "outline", "box", "rectangle", "circle", "triangle", "para
 
 @dataclass(frozen=True)
 class SkipRow:
-    """What one scene costs with one robot. Times are CPU times, medians of rounds in which all take turns.
+    """Cost of one scene with one robot. CPU times, medians of interleaved rounds.
 
     Attributes:
-        scene: Name of the scene.
-        robot: Name of the robot.
-        settings: What was changed of the scene.
-        seed: Seed of the run.
+        settings: Changes of the scene.
         sim_s: Simulated time in s.
-        run_s: Time of the run in s, with what the scene needs.
-        everything_s: Time in s of a run that computes all percepts, casts all rays and records itself.
-        physics_s: Time in s of the physics alone: the same motion by `mj_step` in a loop.
+        run_s: Time of the run in s.
+        everything_s: Time in s with all percepts, rays and the recording.
+        physics_s: Time in s of the same motion by `mj_step` in a loop.
         factor: Everything but the physics over the physics, in the run.
         saved: Everything but the physics with all computed, over that of the run.
         same_motion: Whether both runs and the physics alone had the same motion, to the last bit.
         shares: Share of each room in the time of the run.
-        skipped: How many of what were left out in the run.
-        computed: How many of the same were computed.
+        skipped: Numbers of what was left out in the run.
+        computed: Numbers of what was computed.
     """
 
     scene: str
@@ -78,18 +75,18 @@ def compare_skipping(
     """Run a scene with what it needs, with everything, and its physics alone.
 
     Args:
-        scene: Name of the scene; one in which no one pushes and no ground moves.
+        scene: Name of a scene without pushes and moving ground.
         robot: Name of the robot.
-        settings: What to change of it, as `key=value`.
+        settings: Changes of the scene, as `key=value`.
         rounds: Rounds to take the medians over; 1 or more.
-        seed: Seed of the runs.
+        seed: Of the runs.
 
     Returns:
         The comparison.
 
     Raises:
         SceneError: If there is no such scene, or it has no such setting.
-        InputError: On a system without a clock that rings (see `RoomTimes`).
+        InputError: On a system without a timer signal (see `RoomTimes`).
     """
     needed, everything = load_scene(scene, tuple(settings), robot), load_scene(scene, (*settings, _NONE), robot)
     watched, full = WatchedSimulation(needed, seed), WatchedSimulation(everything, seed)
@@ -137,7 +134,6 @@ def _cpu_time(scene: Scene, seed: int, record: Path | None = None) -> float:
 
 
 def _counts(run: WatchedSimulation, summary: Mapping[str, Any]) -> dict[str, dict[str, int]]:
-    """What was skipped and what was computed, by kind."""
     shapes = [name for name in Percept.members() if any(word in name for word in _SHAPES)]
     others = [name for name in Percept.members() if name not in shapes]
     skins = [sensor.skin for sensor in run.sensors.skins.values()]
@@ -169,16 +165,10 @@ def measure_skipping(
     scenes: Sequence[tuple[str, str, Sequence[str]]] = SCENES,
     rounds: int = 3,
 ) -> dict[str, Any]:
-    """Compare all scenes and write skipping.md and skipping.csv.
+    """Compare `scenes` (scene, robot and settings) and write skipping.md and skipping.csv into an existing `folder`.
 
-    Args:
-        folder: Where to write; exists.
-        progress: Called with the fraction done and a text.
-        scenes: Scene, robot and settings of each row.
-        rounds: Rounds to take the medians over.
-
-    Returns:
-        The rows as plain JSON values, whether all motions were the same, and the names of the files.
+    Returns the rows as plain JSON values, whether all motions were the same, and the files' names; `rounds` are those
+    of the medians, `progress` gets the fraction done and a text.
     """
     rows = []
     for number, (scene, robot, settings) in enumerate(scenes):
@@ -194,7 +184,6 @@ def measure_skipping(
 
 
 def _flat(row: SkipRow) -> dict[str, Any]:
-    """A row with a column a figure."""
     cells = asdict(row)
     for name in ("shares", "skipped", "computed"):
         cells |= {f"{name}: {key}": value for key, value in cells.pop(name).items()}
@@ -202,7 +191,7 @@ def _flat(row: SkipRow) -> dict[str, Any]:
 
 
 def skip_text(result: Mapping[str, Any]) -> str:
-    """The main figures for people."""
+    """The main figures as text."""
     lines = [f"{'scene':12}{'robot':10}{'x real time':>12}{'rest/physics':>14}{'saved':>8}  motion"]
     for row in result["scenes"]:
         factor = row["sim_s"] / row["run_s"]

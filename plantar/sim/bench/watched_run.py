@@ -1,4 +1,4 @@
-"""A run that is watched from outside: its motion, its controls, and what was computed in it."""
+"""A run whose motion, controls and computations are kept."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ __all__ = ["WatchedSimulation", "replay_physics"]
 
 
 class WatchedSimulation(Simulation):
-    """A simulation that keeps what its physics was given and shows its motion in one number.
+    """A simulation that keeps its controls and hashes its motion.
 
     Attributes:
         controls: Set-points of the servos at each physics step.
         members: How often each member of a percept was computed, over both soles and all ticks.
-        percepts: How many percepts there were.
+        percepts: Number of percepts.
     """
 
     def __init__(self, *args: Any, **named: Any) -> None:
@@ -43,15 +43,7 @@ class WatchedSimulation(Simulation):
         self._motion.update(self.world.data.qpos.tobytes())
 
     def compute_rest(self, command: Command, everything: bool) -> int:
-        """As the runner's, after which is counted what was computed.
-
-        Args:
-            command: The command of this tick, with its percepts.
-            everything: Compute all members.
-
-        Returns:
-            How many were left out.
-        """
+        """Returns as the runner's of `command` and `everything`, and counts what was computed."""
         left_out = super().compute_rest(command, everything)
         for percept in command.percepts.values():
             self.members.update(percept.__dict__.keys() & set(percept.members()))
@@ -60,7 +52,7 @@ class WatchedSimulation(Simulation):
 
     @property
     def motion(self) -> str:
-        """Hash of all positions of all physics steps: two runs have the same only if they agree to the last bit."""
+        """Hash of all positions of all physics steps."""
         return self._motion.hexdigest()
 
     @property
@@ -70,13 +62,8 @@ class WatchedSimulation(Simulation):
 
 
 def replay_physics(run: WatchedSimulation) -> tuple[float, str]:
-    """The physics of a run alone: `mj_step` in a loop, from the same state with the same controls.
-
-    Args:
-        run: A run that `replays`, after it has run.
-
-    Returns:
-        CPU time in s, and the hash of the motion in a second loop that is not timed.
+    """The physics alone of a finished run that `replays`: CPU time in s, and hash of the motion in an untimed second
+    loop.
     """
     model = run.world.model
     data = mujoco.MjData(model)

@@ -1,4 +1,4 @@
-"""What moves the joints: motors that take torques, or servos that take what a torque resolver makes of these."""
+"""What moves the joints: motors, or servos behind a torque resolver."""
 
 from __future__ import annotations
 
@@ -17,12 +17,7 @@ _FASTEST = 1e3  # rad/s or m/s of a joint without a speed limit
 
 
 class Drives:
-    """The machine's drives.
-
-    Args:
-        servo: What they take, and how stiff they are.
-        period: Control period in s.
-    """
+    """The machine's drives, of kind and stiffness `servo`, commanded once a `period` in s."""
 
     def __init__(self, world: World, servo: ServoTable, period: float) -> None:
         machine = world.machine
@@ -38,10 +33,7 @@ class Drives:
             self._hold_speeds_implicitly()
 
     def _hold_speeds_implicitly(self) -> None:
-        """Let MuJoCo take the speed's part of the servos' torques at the end of each step.
-
-        Taken at its beginning it shakes a light wrist: gain times step has to stay below twice a joint's inertia.
-        """
+        """Let MuJoCo apply the servos' damping implicitly: explicit, it shakes a light wrist."""
         model, motors = self._world.model, self._world.motors
         model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         model.actuator_biastype[motors] = mujoco.mjtBias.mjBIAS_AFFINE
@@ -51,11 +43,8 @@ class Drives:
         model.actuator_forcerange[motors] = np.column_stack([-self._efforts, self._efforts])
 
     def command(self, robot: MujocoDynamics, torque: NDArray[np.float64]) -> None:
-        """Take a torque (k,) of each joint in N m or N, bias included, for the next control period.
-
-        Args:
-            robot: The machine as measured.
-            torque: The torques.
+        """Take the `torque` (k,) in N m or N, bias included, of each joint of a `robot` as measured, for the next
+        period.
         """
         if self._resolver is None:
             self._torque = torque
@@ -64,7 +53,7 @@ class Drives:
             self._bias = robot.bias[robot.joints]
 
     def drive(self) -> None:
-        """Set the motors' torques for a physics step; servos know their own joint's motion as it is."""
+        """Set the motors' torques for a physics step; servos know their joint's true motion."""
         world = self._world
         if self._goal is not None:
             wanted = self._goal.velocity

@@ -1,4 +1,4 @@
-"""MuJoCo as the model library of `wholebody`: what its tasks ask of a robot at one instant."""
+"""MuJoCo as the model library of `wholebody`."""
 
 from __future__ import annotations
 
@@ -17,15 +17,14 @@ _NAMED = 5  # links in an error where none has a similar name
 
 
 class MujocoDynamics:
-    """`plantar.wholebody.dynamics.RobotDynamics` from a MuJoCo model of the robot alone, without what is around it.
+    """`plantar.wholebody.dynamics.RobotDynamics` from a MuJoCo model of the robot alone.
 
-    A stage of MuJoCo's forward dynamics runs when its result is read. The angular velocity of a free base is in the
-    base's frame, as MuJoCo has it, and so are all Jacobians.
+    A stage of MuJoCo's forward dynamics runs when its result is read. The angular velocity of a free base, and its
+    Jacobians, are in the base's frame.
 
     Attributes:
-        time: Time of the last update in s.
-        joints: Indices (k,) of the coordinates that have an actuator, ascending; those of all hinges and slides where
-            the model has no actuators.
+        time: Of the last update in s.
+        joints: Indices (k,) of the coordinates with an actuator, ascending; of all hinges and slides without actuators.
         jacobians: How many Jacobians of links were computed.
 
     Raises:
@@ -53,13 +52,7 @@ class MujocoDynamics:
         mujoco.mj_kinematics(model, self.data)
 
     def update(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64], time: float) -> None:
-        """Take over a new state.
-
-        Args:
-            qpos: Positions (nq,) as MuJoCo orders them.
-            qvel: Velocities (nv,).
-            time: Time in s.
-        """
+        """Take over positions `qpos` (nq,) in MuJoCo's order and velocities `qvel` (nv,) at `time` in s."""
         self.data.qpos[:] = qpos
         self.data.qvel[:] = qvel
         self.time = time
@@ -73,13 +66,12 @@ class MujocoDynamics:
         self._made: dict[int, NDArray[np.float64]] = {}
 
     def _place(self) -> None:
-        """Axes of all joints about the centre of mass: every Jacobian needs them."""
+        """Axes of all joints about the centre of mass, for every Jacobian."""
         if not self._placed:
             mujoco.mj_comPos(self.model, self.data)
             self._placed = True
 
     def _move(self) -> None:
-        """Velocities of all links: what depends on the velocity needs them."""
         if not self._moving:
             self._place()
             mujoco.mj_comVel(self.model, self.data)
@@ -115,11 +107,7 @@ class MujocoDynamics:
         return self._bias
 
     def pose(self, link: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Origin (3,) of a link in the world in m and its rotation (3, 3) to the world.
-
-        Raises:
-            InputError: If there is no such link.
-        """
+        """Origin (3,) of a link in the world in m and its rotation (3, 3) to the world; an InputError for no link."""
         body = self._body(link)
         return self._places_of_links[body].copy(), self._turns_of_links[body].copy()
 
@@ -128,10 +116,10 @@ class MujocoDynamics:
 
         Args:
             link: Name of the link.
-            point: Point (3,) in the link's frame in m; its origin where None, whose Jacobian is made once an update.
+            point: (3,) in the link's frame in m; None for its origin, computed once an update.
 
         Returns:
-            Rows (6, n) of its linear, then its angular velocity in the world; not to be written to.
+            Rows (6, n) of its linear, then its angular velocity in the world; read-only.
 
         Raises:
             InputError: If there is no such link.
@@ -148,18 +136,7 @@ class MujocoDynamics:
         return found
 
     def drift(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """J' q' of that Jacobian.
-
-        Args:
-            link: Name of the link.
-            point: Point (3,) in the link's frame in m; its origin where None.
-
-        Returns:
-            Acceleration (6,) of the point while q'' = 0, in m/s^2 and rad/s^2.
-
-        Raises:
-            InputError: If there is no such link.
-        """
+        """Returns J' q' (6,) in m/s^2 and rad/s^2 of the Jacobian of `link` and `point`, as of `jacobian`."""
         body = self._body(link)
         self._move()
         rate = np.zeros((6, self.model.nv))
@@ -167,10 +144,7 @@ class MujocoDynamics:
         return np.asarray(rate.dot(self._velocity))
 
     def com(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Centre of mass: position (3,) in m, Jacobian (3, n) and drift (3,) in m/s^2.
-
-        The drift is the force that all links together need while q'' = 0, divided by the mass.
-        """
+        """Centre of mass: position (3,) in m, Jacobian (3, n) and drift (3,) in m/s^2."""
         self._move()
         rows = np.zeros((3, self.model.nv))
         mujoco.mj_jacSubtreeCom(self.model, self.data, rows, 0)
@@ -189,6 +163,5 @@ class MujocoDynamics:
         return found
 
     def _world(self, body: int, point: NDArray[np.float64] | None) -> NDArray[np.float64]:
-        """A point of a body in the world in m."""
         origin: NDArray[np.float64] = self._places_of_links[body]
         return origin if point is None else origin + self._turns_of_links[body].dot(point)

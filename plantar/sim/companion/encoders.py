@@ -1,4 +1,4 @@
-"""Measured motion of the machine: encoders of its joints, and the state of a floating base."""
+"""Measured motion of the machine: joints, and the state of a floating base."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ __all__ = ["Encoders"]
 
 
 class Encoders:
-    """Measures positions and velocities with white noise. A floating base's place is known as well as a joint's: it is
-    found by kinematics from what stands on the ground; its orientation is the IMU's.
+    """Measures positions and velocities with white noise. A floating base's place is known as well as a joint's, by the
+    kinematics of the standing feet; its orientation is the IMU's.
     """
 
     def __init__(self, world: World, settings: CompanionControl, seed: int) -> None:
@@ -22,7 +22,7 @@ class Encoders:
         self._rng = np.random.default_rng([seed, 0xEC])
 
     def read(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Positions (nq,) and velocities (nv,) of the machine alone, in its own model's order, now."""
+        """Positions (nq,) and velocities (nv,) of the machine alone, in its own model's order."""
         world, s = self._world, self._settings
         qpos = world.data.qpos[world.positions]
         qvel = world.data.qvel[world.speeds]

@@ -1,7 +1,4 @@
-"""What an experiment of the companion is: what surrounds a machine, who acts on it, and what counts as done.
-
-An experiment is one file in `sim/companion/experiments` with one class.
-"""
+"""An experiment of the companion, one file in `sim/companion/experiments`: surroundings, actors, and success."""
 
 from __future__ import annotations
 
@@ -45,12 +42,11 @@ class CompanionControl(Settings):
 
     Attributes:
         period: Control period.
-        servo: What the drives take; "machine" for what the machine's file states.
+        servo: Input of the drives; "machine": as in the machine's file.
         encoder_noise: Standard deviation of joint positions, in rad or m.
         velocity_noise: Standard deviation of joint speeds, in rad/s or m/s.
         gyro_noise: Standard deviation of its angular velocity.
-        model_error: Standard deviation by which mass and inertia of each link are misjudged, as a share of them; the
-            seed draws it once.
+        model_error: Standard deviation of the error of each link's mass and inertia, as a share; drawn once.
     """
 
     period: float = number(0.002, "s", 0.001, 0.1)
@@ -66,14 +62,10 @@ class Controller(Protocol):
     """What drives the machine."""
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Torque (k,) of each joint in N m or N for the next control period.
+        """Returns the torque (k,) of each joint in N m or N for the next period, gravity included, in the order of
+        `robot.joints`.
 
-        Args:
-            robot: Kinematics and dynamics at the measured state.
-            reading: What the skin states.
-
-        Returns:
-            Torques or forces, gravity included, in the order of `robot.joints`.
+        `robot` is at the measured state, `reading` that of the skin.
         """
 
 
@@ -81,18 +73,14 @@ class LidarController(Controller, Protocol):
     """A controller of an experiment with distance sensors in the base."""
 
     def scan(self, points: NDArray[np.float64]) -> None:
-        """Take a new scan.
-
-        Args:
-            points: Nearest point (m, 2) of each thing that the sensors see, in the base's frame in m.
-        """
+        """Take a scan: nearest points (m, 2) of the seen things, in the base's frame in m."""
 
 
 class Verdict(NamedTuple):
     """What an experiment came to.
 
     Attributes:
-        reasons: Every criterion that failed, as `failed` makes them; empty where all is done.
+        reasons: Every criterion that failed, of `failed`.
         figures: The experiment's own figures by name; JSON values.
     """
 
@@ -101,16 +89,8 @@ class Verdict(NamedTuple):
 
 
 def failed(criterion: str, value: float, limit: float, text: str) -> dict[str, Any]:
-    """A criterion that failed, as summaries have it.
-
-    Args:
-        criterion: Its name, words joined by underscores.
-        value: What was found; not finite becomes None.
-        limit: What is allowed.
-        text: Both in words.
-
-    Returns:
-        The criterion.
+    """Returns a failed `criterion` for summaries: its name, words joined by underscores, the `value` that was found
+    (not finite becomes None), the `limit`, and a `text`.
     """
     found = round(float(value), 6) if math.isfinite(value) else None
     return {"criterion": criterion, "value": found, "limit": limit, "text": text}
@@ -151,16 +131,13 @@ class World:
 
 
 class Experiment:
-    """Base of all experiments; what one does not need, it leaves as it is.
-
-    Args:
-        seed: Seed of places, times, forces and directions.
+    """Base of all experiments; the `seed` draws places, times, forces and directions.
 
     Attributes:
         duration: Simulated time in s.
-        fell: Whether the machine fell; the run ends then.
-        done: Whether all has been seen; the run ends then.
-        rng: Random numbers of the seed, for what the experiment leaves to chance.
+        fell: Whether the machine fell, which ends the run.
+        done: Whether all is finished, which ends the run.
+        rng: Random numbers of the seed.
     """
 
     settings_type: ClassVar[type[Settings]] = Settings
@@ -181,42 +158,25 @@ class Experiment:
         self.rng = np.random.default_rng([seed, 0xE])
 
     def add_to(self, spec: Any) -> None:
-        """Add obstacles and probes to the machine's `mujoco.MjSpec`; what skin measures is of `OBSTACLE_GROUP`."""
+        """Add obstacles and probes to the machine's `mujoco.MjSpec`; skin measures those of `OBSTACLE_GROUP`."""
 
     def start(self, world: World) -> None:
-        """Put everything where it is at first. The machine stands in its posture already."""
+        """Put everything in its first place, with the machine in its posture."""
 
     def controller(self, machine: Machine, skin: BodySkin) -> Controller:
-        """What drives the machine; made once, before the first step.
-
-        Args:
-            machine: The machine.
-            skin: Its skin.
-
-        Returns:
-            The controller.
-        """
+        """Returns the controller of a `machine` with `skin`; called once, before the first step."""
         raise NotImplementedError
 
     def act(self, world: World, time: float) -> None:
-        """Move actors, before every physics step; forces of theirs go into `data.qfrc_applied`, not `xfrc_applied`.
-
-        Args:
-            world: The world.
-            time: Time in s.
+        """Move actors in the `world` at `time` in s, before every physics step; their forces go into
+        `data.qfrc_applied`.
         """
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
-        """Look at the true state, at every physics step.
-
-        Args:
-            world: The world.
-            sensor: The skin, with the true forces on it.
-            time: Time in s.
-        """
+        """Look at the true state of the `world` and the skin `sensor` at `time` in s, at every physics step."""
 
     def verdict(self) -> Verdict:
-        """What it came to, after the run."""
+        """The verdict, after the run."""
         return Verdict([], {})
 
     def plot(self, folder: Path) -> Sequence[Path]:
@@ -225,17 +185,14 @@ class Experiment:
 
 
 def experiment_names() -> tuple[str, ...]:
-    """Names of all experiments: of this package's, and of entry points of other packages (`plantar.experiments`)."""
+    """Names of all experiments: of this package, and of entry points `plantar.experiments` of other packages."""
     package = Path(__file__).parent / "experiments"
     own = [found.name.replace("_", "-") for found in pkgutil.iter_modules([str(package)])]
     return tuple(sorted([*own, *extensions("plantar.experiments", Experiment)]))
 
 
 def experiment_class(name: str) -> type[Experiment]:
-    """The class of an experiment.
-
-    Args:
-        name: Its name: that of its file, with hyphens.
+    """The class of an experiment, by the name of its file with hyphens.
 
     Raises:
         SceneError: If there is none of that name.

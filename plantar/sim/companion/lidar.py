@@ -1,4 +1,4 @@
-"""Distance sensors of a mobile base: a level scan around it, and the nearest point of each thing seen (A 3.2.4)."""
+"""Distance sensors of a mobile base: a level scan, and the nearest point of each thing (A 3.2.4)."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ class LidarSettings(Settings):
     Attributes:
         rate: Scans a second.
         rays: Rays around the base.
-        height: Height of the scan above the ground.
+        height: Of the scan above the ground.
         reach: Largest distance.
         noise: Standard deviation of a distance.
-        gap: Difference of neighbouring distances from which they belong to two things.
+        gap: Difference of neighbouring distances that separates two things.
     """
 
     rate: float = number(25.0, "1/s", 0.1, 1000)
@@ -37,7 +37,7 @@ class LidarSettings(Settings):
 
 
 class Lidar:
-    """Scans the world around a base, which it does not see itself."""
+    """Scans the world around a base without the machine itself."""
 
     def __init__(self, model: Any, base: str, settings: LidarSettings, seed: int) -> None:
         self.settings = settings
@@ -50,11 +50,7 @@ class Lidar:
         self._own = own
 
     def scan(self, data: Any) -> NDArray[np.float64]:
-        """Scan now.
-
-        Returns:
-            Nearest point (m, 2) of each thing in reach, in the base's frame in m.
-        """
+        """Nearest point (m, 2) of each thing in reach, in the base's frame in m."""
         s = self.settings
         rotation = data.xmat[self._base].reshape(3, 3)
         origin = data.xpos[self._base] + rotation @ np.array([0.0, 0.0, s.height])
@@ -67,7 +63,7 @@ class Lidar:
         return np.array([self._ways[i, :2] * distances[i] for i in nearest if distances[i] < _NO_ECHO]).reshape(-1, 2)
 
     def _distances(self, data: Any, origin: NDArray[np.float64], ways: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Distance (rays,) along each ray to what is not the machine; inf where nothing is."""
+        """Distance (rays,) along each ray; inf for a miss."""
         found = np.full(len(ways), np.inf)
         for geom in np.flatnonzero(~self._own).tolist():
             center = data.geom_xpos[geom] - origin

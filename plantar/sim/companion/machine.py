@@ -1,7 +1,4 @@
-"""Machines with skin: an arm, an arm on wheels or a whole body, from an MJCF and a TOML next to it.
-
-The TOML adds to the MJCF the kind of base, limits and posture of the joints, their drives, and where the skin is.
-"""
+"""Machines with skin: an MJCF, and a TOML with the kind of base, joints' limits and posture, drives, and skin."""
 
 from __future__ import annotations
 
@@ -41,8 +38,8 @@ class BaseTable(Settings):
         kind: "fixed"; "mobile", whose first three joints move it on the ground along x, along y and about z; or
             "floating", which has a free joint.
         link: Link that is the base; empty takes the first.
-        footprint: Corners [x, y] in the base link's frame of what it covers of the ground, counter-clockwise: obstacles
-            are kept away from it.
+        footprint: Corners [x, y] in the base link's frame of its area on the ground, counter-clockwise, kept away from
+            obstacles.
     """
 
     kind: str = choice("fixed", "mobile", "floating")
@@ -54,7 +51,7 @@ class ServoTable(Settings):
     """How joints are commanded.
 
     Attributes:
-        kind: What a joint's drive takes.
+        kind: Input of a joint's drive.
         velocity_gain: Gain of a velocity servo as a share of the joint's effort limit for an error of its speed limit.
         position_gain: Gain of a position servo.
     """
@@ -65,11 +62,11 @@ class ServoTable(Settings):
 
 
 class JointTable(Settings):
-    """What a joint can do, and where it is in the posture.
+    """Limits of a joint and its position in the posture.
 
     Attributes:
-        effort: Largest torque in N m, or force in N of a joint that slides; 0 where there is no limit.
-        velocity: Largest speed in rad/s or m/s; 0 where there is no limit.
+        effort: Largest torque in N m, or force in N of a joint that slides; 0 for no limit.
+        velocity: Largest speed in rad/s or m/s; 0 for no limit.
         posture: Position in degrees, or in m of a joint that slides.
     """
 
@@ -80,14 +77,14 @@ class JointTable(Settings):
 
 @dataclass(frozen=True)
 class Machine:
-    """A machine. Joints are in the model's order, which is that of its coordinates.
+    """A machine. Joints are in the order of the model's coordinates.
 
     Attributes:
-        description: One line for people.
+        description: One line.
         base: What carries the joints.
         servo: How joints are commanded.
-        joints: What each joint with one degree of freedom can do, by its name.
-        patches: The `[[patch]]` tables, unread: `plantar.sim.body_skin.surface` makes skin of them.
+        joints: Limits of each joint with one degree of freedom, by its name.
+        patches: The unread `[[patch]]` tables, for `plantar.sim.body_skin.surface`.
     """
 
     name: str
@@ -101,12 +98,12 @@ class Machine:
 
     @property
     def efforts(self) -> NDArray[np.float64]:
-        """Largest torque (k,) of each joint in N m or N; infinite where there is no limit."""
+        """Largest torque (k,) of each joint in N m or N; infinite for no limit."""
         return np.array([joint.effort or math.inf for joint in self.joints.values()])
 
     @property
     def velocities(self) -> NDArray[np.float64]:
-        """Largest speed (k,) of each joint in rad/s or m/s; infinite where there is no limit."""
+        """Largest speed (k,) of each joint in rad/s or m/s; infinite for no limit."""
         return np.array([joint.velocity or math.inf for joint in self.joints.values()])
 
     @property
@@ -116,8 +113,8 @@ class Machine:
         return np.array([t.posture if n in slides else math.radians(t.posture) for n, t in self.joints.items()])
 
     def spec(self) -> Any:
-        """The machine alone as a new `mujoco.MjSpec`: a motor a joint, named as it, and none of the file's own
-        surroundings, actuators and sensors. Its geoms touch obstacles, not each other.
+        """The machine alone as a new `mujoco.MjSpec`: a motor a joint, named as it, without the file's surroundings,
+        actuators and sensors. Its geoms touch obstacles, not each other.
 
         Raises:
             RobotError: If the model cannot be read.
@@ -144,13 +141,8 @@ class Machine:
         return spec
 
     def ranges(self, model: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where the joints have their stops.
-
-        Args:
-            model: An MjModel that the machine is in.
-
-        Returns:
-            Lowest and highest position (k,) of each joint in rad or m; infinite where it has no stop.
+        """Lowest and highest position (k,) of each joint in rad or m, of an MjModel with the machine; infinite without
+        a stop.
         """
         joints = [model.joint(name) for name in self.joints]
         held = np.array([bool(joint.limited[0]) for joint in joints])
@@ -164,14 +156,10 @@ def builtin_machines() -> tuple[str, ...]:
 
 
 def load_machine(name: str | os.PathLike[str]) -> Machine:
-    """Load a machine by its built-in name or from a TOML file.
-
-    Args:
-        name: A built-in name (`builtin_machines()`) or the path of a machine TOML.
+    """Load a machine by its built-in name (`builtin_machines()`) or the path of a TOML.
 
     Raises:
-        RobotError: If the name is unknown, or the file or the model that it names is not valid; the message names the
-            field.
+        RobotError: If the name is unknown, or the file or its model is not valid; the message names the field.
 
     Example:
         >>> load_machine("planar-arm").base.kind
@@ -211,7 +199,6 @@ def load_machine(name: str | os.PathLike[str]) -> Machine:
 
 
 def _model_file(source: Mapping[str, Any], path: Path, where: str) -> Path:
-    """The MJCF that the TOML names."""
     table = source.get("model")
     if not isinstance(table, Mapping):
         raise RobotError(f'{where}: table [model] is missing; it needs file = "..."')
@@ -223,7 +210,7 @@ def _model_file(source: Mapping[str, Any], path: Path, where: str) -> Path:
 
 
 def _parsed(file: Path, where: str) -> Any:
-    """A model file as an editable `mujoco.MjSpec`."""
+    """A model file as an `mujoco.MjSpec`."""
     if not is_file(file):
         raise RobotError(f"{where}: model file {file} does not exist")
     check_model(file, RobotError)  # MuJoCo would follow no matter what it names
@@ -276,7 +263,6 @@ _MOBILE = (mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJ
 
 
 def _joints(source: Mapping[str, Any], spec: Any, where: str) -> dict[str, JointTable]:
-    """The joints' tables, in the model's order."""
     given, defaults = source.get("joints", {}), source.get("joint_defaults", {})
     JointTable.from_table(defaults, f"{where}: [joint_defaults]", RobotError)
     if not isinstance(given, Mapping):
@@ -302,7 +288,7 @@ def _joints(source: Mapping[str, Any], spec: Any, where: str) -> dict[str, Joint
 
 
 def _patches(source: Mapping[str, Any], spec: Any, where: str) -> tuple[Mapping[str, Any], ...]:
-    """The patches' tables; only their links are looked at here."""
+    """The patches' tables, with known links."""
     patches = source.get("patch", [])
     bodies = [b.name for b in spec.bodies if b.name and b.name != "world"]
     if not isinstance(patches, list) or not all(isinstance(p, Mapping) for p in patches):

@@ -31,10 +31,7 @@ __all__ = ["Companion"]
 
 
 class Companion(Run):
-    """A scene of the companion, built and ready to run.
-
-    Args:
-        seed: Seed of sensor noise and of what the experiment leaves to chance.
+    """A scene of the companion, built and ready to run; `seed` draws sensor noise and what the experiment leaves open.
 
     Attributes:
         skin: The machine's skin sensor.
@@ -144,7 +141,7 @@ class Companion(Run):
 
 
 def _misjudge(model: Any, share: float, seed: int) -> None:
-    """Change the masses of the model that the controller has, each by its own share."""
+    """Change the masses of the controller's model, each by its own share."""
     if share:
         factors = 1.0 + np.clip(np.random.default_rng([seed, 0x3A55]).normal(0.0, share, model.nbody), -0.9, 0.9)
         model.body_mass[:] *= factors
@@ -153,7 +150,7 @@ def _misjudge(model: Any, share: float, seed: int) -> None:
 
 
 def _build(machine: Machine, alone: Any, add_to: Callable[[Any], None]) -> World:
-    """Compile the machine with what an experiment puts around it, and find its coordinates again."""
+    """Compile the machine with the experiment's surroundings, and find its coordinates again."""
     spec = machine.spec()
     add_looks(spec, machine.base.link)
     add_to(spec)

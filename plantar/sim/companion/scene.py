@@ -1,7 +1,4 @@
-"""A scene of the companion is data: a TOML that names an experiment and a machine, and sets what it will.
-
-Reading one makes no simulation.
-"""
+"""A scene of the companion: a TOML that names an experiment and a machine; no simulator is needed to read it."""
 
 from __future__ import annotations
 
@@ -26,13 +23,13 @@ class CompanionScene:
     """A scene of the companion.
 
     Attributes:
-        description: One line for people.
+        description: One line.
         robot: Name or TOML file of the machine.
         kind: Name of the experiment.
         skin: What the skin is made of and how it measures.
-        experiment: What the experiment does.
-        control: The controller's gains and switches.
-        lidar: Distance sensors of the base; None for an experiment without.
+        experiment: Settings of the experiment.
+        control: Gains and switches of the controller.
+        lidar: Distance sensors of the base, or None.
     """
 
     name: str
@@ -62,13 +59,10 @@ class CompanionScene:
 
 
 def companion_tables(kind: str) -> dict[str, type[Settings]]:
-    """Settings class of each table of a scene with some experiment.
-
-    Returns:
-        The classes by the tables' names.
+    """Settings class of each table of a scene with an experiment, by the table's name.
 
     Raises:
-        SceneError: If there is none of that name.
+        SceneError: If there is no such experiment.
     """
     found = experiment_class(kind)
     tables: dict[str, type[Settings]] = {
@@ -82,10 +76,10 @@ def companion_tables(kind: str) -> dict[str, type[Settings]]:
 def companion_scene(
     source: Mapping[str, Any], path: Path, settings: Sequence[str] = (), machine: str | None = None
 ) -> CompanionScene:
-    """Make a scene of what a TOML file holds.
+    """Make a scene of a TOML file's content.
 
     Args:
-        source: What it holds; its `experiment` is a name, or a table whose `kind` is the name.
+        source: The content; its `experiment` is a name, or a table whose `kind` is the name.
         path: The file, for names and messages.
         settings: `key=value` settings that override the file's.
         machine: Machine to use instead of the file's.
@@ -94,7 +88,7 @@ def companion_scene(
         The scene.
 
     Raises:
-        SceneError: If a field is not valid; the message names it.
+        SceneError: If a field is not valid.
     """
     where = f"scene '{path.stem}'"
     result: dict[str, Any] = {k: dict(v) if isinstance(v, Mapping) else v for k, v in source.items()}

@@ -1,6 +1,5 @@
-"""The true robot in the simulator: mass and CoM, stiffness of servos, friction of joints.
-
-Only the world's compiled model is changed; the controller's own (`plantar.robots.kinematics.leg_model`) stays nominal.
+"""The true robot in the simulator: mass and CoM, stiffness of servos, friction of joints; the controller's model stays
+nominal.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ def make_true(
     Args:
         model: The MjModel, changed in place.
         plant: The true plant.
-        torso: Body id of the torso.
+        torso: Body id.
         servos: Indices of the legs' actuators.
         touching: Names of the geoms of soles and ground.
         body: Size of the robot, by its file.
@@ -53,7 +52,7 @@ def _scale_mass(model: Any, ratio: float, torso: int) -> None:
 
 
 def _move_com(model: Any, offset: NDArray[np.float64], torso: int) -> None:
-    """Move the centres of mass of all bodies fixed to the torso, and with them the whole robot's."""
+    """Move the centres of mass of all bodies fixed to the torso, and with them the robot's."""
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     moved = data.xmat[torso].reshape(3, 3) @ offset

@@ -18,11 +18,7 @@ _TILES = 64  # patches after which the colours repeat: 3.2 m
 class GroundColours:
     """Square patches of random reflectance on the world's plane.
 
-    An optical sensor receives an intensity proportional to the reflectance rho and to 1 / d^2; one calibrated at
-    reflectance 1 measures d / sqrt(rho).
-
-    Args:
-        plant: The true plant.
+    An optical sensor calibrated at reflectance 1 measures d / sqrt(rho), its intensity being proportional to rho / d^2.
     """
 
     def __init__(self, plant: TruePlant) -> None:
@@ -30,13 +26,6 @@ class GroundColours:
         self._stretch = 1.0 / np.sqrt(lightness)
 
     def stretch(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Measured distance over the true one (n,) at points (n, 3) of the ground in the world in m.
-
-        Args:
-            points: The points.
-
-        Returns:
-            The ratios.
-        """
+        """Measured distance over the true one (n,) at points (n, 3) of the ground in the world in m."""
         tiles = np.floor(points[:, :2] / PATCH).astype(np.int64) % _TILES
         return np.asarray(self._stretch[tiles[:, 0], tiles[:, 1]])

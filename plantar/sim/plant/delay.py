@@ -13,10 +13,7 @@ T = TypeVar("T")
 
 
 class Delay(Generic[T]):
-    """Returns the newest item that is old enough.
-
-    Args:
-        delay: Time in s from sending to arrival.
+    """Returns the newest item that was sent at least a `delay` in s ago.
 
     Example:
         >>> line = Delay(0.01)
@@ -29,15 +26,7 @@ class Delay(Generic[T]):
         self._sent: deque[tuple[float, T]] = deque()
 
     def passed(self, time: float, item: T) -> T:
-        """Send an item and receive the one that arrives.
-
-        Args:
-            time: Time in s, never decreasing.
-            item: The item.
-
-        Returns:
-            The newest item sent at least the delay ago; before that the first one.
-        """
+        """Send an `item` at `time` in s, never decreasing; returns the one that arrives, at first the first."""
         self._sent.append((time, item))
         while len(self._sent) > 1 and self._sent[1][0] <= time - self._delay + SAME_TIME:
             self._sent.popleft()

@@ -45,7 +45,7 @@ def _up_to(chance: np.random.Generator, limit: float) -> float:
 
 
 def _whole(chance: np.random.Generator, limit: float) -> float:
-    """The limit itself or more: a spread, whose members are drawn, or an item that is hardest at its limit."""
+    """The limit or more: a spread, whose members are drawn, or an item that is hardest at its limit."""
     return limit
 
 
@@ -220,15 +220,7 @@ def _of_each_taxel(chance: np.random.Generator, layouts: Mapping[Side, SoleLayou
 
 
 def stream(seed: int, name: str) -> np.random.Generator:
-    """The random generator of one item.
-
-    Args:
-        seed: Seed of the run.
-        name: Name of the item.
-
-    Returns:
-        The generator, different for every name.
-    """
+    """The random generator of the item `name` of a run with a `seed`; returns another for every name."""
     return np.random.default_rng([seed, 0x91, zlib.crc32(name.encode())])
 
 

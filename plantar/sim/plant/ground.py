@@ -19,15 +19,8 @@ FOAM_MODULUS = 3e5
 
 
 def foam_time(thickness: float, body: BodyScale) -> float:
-    """Time constant sqrt(m / k) in s of the body on a layer of foam under one sole, k = E A / thickness, A a whole
-    sole.
-
-    Args:
-        thickness: Its thickness in m.
-        body: Size of the robot.
-
-    Returns:
-        The time constant in s.
+    """Returns the time constant sqrt(m / k) in s of a `body` on foam of `thickness` in m, k = E A / thickness, A a
+    whole sole.
     """
     return math.sqrt(body.mass * thickness / (FOAM_MODULUS * body.sole * body.sole_width))
 
@@ -35,8 +28,8 @@ def foam_time(thickness: float, body: BodyScale) -> float:
 def make_ground_true(model: Any, plant: TruePlant, touching: Sequence[int], body: BodyScale) -> None:
     """Change friction and softness of contacts into those of the true plant.
 
-    Springs in series add their time constants in squares. MuJoCo takes the larger friction of two geoms and the mean of
-    their time constants; where pieces of ground differ, the piece's own apply.
+    Time constants add in squares, as of springs in series. MuJoCo takes the larger friction of two geoms and the mean
+    of their time constants; where pieces of ground differ, the piece's own apply.
 
     Args:
         model: The MjModel of the world, changed in place.

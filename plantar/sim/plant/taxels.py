@@ -20,13 +20,7 @@ SILENCE = 0.1
 
 
 class TaxelErrors:
-    """The errors of one sole's taxels (`plantar.sensing.taxel_faults`), and connectors that lose contact.
-
-    Args:
-        layout: The sole.
-        plant: The true plant.
-        side: Which sole it is.
-    """
+    """Errors of one sole's taxels (`plantar.sensing.taxel_faults`), and connectors that lose contact."""
 
     def __init__(self, layout: SoleLayout, plant: TruePlant, side: Side) -> None:
         faults = TaxelFaults(hysteresis=plant.hysteresis, crosstalk=plant.crosstalk)
@@ -39,26 +33,14 @@ class TaxelErrors:
         self._looked: float | None = None
 
     def read(self, force: NDArray[np.float64], time: float) -> NDArray[np.float64]:
-        """What the taxels read.
-
-        Args:
-            force: Force (n,) on each taxel in N.
-            time: Time in s, never decreasing.
-
-        Returns:
-            Readings (n,) in N.
-        """
+        """Returns the readings (n,) in N of `force` (n,) in N at `time` in s, never decreasing."""
         return self._faults.read(time, force)
 
     def silence(self, time: float, *readings: NDArray[np.float64] | None) -> None:
-        """Set readings of taxels without contact to NaN.
+        """Set `readings` (n,), changed in place, of taxels without contact at `time` in s, never decreasing, to NaN.
 
-        A connector loses and finds contact at constant rates, so both states last for exponentially distributed times:
-        0.1 s without contact, and with it as long as gives the plant's share.
-
-        Args:
-            time: Time in s, never decreasing.
-            readings: Readings (n,), changed in place; None for none.
+        A connector loses and finds contact at constant rates: 0.1 s without contact, and with it as long as gives the
+        plant's share.
         """
         if not self._loses:
             return

@@ -54,7 +54,7 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
         seed: Draws the ground, the push and the sensors' noise.
 
     Returns:
-        What came of it.
+        The result.
 
     Raises:
         InputError: If the policy raises, or returns no finite angles of the joints.
@@ -110,7 +110,7 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
 
 
 def _called(function: Any, argument: Any) -> Any:
-    """What a user's function returns; what it raises names it."""
+    """Result of a user's function; an error that it raises is named after it."""
     try:
         return function(argument)
     except Exception as problem:  # whatever the policy raises

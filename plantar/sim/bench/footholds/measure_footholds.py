@@ -1,4 +1,4 @@
-"""The foothold benchmark: all trials with many seeds, a table that grows by a row a run, and its summary."""
+"""The foothold benchmark: all trials with many seeds, a growing table, and its summary."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ def measure_footholds(
     kinds: Sequence[str] = (),
     progress: Callable[[float, str], None] | None = None,
 ) -> dict[str, Any]:
-    """Run a policy on all trials; runs that are in the table already are not run again.
+    """Run a policy on all trials that are not in the table yet.
 
     Args:
-        folder: Where footholds.csv and footholds.md are.
-        policy: Python file with `make_policy(task)`; the built-in controller where None.
+        folder: Of footholds.csv and footholds.md.
+        policy: Python file with `make_policy(task)`, or None for the built-in controller.
         robots: Names or files of robots; h1 where empty.
         seeds: Runs of each trial.
         kinds: Kinds of trials; all where empty.
@@ -77,7 +77,6 @@ def measure_footholds(
 
 
 def _summary(table: Sequence[dict[str, str]]) -> list[dict[str, Any]]:
-    """A row for each policy, robot and trial."""
     groups: dict[tuple[str, ...], list[dict[str, str]]] = {}
     for row in table:
         groups.setdefault(tuple(row[c] for c in _COLUMNS[:4]), []).append(row)
@@ -106,14 +105,7 @@ def _summary(table: Sequence[dict[str, str]]) -> list[dict[str, Any]]:
 
 
 def footholds_text(result: dict[str, Any]) -> str:
-    """The summary as a table in Markdown.
-
-    Args:
-        result: What `measure_footholds` returned.
-
-    Returns:
-        The text.
-    """
+    """A result of `measure_footholds` as a table in Markdown."""
     titles = ("policy", "robot", "trial", "completed", "95 %", "steps", "fell", "Froude", "runs")
     rows = [
         (

@@ -1,4 +1,4 @@
-"""What a policy of the foothold benchmark gets and returns, and how its file is loaded."""
+"""Input and output of a policy of the foothold benchmark, and how its file is loaded."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ __all__ = ["Action", "OwnController", "Policy", "WalkTask", "load_policy"]
 
 @dataclass(frozen=True)
 class WalkTask:
-    """What a policy knows of a trial: the walk as planned on level ground, nothing of the true ground.
+    """What a policy knows of a trial: the walk as planned on level ground.
 
     Attributes:
         robot: Name or file of the robot.
         joints: Names of its k leg joints, in the order of all joint vectors.
         period: Time in s from one call of `step` to the next.
-        stance: Joint angles (k,) in rad and torques (k,) in N m in which the robot waits at time 0.
-        feet: Where the feet are at the start.
+        stance: Joint angles (k,) in rad and torques (k,) in N m at time 0.
+        feet: The feet at the start.
         steps: The footsteps to take, in order, world frame.
         end: Time in s at which the built-in controller has ended the walk; a run is cut off at 1.5 times that.
-        walk: The gait as a scene's [walk] table states it.
+        walk: A scene's [walk] table.
     """
 
     robot: str
@@ -48,12 +48,12 @@ class WalkTask:
 
 
 class Action(NamedTuple):
-    """What a policy asks of the leg joints.
+    """Demand of a policy on the leg joints.
 
     Attributes:
         angles: Joint angles (k,) in rad.
-        torques: Feed-forward torques (k,) in N m, on top of the servos'; None for none.
-        moved: Footsteps that it has moved on purpose: the judge asks whether ground or a push justify it.
+        torques: Feed-forward torques (k,) in N m, on top of the servos'; or None.
+        moved: Footsteps moved on purpose, if ground or a push justify it.
     """
 
     angles: NDArray[np.float64]
@@ -62,17 +62,13 @@ class Action(NamedTuple):
 
 
 class Policy(Protocol):
-    """A controller or a learned policy, made anew for each trial by the `make_policy(task)` of its file."""
+    """A controller or a learned policy, made for each trial by the `make_policy(task)` of its file."""
 
     def step(self, sensors: Sensors) -> Action:
-        """One control tick.
+        """The action of a control tick.
 
-        Args:
-            sensors: Time in s, joint angles (k,) in rad, gyro (3,) in rad/s, accelerometer (3,) in m/s^2, and a
-                `Reading` of each sole.
-
-        Returns:
-            The action.
+        `sensors` holds time in s, joint angles (k,) in rad, gyro (3,) in rad/s, accelerometer (3,) in m/s^2, and a
+        `Reading` of each sole.
         """
 
 
@@ -90,13 +86,7 @@ class OwnController:
 
 
 def load_policy(path: str | os.PathLike[str]) -> Any:
-    """The `make_policy` of a Python file. The file's code runs.
-
-    Args:
-        path: The file.
-
-    Returns:
-        The function.
+    """Run a Python file and return its `make_policy`.
 
     Raises:
         InputError: If there is no such file, it cannot be run, or has no function `make_policy`.

@@ -1,4 +1,4 @@
-"""The trials: ground and pushes in units of the robot, so that rows of different robots compare."""
+"""Ground and pushes in units of the robot, so that robots compare."""
 
 from __future__ import annotations
 
@@ -56,15 +56,7 @@ TRIALS = tuple(_trials())
 
 
 def scene_of_trial(trial: Trial, robot: str) -> Scene:
-    """The scene of a trial; readings of the soles arrive one period late.
-
-    Args:
-        trial: The trial.
-        robot: Name or file of the robot.
-
-    Returns:
-        The scene.
-    """
+    """Returns the scene of a `trial` for a `robot`; readings of the soles arrive one period late."""
     name = f"{trial.kind}-{trial.value:g}"
     source = {"name": name, "sensing": {"delay_periods": 1}, **trial.tables}
     return scene_of(source, Path(f"{name}.toml"), (), robot)

@@ -1,4 +1,4 @@
-"""The page of `plantar bench all`: what the benchmarks found, for readers who are new to the project."""
+"""The page of `plantar bench all`, for readers who are new to the project."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ def bench_page(result: Mapping[str, Any], figures: Mapping[str, bytes] | None = 
     """The page.
 
     Args:
-        result: What the parts of `plantar bench` gave, by name: "kernels", "contact", "skip", "scenes" and "papers",
-            each of which may be missing; "made" has date, version, machine and whether the run was quick.
-        figures: PNG files by part, for the parts that have one.
+        result: Results by part: "kernels", "contact", "skip", "scenes" and "papers", each of which may be missing;
+            "made" has date, version, machine and whether the run was quick.
+        figures: PNG files by part.
 
     Returns:
         HTML that refers to no other file and no network.
@@ -91,7 +91,7 @@ def _tiles(result: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 class _Headline(NamedTuple):
-    """A kernel and the fastest other route, at the size where that does best; times in us."""
+    """A kernel and the fastest other route, where that does best; times in us."""
 
     kernel: str
     size: str
@@ -175,12 +175,12 @@ def _error(value: float | None) -> str:
 
 
 def _bar(share: float, kind: str) -> str:
-    """A bar as long as a share of the longest, hidden from screen readers, which read the number next to it."""
+    """A bar as long as a share of the longest, hidden from screen readers."""
     return f'<span class="bar {kind}" style="width:{100 * min(max(share, 0.005), 1.0):.1f}%" aria-hidden="true"></span>'
 
 
 def _bars_row(name: str, cells: Sequence[str], bars: Sequence[tuple[float, str]]) -> str:
-    """A row whose last cell has bars, one below the other."""
+    """A row whose last cell has bars."""
     drawn = "".join(_bar(share, kind) for share, kind in bars)
     return row(name, cells).replace("</tr>", f'<td class="bars">{drawn}</td></tr>')
 

@@ -1,4 +1,4 @@
-"""The end of `plantar bench all`: scenes and the papers' experiments, and the page of all that was measured."""
+"""The end of `plantar bench all`: scenes, the papers' experiments, and the page."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ Progress = Callable[[float, str], None]
 def measure_page(
     folder: Path, before: Path, progress: tuple[Progress, Progress], result: Mapping[str, Any], quick: bool
 ) -> dict[str, Any]:
-    """Measure what is left, and write bench.html.
+    """Measure scenes and papers, and write bench.html.
 
     Args:
-        folder: Where to write; exists.
-        before: Folder of an earlier run, whose table of scene runs is gone on with; it need not exist.
-        progress: Called with the fraction done and a text: for the scenes, and for the papers' experiments.
-        result: What the other parts gave, by name.
+        folder: Existing folder.
+        before: Folder of an earlier run, whose table of scene runs is continued.
+        progress: Called with the fraction done and a text: for scenes, and for papers.
+        result: Results of the other parts, by name.
         quick: Leave out the long experiments.
 
     Returns:
-        "scenes", "papers" and "made": what this adds to the result, each with the names of its files.
+        "scenes", "papers" and "made", each with the names of its files.
     """
     if (before / TABLE).is_file():
         shutil.copy(before / TABLE, folder / TABLE)

@@ -1,4 +1,4 @@
-"""Experiments of the papers, done once in simulation, and the figures that the papers print."""
+"""Experiments of the papers in simulation, and the figures that the papers print."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ _SEED = 1000  # a fresh one: nothing was ever tuned on it
 
 @dataclass(frozen=True)
 class Experiment:
-    """A run of a scene, and what a paper states of the same on a real robot.
+    """A run of a scene, and a paper's figures of the same on a real robot.
 
     Attributes:
         scene: Name of the scene.
         robot: Name of the robot.
-        settings: What is changed of it.
-        printed: Figures that the paper prints, by name: "mean impact", "largest impact" and "impact on the slab" in N,
-            "largest difference" of two ZMPs in mm, "steps" done.
+        settings: Changes of the scene.
+        printed: The paper's figures by name: "mean impact", "largest impact" and "impact on the slab" in N, "largest
+            difference" of two ZMPs in mm, "steps" done.
         fell: Whether the paper's robot fell.
         long: Whether a quick run leaves it out.
     """
@@ -88,16 +88,11 @@ EXPERIMENTS: tuple[Experiment, ...] = (
 def measure_papers(
     progress: Callable[[float, str], None], experiments: Sequence[Experiment] = EXPERIMENTS, quick: bool = False
 ) -> dict[str, Any]:
-    """Do the experiments.
-
-    Args:
-        progress: Called with the fraction done and a text.
-        experiments: Which.
-        quick: Leave out the long ones.
+    """Run the `experiments`, without the long ones if `quick`; `progress` gets the fraction done and a text.
 
     Returns:
-        "experiments": for each what was done, the paper's figures and its source, ours by the same names, and whether
-        each robot fell; as plain JSON values. "files": none.
+        "experiments": each with the paper's figures and source, ours by the same names, and whether each robot fell;
+        plain JSON values. "files": none.
     """
     kept = [e for e in experiments if not (quick and e.long)]
     found = []
@@ -122,7 +117,7 @@ def measure_papers(
 
 
 def _figure(name: str, summary: Mapping[str, Any]) -> float | None:
-    """A figure of a run by the name that it has in the papers; None where there is none."""
+    """A figure of a run by its name in the papers, or None."""
     impacts = summary["impacts_N"]
     match name:
         case "mean impact":

@@ -1,4 +1,4 @@
-"""A scene as a `SceneSetting` has it, and what its body and the ground did in it."""
+"""A scene with a `SceneSetting`, and the motion and ground forces in it."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _SILENT = ("force", "proximity", "encoder", "gyro", "accelerometer")
 
 
 class _SpheresBelow:
-    """Spheres that each sole stands on instead of its box; a visitor of the world."""
+    """Spheres instead of each sole's box; a visitor of the world."""
 
     def __init__(self, robot: Robot, count: int) -> None:
         self._robot, self._count = robot, count
@@ -45,7 +45,7 @@ class _SpheresBelow:
         return [f"{side}_point_{i}" for i in range(self._count * len(self._robot.layouts[side]))]
 
     def add_to(self, spec: Any) -> None:
-        """Put them under the boxes, which touch nothing any more."""
+        """Put them under the boxes, which no longer touch."""
         for side in SIDES:
             box, layout = spec.geom(f"{side}_sole_box"), self._robot.layouts[side]
             site = spec.site(self._robot.legs[side].sole_site)
@@ -62,11 +62,11 @@ class _SpheresBelow:
 
 
 class ChangedRun(Simulation):
-    """A scene, run as a setting has it.
+    """A scene, run with a setting.
 
     Args:
-        walk: Settings of the scene that hold in every run, such as a number of steps.
-        noisy: Whether sensors have the scene's noise; without, two runs differ by nothing but the setting.
+        walk: Settings of the scene in every run, such as a number of steps.
+        noisy: Whether sensors have the scene's noise.
     """
 
     def __init__(
@@ -80,11 +80,7 @@ class ChangedRun(Simulation):
             self.world.model.opt.iterations = setting.iterations
 
     def build_world(self, others: Sequence[Visitor]) -> World:
-        """The world with the setting's contacts.
-
-        Args:
-            others: Who else is in it.
-        """
+        """The world with the setting's contacts and `others`."""
         setting = self._setting
         spheres = _SpheresBelow(self.robot, setting.points) if setting.points else None
         world = super().build_world(others if spheres is None else (*others, spheres))
@@ -104,7 +100,7 @@ class ChangedRun(Simulation):
 
 
 def _layouts(robot: Robot, ratio: float) -> dict[Side, SoleLayout]:
-    """The robot's soles with taxels of another area, each laid out as far as the sole's outline reaches."""
+    """The robot's soles with taxels of another area."""
     found = {}
     for side in SIDES:
         own = robot.layouts[side]
@@ -115,15 +111,15 @@ def _layouts(robot: Robot, ratio: float) -> dict[Side, SoleLayout]:
 
 @dataclass(frozen=True)
 class Trace:
-    """What truly happened in a run, in k means over 10 ms each.
+    """True motion and forces of a run, in k means over 10 ms each.
 
     Attributes:
         com: Centre of mass (k, 3) in m.
-        zmp: Zero moment point (k, 2) of the mean wrench in m; NaN where nothing carried the robot.
+        zmp: Zero moment point (k, 2) of the mean wrench in m, or NaN.
         force: Vertical ground force (k, 2) on the left and the right sole in N.
         landings: Side, time in s and largest force in N of each landing.
-        leg: Length of the robot's legs in m.
-        weight: Its weight in N.
+        leg: Length of the legs in m.
+        weight: In N.
     """
 
     com: NDArray[np.float64]
@@ -138,7 +134,7 @@ class TracedRun(ChangedRun):
     """A changed run whose motion and ground forces are kept.
 
     Attributes:
-        keeping_s: CPU time in s that this took of the run.
+        keeping_s: CPU time in s of keeping them.
     """
 
     def __init__(self, *args: Any, **named: Any) -> None:
@@ -179,7 +175,7 @@ class TracedRun(ChangedRun):
         self._landings = tuple(zip(*named, strict=True))
 
     def trace(self) -> Trace:
-        """What happened; after the run."""
+        """The trace, after the run."""
         com, wrench, force = (np.array(part) for part in zip(*self._rows, strict=True))
         fz = np.where(wrench[:, 2] > _CARRIED * self.body.weight, wrench[:, 2], np.nan)
         height = self.scene.terrain.height

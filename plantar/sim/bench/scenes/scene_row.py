@@ -1,4 +1,4 @@
-"""What a setting costs and how far it is from its reference, and whether the scene's own should stay."""
+"""Cost and error of a setting, and whether the scene's own should stay."""
 
 from __future__ import annotations
 
@@ -23,21 +23,19 @@ class SceneRow:
     """A setting of a scene next to its reference. Medians; NaN for what was not measured.
 
     Attributes:
-        scene: Name of the scene.
-        robot: Name of the robot.
         walk: Settings of the scene in all runs.
         setting: Name of the setting.
         against: Name of the setting that it is compared with.
-        machine: Whether it is another robot, not another way to compute the same one.
+        machine: Whether it is another robot.
         cpu: CPU time in s of a simulated second.
         ratio: That over the scene's own, of runs with the same seed.
-        com_mm: Error of the centre of mass in mm until the runs part, root mean square.
+        com_mm: Root mean square error of the centre of mass in mm until the runs part.
         zmp_mm: The same of the zero moment point.
         force: The same of the ground forces, over the weight.
         impact: The same of the landings' impacts, over the reference's.
-        together: Share of the walk until the runs part; 1 where they never do.
+        together: Share of the walk until the runs part.
         walked: Whether the run without noise was completed.
-        completed: Of the runs with noise, how many were.
+        completed: How many of the runs with noise were.
         impact_N: Impact of a landing in N: median of a run's landings, and of the runs.
         margin_mm: Smallest distance in mm of ZMP and edge of support in a run.
     """
@@ -64,7 +62,7 @@ class SceneRow:
     margin_mm: float
 
     def within(self, other: SceneRow) -> bool:
-        """Whether it walks, and no error is above another row's."""
+        """Whether it walks, with no error above another row's."""
         pairs = ((self.com_mm, other.com_mm), (self.zmp_mm, other.zmp_mm), (self.force, other.force))
         return self.walked and self.completed == self.seeds and self.together == 1.0 and all(a <= b for a, b in pairs)
 
@@ -74,11 +72,7 @@ class SceneRow:
 
 
 def scene_rows(runs: Runs) -> list[SceneRow]:
-    """Sum up runs.
-
-    Returns:
-        A row for each scene, robot, setting and reference that has a run without noise.
-    """
+    """Sum up runs: a row for each scene, robot, setting and reference with a run without noise."""
     cases = list(dict.fromkeys((r["scene"], r["robot"], r["walk"]) for r in runs))
     order = {setting.name: number for number, setting in enumerate(SETTINGS)}
     rows = []
@@ -141,14 +135,7 @@ _WORTH = 0.95  # of the time: a setting that saves less than a twentieth is no r
 
 
 class KnobVerdict(NamedTuple):
-    """What the rows of one knob show.
-
-    Attributes:
-        scene: Name of the scene.
-        robot: Name of the robot.
-        stays: Whether the scene's own value is confirmed.
-        reason: Why, in words.
-    """
+    """Whether the scene's own value of a knob `stays`, and the `reason` in words."""
 
     scene: str
     robot: str
@@ -158,14 +145,11 @@ class KnobVerdict(NamedTuple):
 
 
 def knob_verdicts(rows: Sequence[SceneRow]) -> list[KnobVerdict]:
-    """Compare the values of each knob of each scene with what sensor noise does to the same walk.
+    """A verdict for each knob of each scene and robot that has a row of noise.
 
     A value is good enough where it walks and is no farther from its reference than noise moves the walk. The scene's
-    own is kept where it is good enough and no such value saves a twentieth of the time. Knobs of the machine are
-    always kept, as the papers' robots have them.
-
-    Returns:
-        A verdict for each knob of each scene and robot that has a row of noise.
+    own is kept where it is good enough and no such value saves a twentieth of the time. Knobs of the machine are always
+    kept, as the papers' robots have them.
     """
     found = []
     for case in dict.fromkeys((r.scene, r.robot, r.walk) for r in rows):

@@ -1,4 +1,4 @@
-"""The single runs behind `plantar bench scenes`: a table that grows by a row a run, and goes on where it was left."""
+"""The single runs of `plantar bench scenes`, in a growing table."""
 
 from __future__ import annotations
 
@@ -28,13 +28,7 @@ with noise next to itself without), or "seeded" (with noise, for the statistics)
 
 
 class SceneCase(NamedTuple):
-    """A walk that is run in many ways.
-
-    Attributes:
-        scene: Name of the scene.
-        robot: Name of the robot.
-        walk: Settings of the scene in all runs.
-    """
+    """A walk that is run in many ways, with the settings `walk` in all runs."""
 
     scene: str
     robot: str
@@ -42,10 +36,7 @@ class SceneCase(NamedTuple):
 
 
 class SceneRuns:
-    """The table of runs in a folder, and the runs that are still missing in it.
-
-    Args:
-        folder: Where the table is or will be.
+    """The table of runs in a folder, and the missing runs.
 
     Raises:
         InputError: If the file is no such table.
@@ -68,13 +59,13 @@ class SceneRuns:
         traced: int,
         progress: Callable[[float, str], None],
     ) -> None:
-        """Run what is missing. Settings take turns, so that a busy minute of the machine falls on all of them.
+        """Run what is missing, settings in turn, so that a busy minute falls on all of them.
 
         Args:
             cases: The walks.
             settings: How each is run.
-            seeds: Seeds of each.
-            traced: With how many of the seeds, the first ones, motions are compared.
+            seeds: Of each.
+            traced: Number of first seeds whose motions are compared.
             progress: Called with the fraction done and a text.
         """
         have = {_key(row) for row in self.rows}
@@ -108,7 +99,7 @@ class SceneRuns:
         }
 
     def _traced(self, case: SceneCase, setting: SceneSetting, seed: int) -> tuple[dict[str, Any], Trace]:
-        """What a run without noise costs and does; kept, since several are compared with it."""
+        """Cost and trace of a run without noise; kept for several comparisons."""
         key = (case, setting.name, seed)
         if key not in self._traces:
             self._traces = {k: v for k, v in self._traces.items() if k[0] == case and k[2] == seed}
@@ -165,7 +156,7 @@ def _of_seed(settings: Sequence[SceneSetting], first: bool) -> list[SceneSetting
 
 
 def _costs(run: ChangedRun) -> dict[str, Any]:
-    """Run, and return its cost without building the world and keeping its motion, and how it ended."""
+    """Run, and return its CPU time without building the world and keeping its motion, and its end."""
     start = time.process_time()
     summary = run.run()
     used = time.process_time() - start - (run.keeping_s if isinstance(run, TracedRun) else 0.0)

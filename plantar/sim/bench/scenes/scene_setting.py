@@ -15,14 +15,14 @@ class SceneSetting:
     """One way to run a scene.
 
     Attributes:
-        value: What it is set to, in words.
-        settings: Settings of the scene, as `key=value`.
-        contact_time: Time constant in s that contacts keep; None for the world's own.
-        iterations: Most iterations of MuJoCo's solver; None for the simulator's own.
+        value: In words.
+        settings: Of the scene, as `key=value`.
+        contact_time: Time constant in s of contacts; None for the world's own.
+        iterations: Most iterations of MuJoCo's solver, or None.
         points: Spheres a taxel that each sole stands on; 0 for its box.
         cell_ratio: Area of the taxels over that of the robot's own.
         against: Name of the setting that it is compared with.
-        machine: Whether it is another robot (its skin, its clock), not another way to compute the same one.
+        machine: Whether it is another robot (its skin, its clock).
         quick: Whether it is part of a quick run.
         costly: Whether it is run with the first seed only.
     """
@@ -123,10 +123,7 @@ SETTINGS: tuple[SceneSetting, ...] = (
 
 
 def setting_named(name: str) -> SceneSetting:
-    """The setting of a name.
-
-    Raises:
-        KeyError: If there is none.
+    """The setting of a name; a KeyError for none.
 
     Example:
         >>> setting_named("skin rate: 125 Hz").against

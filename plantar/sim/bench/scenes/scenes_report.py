@@ -1,4 +1,4 @@
-"""`plantar bench scenes`: run walks in many ways, and write what each way costs and how far off it is."""
+"""`plantar bench scenes`: cost and error of walks in many settings."""
 
 from __future__ import annotations
 
@@ -36,15 +36,14 @@ def measure_scenes(
     robots: Sequence[str] = (),
     quick: bool = False,
 ) -> dict[str, Any]:
-    """Run what is missing in the folder's scene_runs.csv, and write scenes.md, scenes.csv and scenes.png again.
+    """Run what is missing in the folder's scene_runs.csv, and write scenes.md, scenes.csv and scenes.png.
 
     Args:
-        folder: Where the table is; made where it is not there.
+        folder: Of the table; made if needed.
         progress: Called with the fraction done and a text.
-        scenes: Names of the scenes to run; all of `CASES` where empty.
-        robots: Names of the robots to run them with; likewise.
-        quick: Run the settings that show most, with one seed, and of the walks H1's on flat ground unless others are
-            named.
+        scenes: Names of the scenes; all of `CASES` where empty.
+        robots: Names of the robots; likewise.
+        quick: Run the most informative settings with one seed, by default of H1 on flat ground.
 
     Returns:
         Rows and verdicts as plain JSON values, and the names of the files.
@@ -62,7 +61,7 @@ def measure_scenes(
 
 
 def write_scenes(folder: Path, runs: Sequence[dict[str, str]]) -> dict[str, Any]:
-    """Write into `folder` what `runs` (rows of `SceneRuns`, one at least) give; returns as `measure_scenes`."""
+    """Write the results of `runs` (rows of `SceneRuns`, one at least) into `folder`; returns as `measure_scenes`."""
     rows = scene_rows(runs)
     verdicts = knob_verdicts(rows)
     write_rows(folder / "scenes.csv", [row.as_dict() for row in rows])
@@ -90,7 +89,7 @@ _SHOWN = {"ratio": (".2f", 7), "com_mm": (".3f", 9), "zmp_mm": (".2f", 9), "forc
 
 
 def scenes_text(result: Mapping[str, Any]) -> str:
-    """The main figures for people."""
+    """The main figures as text."""
     lines = [f"{'scene':10}{'robot':9}{'setting':34}{'time':>7}{'CoM mm':>9}{'ZMP mm':>9}{'force':>8}  walked"]
     for row in result["rows"]:
         if row["setting"] == row["against"]:

@@ -17,15 +17,15 @@ _SAME_LANDING = 0.05  # s between landings of two runs that are the same landing
 
 
 class TraceError(NamedTuple):
-    """Differences up to the time at which the runs part; root mean squares.
+    """Root mean square differences up to the time at which the runs part.
 
     Attributes:
         com_m: Of the centre of mass in m.
         zmp_m: Of the zero moment point in m.
         force: Of the vertical forces on both soles, over the body's weight.
-        impact: Of the impacts of the landings until then, over the reference's; NaN where none is common.
+        impact: Of the landings' impacts until then, over the reference's; NaN for none.
         together_s: Time in s until the runs part, or end.
-        whole_s: Time in s that the reference has.
+        whole_s: Time in s of the reference.
     """
 
     com_m: float
@@ -37,17 +37,10 @@ class TraceError(NamedTuple):
 
 
 def trace_error(trace: Trace, reference: Trace) -> TraceError:
-    """Compare a run with its reference.
+    """Returns how a run's `trace` differs from its `reference` of the same seed, without noise.
 
-    Two runs that differ in the last digit may decide differently about a footstep, so differences count until the
-    centers of mass are `PARTED` of the leg apart.
-
-    Args:
-        trace: The run.
-        reference: The reference, with the same seed and without noise.
-
-    Returns:
-        The differences.
+    Runs that differ in the last digit may decide differently about a footstep, so differences count until the centers
+    of mass are `PARTED` of the leg apart.
 
     Example:
         >>> import numpy as np

@@ -1,1 +1,1 @@
-"""The whole loop under odd circumstances: random short runs in which nothing may raise, and no command be nonsense."""
+"""Random short runs of the whole loop in which no error may be raised and no command be nonsense."""

@@ -1,4 +1,4 @@
-"""What a command must never be, for any reading of the sensors."""
+"""Limits of a command for any reading of the sensors."""
 
 from __future__ import annotations
 
@@ -17,11 +17,7 @@ _LIFTED = 0.02  # leg that a target may jump by at once: where a foot touches do
 
 
 class CommandCheck:
-    """Looks at each command of a run.
-
-    Args:
-        period: Control period in s.
-    """
+    """Checks each command of a run with a control `period` in s."""
 
     def __init__(self, body: BodyScale, period: float) -> None:
         self._body = body
@@ -29,15 +25,7 @@ class CommandCheck:
         self._last: list[NDArray[np.float64]] | None = None
 
     def fault(self, command: Command, joints: NDArray[np.float64]) -> str | None:
-        """What is wrong with a command.
-
-        Args:
-            command: The command of a tick.
-            joints: The joint angles (k,) in rad that came of it.
-
-        Returns:
-            What it is in words; None where nothing is.
-        """
+        """Returns what is wrong with a `command` and the `joints` (k,) in rad that follow, in words, or None."""
         feet = [command.feet[side] for side in SIDES]
         every = {
             "CoM": command.com,

@@ -1,4 +1,4 @@
-"""One walk or stand on flat ground in a control loop of one's own, with a fault."""
+"""One walk or stand on flat ground in a separate control loop, with a fault."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class FaultRun(Record, frozen=True):
     """Outcome of a run.
 
     Attributes:
-        jump: Largest move of a target in a tick, as a multiple of that of an undisturbed walk.
-        state: The named state that it came to; None if it went on.
+        jump: Largest move of a target in a tick, over that of an undisturbed walk.
+        state: The named state that it came to, or None.
         after: Time in s from the fault to that state.
         upright: Whether the robot is on its feet at the end.
     """
@@ -35,13 +35,8 @@ class FaultRun(Record, frozen=True):
 
 
 def run_with_fault(robot: str, walking: bool, fault: str, *, shell: bool = True) -> FaultRun:
-    """Returns what a fault does.
-
-    Args:
-        robot: "h1" or "hrp2kai".
-        walking: Whether the robot walks when it begins, or stands.
-        fault: Name of one of `named_faults.FAULTS`.
-        shell: Whether the safety shell guards the controller.
+    """Returns the outcome of a `fault` of `named_faults.FAULTS` on a `robot` ("h1" or "hrp2kai"), `walking` or
+    standing, with or without the safety `shell`.
     """
     settings = ["steps=6", "settle=0.5"] if walking else ["steps=1", "settle=4"]
     parts, change = Simulation(load_scene("flat", settings, robot)), FAULTS[fault]()

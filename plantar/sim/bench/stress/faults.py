@@ -1,4 +1,4 @@
-"""What sensors do wrong in a stress run, between the body and the controller."""
+"""Faults of the sensors in a stress run."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ __all__ = ["Faults", "FaultySensors"]
 
 @dataclass(frozen=True)
 class Faults:
-    """Faults of a run's sensors; by default none. At the first tick encoders and IMU are there: no robot starts blind.
+    """Faults of a run's sensors; by default none. At the first tick encoders and IMU are there.
 
     Attributes:
-        dropped: Share of the ticks at which a sole's packet is lost, and the one before stands.
-        jitter: Standard deviation in s of the time that a reading states, about the true one.
-        stuck: Share of each sole's taxels that hold the first value they had.
+        dropped: Share of the ticks at which a sole's packet is lost, and the one before stays.
+        jitter: Standard deviation in s of a reading's time.
+        stuck: Share of each sole's taxels that hold their first value.
         silent: Share of the ticks at which all taxels of a sole read NaN.
         missing: Share of the ticks at which encoders and IMU read NaN.
         lost_after: Time in s from which on encoders and IMU read NaN for good; negative for never.
         saturated: Share of the ticks at which a sole's loaded taxels read their limit.
         single: Whether all numbers arrive as float32.
-        named: Name of one of `named_faults.FAULTS` as well; empty for none.
+        named: Name of one of `named_faults.FAULTS`, or empty.
         begins: Time in s at which that one begins.
     """
 
@@ -63,12 +63,7 @@ _SHARES = ("dropped", "stuck", "silent", "missing", "saturated")
 
 
 class FaultySensors:
-    """Makes of what the sensors show what arrives of it.
-
-    Args:
-        limit: Force in N at which a taxel of each sole is saturated.
-        seed: Seed of what is left to chance.
-    """
+    """Applies faults to sensors; `limit` in N saturates a taxel, `seed` draws the rest."""
 
     def __init__(self, faults: Faults, limit: Mapping[Side, float], seed: int) -> None:
         self.faults = faults
@@ -80,7 +75,7 @@ class FaultySensors:
         self._named: Fault | None = FAULTS[faults.named]() if faults.named else None
 
     def passed(self, sensors: Sensors) -> Sensors:
-        """What arrives of the readings of one tick."""
+        """The readings of one tick with their faults."""
         f, rng = self.faults, self._rng
         readings = {side: self._sole(side, sensors.readings[side]) for side in SIDES}
         changed: dict[str, Any] = {"readings": readings}
@@ -99,7 +94,6 @@ class FaultySensors:
         return passed if self._named is None or since < 0.0 else self._named(passed, since)
 
     def _sole(self, side: Side, reading: Reading) -> Reading:
-        """What arrives of one sole's reading."""
         f, rng = self.faults, self._rng
         if side in self._last and f.dropped and rng.random() < f.dropped:
             return self._last[side]

@@ -1,4 +1,4 @@
-"""Faults by name of time, sensors and ticks: functions of a reading and the time in s since the fault began."""
+"""Faults of time, sensors and ticks by name: functions of a reading and the time in s since the fault began."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a stress run draws: a scene, a robot, settings within their ranges, a place in the world and faulty sensors."""
+"""A stress run: a scene, a robot, settings within their ranges, a place in the world and faulty sensors."""
 
 from __future__ import annotations
 
@@ -63,15 +63,15 @@ _RATES = ("sensing.skin_rate", (50.0, 125.0, 250.0, 1000.0)), ("control.period",
 
 @dataclass(frozen=True)
 class Scenario:
-    """One stress run; it is the same each time it is made from the same values.
+    """One stress run, determined by its values.
 
     Attributes:
-        number: Its number, which is the seed that it was drawn with; also that of the run.
+        number: The seed that drew it, and that of the run.
         scene: Name of a scene.
         robot: Name of a robot.
-        settings: What is changed of the scene, as `key=value`.
-        place: Where the walk begins: x and y in m, and heading in rad.
-        faults: What its sensors do wrong.
+        settings: Changes of the scene, as `key=value`.
+        place: Start of the walk: x and y in m, and heading in rad.
+        faults: Of its sensors.
     """
 
     number: int
@@ -82,25 +82,19 @@ class Scenario:
     faults: Faults = field(default_factory=Faults)
 
     def as_dict(self) -> dict[str, Any]:
-        """The scenario as plain JSON values, from which `from_dict` makes it again."""
+        """Plain JSON values for `from_dict`."""
         return asdict(self)
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Scenario:
-        """A scenario from what `as_dict` gave."""
+        """A scenario from the values of `as_dict`."""
         known = dict(values)
         known["settings"], known["place"] = tuple(known.get("settings", ())), tuple(known.get("place", (0.0, 0.0, 0.0)))
         return cls(**known | {"faults": Faults(**known.get("faults", {}))})
 
 
 def draw_scenario(number: int) -> Scenario:
-    """Draw a scenario.
-
-    Args:
-        number: Which one; each number always draws the same.
-
-    Returns:
-        The scenario. Its settings are within their ranges one by one; together a scene may refuse them.
+    """The scenario of a number; its settings are within their ranges, but a scene may refuse them together.
 
     Example:
         >>> draw_scenario(7) == draw_scenario(7), draw_scenario(7) == draw_scenario(8)
@@ -131,7 +125,7 @@ def draw_scenario(number: int) -> Scenario:
 
 
 def _drawn(kind: type[Any], rng: np.random.Generator, chance: float) -> dict[str, str]:
-    """Some of a table's numbers, each anywhere in its range: at either end now and then."""
+    """Some of a table's numbers, each in its range, now and then at an end."""
     found: dict[str, str] = {}
     for setting in fields(kind):
         low, high = (float(setting.metadata.get(end, math.nan)) for end in ("low", "high"))

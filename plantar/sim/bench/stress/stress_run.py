@@ -1,4 +1,4 @@
-"""One stress run: a scenario from its beginning to its end, a fall, or a failure."""
+"""One stress run, to its end, a fall, or a failure."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ class Outcome(NamedTuple):
     """What came of a run.
 
     Attributes:
-        kind: "ended", "fell", "stopped" (the controller is in a safe state, whose name is given), "refused" (the scene
-            does not take the settings), "unstable" (the physics reports it), or one of `FAILURES`.
-        detail: In words what it was.
+        kind: "ended", "fell", "stopped" (the controller is in a safe state), "refused" (by the scene), "unstable" (by
+            the physics), or one of `FAILURES`.
+        detail: In words.
         time: Simulated time in s.
     """
 
@@ -47,11 +47,11 @@ class Outcome(NamedTuple):
 
 
 class _Faulty(Exception):
-    """A command that may not be."""
+    """A forbidden command."""
 
 
 class _StressedRun(Simulation):
-    """A simulation at its scenario's place, with its scenario's faults, whose commands are looked at."""
+    """A simulation at its scenario's place, with its faults, whose commands are checked."""
 
     def __init__(self, scenario: Scenario, longest: float) -> None:
         self._place, self._longest = scenario.place, longest
@@ -90,14 +90,8 @@ class _StressedRun(Simulation):
 
 
 def run_scenario(scenario: Scenario, longest: float = LONGEST) -> Outcome:
-    """Run a scenario.
-
-    Args:
-        scenario: The scenario.
-        longest: Simulated time in s after which it is over.
-
-    Returns:
-        What came of it. Nothing is raised but what ends the program.
+    """Returns what came of a `scenario`, cut off after the `longest` simulated time in s; raises only what ends the
+    program.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)

@@ -1,4 +1,4 @@
-"""Many stress runs, one after another: a table that grows by a row a run, and goes on where it was left."""
+"""Many stress runs, a row each in a growing table."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ _TABLE = "stress.csv"
 def measure_stress(
     folder: Path, count: int, first: int = 0, progress: Callable[[float, str], None] | None = None
 ) -> dict[str, Any]:
-    """Run scenarios and keep what came of each in stress.csv; those that stand there already are not run again.
+    """Run the scenarios that are not in stress.csv yet.
 
     Args:
-        folder: Where the table is; made where it is not there.
-        count: How many scenarios, 1 or more.
+        folder: Of the table; made if needed.
+        count: Number of scenarios, 1 or more.
         first: Number of the first one.
         progress: Called with the fraction done and a text.
 
     Returns:
-        How many there are of each outcome, the failures, and the table's name.
+        Counts of each outcome, the failures, and the table's name.
 
     Raises:
         InputError: If there is not at least one scenario, or the file is no such table.
@@ -64,7 +64,7 @@ def measure_stress(
 
 
 def stress_loop_text(result: dict[str, Any]) -> str:
-    """What came of the runs, for people."""
+    """The outcomes as text."""
     lines = [f"{result['scenarios']} scenarios from number {result['first']} on, {result['simulated_s']} s simulated"]
     lines += [f"{count:8} {outcome}" for outcome, count in result["outcomes"].items()]
     lines += [f"FAILED {r['number']}, {r['scene']}, {r['robot']}: {r['detail']}" for r in result["failures"]]

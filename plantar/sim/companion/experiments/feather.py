@@ -33,10 +33,10 @@ class FeatherSettings(Settings):
     """How visitors come.
 
     Attributes:
-        speed: Mean speed with which they come; each seed has its own.
-        beyond: How far they go beyond where the hand was.
-        moved: How far the hand has to be repelled at least.
-        early: How far the hand may have moved before a visitor is within the range.
+        speed: Mean speed; each seed has its own.
+        beyond: How far they go beyond the hand's first place.
+        moved: Least way of the repelled hand.
+        early: Largest way of the hand before a visitor is within the range.
     """
 
     speed: float = number(0.05, "m/s", 0.001, 1.0)
@@ -51,7 +51,7 @@ class FeatherControl(StandingControl):
     Attributes:
         proximity: Whether what is near repels it.
         range: Distance from which it does.
-        stiffness: Virtual force of one taxel a metre of range that is used up.
+        stiffness: Virtual force of one taxel per metre of used range.
     """
 
     proximity: bool = switch(True)
@@ -61,7 +61,7 @@ class FeatherControl(StandingControl):
 
 
 class Feather(StandingExperiment):
-    """Two visitors of one of the hands, each towards a taxel of palm or back of the seed. The order is T 3.3.1.1's."""
+    """Two visitors of one of the hands, each towards a random taxel of palm or back, in the order of T 3.3.1.1."""
 
     settings_type: ClassVar = FeatherSettings
     control_type: ClassVar = FeatherControl

@@ -35,7 +35,7 @@ _HALF_THICK = 0.02  # m of the object
 
 
 class ForceTrackingSettings(Settings):
-    """What happens. Windows are [begin, end] in s; empty where it does not happen.
+    """Windows are [begin, end] in s; empty for none.
 
     Attributes:
         duration: Simulated time.
@@ -44,8 +44,8 @@ class ForceTrackingSettings(Settings):
         distance: Wanted distance before contact.
         contact: Time at which the contact phase is activated; 0 for never.
         gap: Distance of hand and object at first.
-        pitch: Range in which the seed draws by how far the object leans back, in degrees; below 0 it hangs over.
-        yaw: Range in which the seed draws by how far it is turned about the vertical at first, in degrees.
+        pitch: Range of the object's lean back in degrees, drawn by the seed; below 0 it hangs over.
+        yaw: Range of its first turn about the vertical in degrees, drawn by the seed.
         circle: When the base is commanded along a circle.
         circle_radius: Its radius.
         swing: When the base is commanded to swing sideways.
@@ -53,7 +53,7 @@ class ForceTrackingSettings(Settings):
         touch_force: Range of these forces in N.
         person: Windows in which a person comes near the base.
         turn: When the object is turned about the vertical, and back.
-        turn_angle: By how much, in degrees.
+        turn_angle: In degrees.
         largest_free: Limit of the RMS error of the force without interactions; 0 for none.
         largest_disturbed: Limit of it with interactions; 0 for none.
         tolerance: Limit of the distance's error where the hand stays without contact.
@@ -138,7 +138,7 @@ class ForceTracking(Experiment):
         self._places: dict[str, NDArray[np.float64]] = {}
 
     def _pushes(self) -> list[Push]:
-        """Touches in pairs that undo each other: the same force, time and place, from opposite sides."""
+        """Touches in pairs that cancel: the same force, time and place, from opposite sides."""
         found: list[Push] = []
         for begin, end in self.settings.touch:
             time = begin
@@ -155,7 +155,7 @@ class ForceTracking(Experiment):
         return found
 
     def _visits(self) -> list[Visit]:
-        """The person comes from either side or from obliquely behind; in front stands the object."""
+        """The person comes from either side or obliquely from behind."""
         corners = np.array(self.machine.base.footprint, dtype=float)
         half = np.abs(corners).max(axis=0)
         found = []
@@ -204,7 +204,6 @@ class ForceTracking(Experiment):
         self._visitor.act(world, time)
 
     def _command_base(self, time: float) -> None:
-        """Wanted place of the base: on the circle, or at the swing."""
         s, rate = self.settings, 2.0 * math.pi / self.settings.base_period
         target, speed = self._posture.copy(), np.zeros(len(self._posture))
         for window, sizes in ((s.circle, (s.circle_radius, s.circle_radius)), (s.swing, (0.0, s.swing_amplitude))):
@@ -216,7 +215,7 @@ class ForceTracking(Experiment):
         self._hand.posture.target, self._hand.posture.target_velocity = target, speed
 
     def _place_object(self, world: World, time: float) -> None:
-        """The object's front goes through its pivot, and turns about the vertical there."""
+        """Turn the object about the vertical through its pivot, a point of its front."""
         turn = 0.0
         if self.settings.turn:
             begin, end = self.settings.turn
@@ -243,7 +242,6 @@ class ForceTracking(Experiment):
             self._judge_motion(world, sensor, time, force)
 
     def _judge_motion(self, world: World, sensor: SkinSensor, time: float, force: float) -> None:
-        """Where hand, base and person are, and how the hand is turned."""
         hand, rotation = world.pose("hand")
         middle, turned = world.pose("object")
         front = -turned[:, 0]
@@ -271,7 +269,7 @@ class ForceTracking(Experiment):
         return bool(0.0 < self.settings.contact <= time)
 
     def _counts(self, time: float) -> bool:
-        """Whether the force has to be right: the hand has landed."""
+        """Whether the force counts: the hand has landed."""
         return bool(time >= self.settings.contact + self.control.sigmoid + _SETTLING)
 
     def _disturbed(self, time: float) -> bool:

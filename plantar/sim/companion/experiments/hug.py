@@ -1,4 +1,4 @@
-"""Many hands press on a standing robot, and hug it: it yields to each and keeps its balance (T 3.2.3.1)."""
+"""Many hands press on a standing robot, and hug it; it yields and keeps its balance (T 3.2.3.1)."""
 
 from __future__ import annotations
 
@@ -13,10 +13,7 @@ _HANDS = ("hand palm", "hand back")
 
 
 class Hug(PressedExperiment):
-    """Pads press on all ten instances, one after the other; then those on torso, hips and arms press together.
-
-    The order of T 3.2.3.1: support and balance, self-collision, and last skin and posture together.
-    """
+    """Pads press on all ten instances in turn, then those on torso, hips and arms together (T 3.2.3.1)."""
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)

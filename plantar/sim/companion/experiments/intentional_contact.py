@@ -29,7 +29,7 @@ _MARGIN = 1.1  # of the tolerable force: what a run may have at most
 
 
 class ReachSettings(Settings):
-    """What has to be reached, and what stands around.
+    """Goal and surroundings.
 
     Attributes:
         duration: Longest simulated time.
@@ -41,7 +41,7 @@ class ReachSettings(Settings):
         far: Largest.
         least_angle: Least direction to the goal from the tip, counter-clockwise from x.
         largest_angle: Largest.
-        half_height: Half of the height of what stands around, whose middle is at the tip's height.
+        half_height: Half height of the obstacles, whose middle is at the tip's height.
         tolerance: Distance from the goal at which it is reached.
     """
 
@@ -111,12 +111,7 @@ class IntentionalContactExperiment(Experiment):
         return self._hand
 
     def act(self, world: World, time: float) -> None:
-        """Take note of what parts without skin press on the posts: MuJoCo's contacts are whole until the next step.
-
-        Args:
-            world: The world.
-            time: Time in s.
-        """
+        """Note the force of parts without skin on the posts in the `world` at `time` in s, before the next step."""
         posts = list(self._posts.values())
         found = feet_contacts(world.model, world.data, [{geom} for geom in posts])
         for name, contacts in zip(self._posts, found, strict=True):

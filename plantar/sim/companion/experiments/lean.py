@@ -1,6 +1,6 @@
-"""A robot leans on a table with one forearm and reaches out farther than its feet can hold, one of them on an edge.
+"""A robot leans on a table with one forearm and reaches farther than its feet can hold, one of them on an edge.
 
-The forearm is lowered until its skin measures the table; then it is a contact like the feet. The soles' taxels see
+The forearm is lowered until its skin measures the table; then it is a contact like the feet. The soles' taxels measure
 which part of them is on the ground.
 """
 
@@ -34,10 +34,10 @@ _OUTSIDE = 0.01  # m: by which the centre of mass has to be outside the polygon 
 
 
 class LeanSettings(Settings):
-    """What is leant on, and how far.
+    """Reach of the leaning robot.
 
     Attributes:
-        beyond: Distance by which the centre of mass goes beyond the front of the ground that the soles see.
+        beyond: Distance of the centre of mass beyond the front of the ground under the soles.
         reach: Distance of the left hand's target from the middle of the feet, forward.
     """
 
@@ -51,12 +51,12 @@ class LeanSettings(Settings):
 
     @property
     def hand_target(self) -> NDArray[np.float64]:
-        """Where (3,) the left hand reaches, from the middle of the feet in m."""
+        """Target (3,) of the left hand, from the middle of the feet in m."""
         return np.array([self.reach, 0.42, 1.15])
 
 
 class Lean(StandingExperiment):
-    """A table, ground under one sole and under 30 % of the other, and the load's way to the ground."""
+    """A table, ground under one sole and under 30 % of the other."""
 
     settings_type: ClassVar = LeanSettings
     control_type: ClassVar = LeanControl
@@ -74,7 +74,7 @@ class Lean(StandingExperiment):
         self._trace: list[tuple[float, ...]] = []
 
     def _first_posture(self) -> NDArray[np.float64]:
-        """The right forearm is held up, so that it comes down on the table from above."""
+        """The right forearm is raised above the table."""
         qpos = super()._first_posture()
         names = list(self.machine.joints)
         for joint, angle in (("right_shoulder_pitch", -20.0), ("right_elbow", 130.0)):

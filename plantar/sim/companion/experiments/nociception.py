@@ -1,4 +1,4 @@
-"""A pressure that hurts makes the robot give up its hand's pose: a seventh of the area needs a seventh of the force.
+"""A painful pressure makes the robot give up its hand's pose: a seventh of the area needs a seventh of the force.
 
 T 3.4.1.1: support; the right hand's position; its orientation; pressure-driven compliance; posture. Above 10 N of
 virtual force both tasks of the hand are dropped until it is calm again.
@@ -40,12 +40,12 @@ _PHASE, _HOLD, _REST = 5.0, 0.6, 2.0  # s: a probe's time, how long it goes on o
 
 
 class NociceptionSettings(Settings):
-    """What is asked of the reflex.
+    """Requirements of the reflex.
 
     Attributes:
-        tolerance: Deviation of the ratio of threshold forces from that of the areas that is allowed.
-        jump: Largest change of any joint's torque in one control period while priorities change, as a share of its
-            limit; noise of the sensors alone makes 8 %.
+        tolerance: Largest deviation of the ratio of threshold forces from that of the areas.
+        jump: Largest change of any joint's torque in one period while priorities change, as a share of its limit; noise
+            of the sensors alone makes 8 %.
         retreat: How far the hand has to give way.
     """
 
@@ -73,7 +73,7 @@ class NociceptionControl(StandingControl):
 
 @dataclass
 class _Probe:
-    """One probe, and at which true force the reflex came."""
+    """One probe, and the true force at which the reflex came."""
 
     pad: Pad
     taxels: int
@@ -126,7 +126,7 @@ class Nociception(StandingExperiment):
         return self._control
 
     def _before(self, robot: MujocoDynamics, measured: SkinReading) -> None:
-        """Let the reflex choose the tasks that count."""
+        """Let the reflex choose the tasks."""
         control = self._control
         assert control is not None
         strongest = [float(np.linalg.norm(w.wrench[:3])) for w in self._pressure.wrenches(measured)]
@@ -139,7 +139,6 @@ class Nociception(StandingExperiment):
         self.transition.begin(robot.time)
 
     def _after(self, torque: Any, time: float) -> Any:
-        """Let torques change smoothly with the priorities."""
         found = self.transition.blend(torque, time) if self.control.smooth else torque
         if self._last is not None and time - self._changed < _CHANGING:
             self._jump = max(self._jump, float((np.abs(found - self._last) / self.machine.efforts).max()))

@@ -39,11 +39,11 @@ _REST = 1.6  # s
 
 
 class PressureSettings(Settings):
-    """How hard the probes press.
+    """Force of the probes.
 
     Attributes:
         force: Mean force of both probes as a share of body weight; each seed has its own.
-        tolerance: Deviation from the area law that is allowed.
+        tolerance: Largest deviation from the area law.
     """
 
     force: float = number(0.028, "1", 0.001, 0.2)
@@ -67,7 +67,7 @@ class PressureControl(StandingControl):
 
 @dataclass
 class _Push:
-    """One probe: when it presses at most, and what came of it."""
+    """One probe: time of its largest force, and result."""
 
     pad: Pad
     begin: float
@@ -81,16 +81,16 @@ class _Push:
 
     @property
     def speed(self) -> float:
-        """Norm of the velocities of the waist's joints in rad/s, fitted in the window; NaN where there was none."""
+        """Norm of the velocities of the waist's joints in rad/s, fitted in the window, or NaN."""
         if len(self.times) < 2:
             return float("nan")
         return float(np.linalg.norm(np.polyfit(self.times, np.array(self.joints), 1)[0]))
 
 
 class Pressure(StandingExperiment):
-    """Two probes, in an order and at a place of the seed; the order of tasks is T 3.2.5.1's.
+    """Two probes in a random order and place, with T 3.2.5.1's order of tasks.
 
-    The balance holds the base: the torso then moves about the waist alone, and arms need not swing for it.
+    The balance holds the base: the torso then moves about the waist alone.
     """
 
     settings_type: ClassVar = PressureSettings

@@ -1,7 +1,7 @@
 """A hand that works over a hot plate draws back when its skin gets warm (T 3.3.2.1).
 
 The order is T's: support; temperature-driven compliance; the right hand's pose; posture. The posture also shares the
-level of heat, and draws the hand back: skin cools slowly, and a repelled hand would drift.
+level of heat: skin cools slowly, and a repelled hand would drift.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ _CIRCLE = 4.0  # s
 
 
 class StoveSettings(PlateSettings):
-    """The plate, and what is asked of the hand.
+    """Plate and limits.
 
     Attributes:
         limit: Temperature that no taxel may reach.
-        height: Mean height at which the palm works over the plate; each seed has its own.
+        height: Mean working height of the palm over the plate; each seed has its own.
         retreat: How far above its work the hand has to draw back.
         duration: Simulated time.
     """
@@ -55,10 +55,10 @@ class StoveSettings(PlateSettings):
 
 
 class StoveControl(StandingControl):
-    """How the machine shuns heat.
+    """Reaction to heat.
 
     Attributes:
-        temperature: Whether heat repels it.
+        temperature: Whether heat repels the machine.
         threshold: kappa_0 of T 3.34: temperature from which it does.
     """
 
@@ -69,7 +69,7 @@ class StoveControl(StandingControl):
 
 
 class Stove(StandingExperiment):
-    """The right palm circles over the plate at a height, a radius and from a side of the seed."""
+    """The right palm circles over the plate at a random height and radius, from a random side."""
 
     settings_type: ClassVar = StoveSettings
     control_type: ClassVar = StoveControl
@@ -132,7 +132,7 @@ class Stove(StandingExperiment):
         self._silent = silent
 
     def _target(self, time: float) -> Any:
-        """Wanted place (3,) of the palm at a time in s: on its way to the plate, then on a circle above it."""
+        """Wanted place (3,) of the palm: on its way to the plate, then on a circle above it."""
         share = min(1.0, max(0.0, (time - _BEGIN) / _WAY))
         angle = self._phase + 2.0 * math.pi * time / _CIRCLE
         circle = np.array([self._radius * math.cos(angle), self._radius * math.sin(angle), self.height])

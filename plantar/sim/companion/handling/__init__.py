@@ -1,1 +1,1 @@
-"""A hand that works on surfaces: its controller, who acts on the machine, and what is noted of it."""
+"""A hand that works on surfaces: controller, actors and record."""

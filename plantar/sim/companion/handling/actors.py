@@ -1,4 +1,4 @@
-"""Who acts on a machine: hands that push its links with a force, and a person who walks up to its base."""
+"""Hands that push a machine's links, and a person who walks up to its base."""
 
 from __future__ import annotations
 
@@ -28,16 +28,8 @@ _RAMP = 0.4  # s in which a push comes and goes
 
 
 def come_and_go(time: float, start: float, end: float, ramp: float) -> float:
-    """A share that goes from 0 to 1 after a start, and is back at 0 at an end, along minimum-jerk blends.
-
-    Args:
-        time: Time in s.
-        start: When it begins to grow in s.
-        end: When it is back at 0 in s.
-        ramp: How long it takes to come, and to go, in s.
-
-    Returns:
-        The share, 0 to 1.
+    """Returns a share, 0 to 1, at `time` that grows from `start` and is 0 again at `end`, each within `ramp`, in s, by
+    minimum-jerk blends.
 
     Example:
         >>> [come_and_go(t, 1.0, 5.0, 2.0) for t in (0.0, 2.0, 3.0, 4.0, 6.0)]
@@ -51,13 +43,13 @@ class Push:
     """One push on a link.
 
     Attributes:
-        start: When it begins in s.
-        end: When it ends in s.
+        start: In s.
+        end: In s.
         link: Body that is pushed.
         along: Place in m along the link's z axis.
         angle: Direction about it from which the push comes, in rad from the link's x axis.
         radius: Distance of the surface from the axis in m.
-        force: Force in N.
+        force: In N.
     """
 
     start: float
@@ -88,13 +80,7 @@ class Fist:
         shape.contype = shape.conaffinity = 0  # it pushes skin alone
 
     def act(self, world: World, time: float, measured: float) -> None:
-        """Move for a physics step.
-
-        Args:
-            world: The world.
-            time: Time in s.
-            measured: Force in N that it measures itself.
-        """
+        """Move in the `world` for a physics step at `time` in s, by its own `measured` force in N."""
         push = next((p for p in self.pushes if p.start <= time < p.end), None)
         place = world.model.body("fist").mocapid[0]
         if push is None:
@@ -119,10 +105,10 @@ class Visit:
     """One visit of a person.
 
     Attributes:
-        start: When it begins in s.
-        end: When the person is gone in s.
-        goal: Where (2,) in m the person stops, in the frame that the base has when the visit begins.
-        far: Where (2,) the person comes from, likewise.
+        start: In s.
+        end: In s.
+        goal: Nearest place (2,) in m, in the base's frame at the start.
+        far: First place (2,), likewise.
         speed: Walking speed in m/s.
     """
 
@@ -133,14 +119,14 @@ class Visit:
     speed: float
 
     def place(self, time: float) -> NDArray[np.float64]:
-        """Where (2,) in m the person is at a time in s, in that frame."""
+        """Place (2,) in m of the person at a time in s, in that frame."""
         way = float(np.linalg.norm(self.goal - self.far)) / self.speed
         near = come_and_go(time, self.start, self.end, way)
         return self.far + near * (self.goal - self.far)
 
 
 class Visitor:
-    """A person who walks up to the base, stops there and leaves: an upright cylinder that the distance sensors see."""
+    """A person who walks up to the base and leaves: an upright cylinder for the distance sensors."""
 
     def __init__(self, visits: list[Visit]) -> None:
         self.visits = visits
@@ -159,12 +145,7 @@ class Visitor:
         )
 
     def act(self, world: World, time: float) -> None:
-        """Move to where the person is.
-
-        Args:
-            world: The world.
-            time: Time in s.
-        """
+        """Move in the `world` to the place at `time` in s."""
         visit = next((v for v in self.visits if v.start <= time < v.end), None)
         place = np.array([-9.0, 0.0])
         if visit is None:

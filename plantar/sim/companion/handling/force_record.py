@@ -1,4 +1,4 @@
-"""What happens to a hand over time, and how it is drawn: in the manner of A's Figures 5 to 8."""
+"""What happens to a hand over time, drawn like A's Figures 5 to 8."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ class ForceRecord:
     """Samples of the truth.
 
     Attributes:
-        rows: Samples as they came: time, wanted and true force, distance, moment (3,), hand (3,), base (3,), tilt.
+        rows: Time, wanted and true force, distance, moment (3,), hand (3,), base (3,), tilt.
     """
 
     def __init__(self) -> None:
         self.rows: list[list[float]] = []
 
     def add(self, *values: float | Sequence[float] | NDArray[np.float64]) -> None:
-        """Add a sample: time, wanted force, true force, distance, moment, hand, base, tilt."""
+        """Add a sample, a row of `rows`."""
         self.rows.append(np.hstack(values).tolist())
 
     def plot(self, path: Path, title: str, windows: Mapping[str, Sequence[tuple[float, float]]], force: bool) -> Path:
@@ -36,7 +36,7 @@ class ForceRecord:
         Args:
             path: File of the figure.
             title: Its title.
-            windows: For each kind of interaction the times in s at which it begins and ends; shaded.
+            windows: Begin and end in s of each kind of interaction; shaded.
             force: Whether there is a contact phase, and the force is drawn.
 
         Returns:

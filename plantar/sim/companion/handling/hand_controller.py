@@ -38,19 +38,18 @@ class HandControl(CompanionControl):
     """Gains and switches of the hierarchy.
 
     The hand's skin is a spring of about 90 kN/m. An unknown force is corrected at the rate m force_gain force_integral,
-    20 1/s for m = 4 kg along the normal: two thirds of what a delay of two periods and the spring allow.
+    20 1/s for m = 4 kg along the normal: two thirds of the limit by a delay of two periods and the spring.
 
     Attributes:
-        approach_speed: Speed at which the hand comes near to the surface.
-        free_damping: D_1 / Lambda_1 while the hand measures nothing.
-        guidance_stiffness: Stiffness that keeps the hand's place before contact while the arm measures nothing:
-        critical,
-            D_3^2 / (4 Lambda_3); with 0 it drifts with errors of the arm's weight.
+        approach_speed: Speed of the hand towards the surface.
+        free_damping: D_1 / Lambda_1 while the hand measures zero.
+        guidance_stiffness: Stiffness that keeps the hand's place before contact while the arm is not touched; critical,
+            D_3^2 / (4 Lambda_3). At 0 it drifts with errors of the arm's weight.
         base_stiffness: K_c of the base along x and y, and in N m/rad about z.
         base_damping: D_c of the base likewise.
         wrist: Whether the wrist complies (ablation).
         avoidance: Whether the base avoids obstacles (ablation).
-        feed_forward: Whether the wanted force and the arm's contact forces are fed forward into the joints (ablation);
+        feed_forward: Whether wanted force and the arm's contact forces are fed forward into the joints (ablation);
             never where drives take no torques.
         priority: "strict", or "sum": torques of all tasks added (ablation).
     """
@@ -93,17 +92,17 @@ class HandControl(CompanionControl):
 
 
 class HandController:
-    """Controls distance or force of the hand, turns it to the surface, lets it be guided or keeps its place, and lets
-    body and base give way in what is left.
+    """Controls distance or force of the hand, turns it to the surface, and lets it be guided or keeps its place; base
+    and posture have the rest.
 
     Args:
-        machine: The machine: a mobile base, and patches "hand" on the hand's link and others on the arm.
+        machine: A mobile base, and patches "hand" on the hand's link and others on the arm.
 
     Attributes:
         force: First task: force or distance.
-        posture: Posture of the lowest level; its target and target velocity may be changed.
+        posture: Task of the lowest level; its target and target velocity may be changed.
         wanted_force: f_d in N.
-        phases: Which arrangement of tasks counts.
+        phases: The present arrangement of tasks.
     """
 
     def __init__(self, machine: Machine, skin: BodySkin, settings: HandControl) -> None:
@@ -154,7 +153,7 @@ class HandController:
         self.wanted_force = 0.0
 
     def _distance_stiffness(self) -> float:
-        """Newtons for a metre, so that the distance's error decays at its rate against the damping."""
+        """Newtons per metre, so that the distance's error decays at its rate against the damping."""
         s = self.settings
         return s.distance_rate * s.force_damping / s.force_gain
 
@@ -170,14 +169,8 @@ class HandController:
         self._keep_clear.obstacles = points
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Torque (k,) of each joint for the next control period.
-
-        Args:
-            robot: The machine as measured.
-            reading: What its skin states.
-
-        Returns:
-            Torques in N m and forces in N.
+        """Returns the torque (k,) in N m or N of each joint for the next period, by the `robot` as measured and its
+        skin's `reading`.
         """
         self.force.weight = self.wrist.weight = self.phases.weight(robot.time)
         self.force.target_force = self.wanted_force
@@ -187,7 +180,7 @@ class HandController:
         return self._change.blend(torque, robot.time)
 
     def _known(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64] | None:
-        """Generalized force (n,) that is known to act: the wanted one on the hand, and what the arm's skin measures."""
+        """Generalized force (n,) of the wanted force on the hand, and of the arm's skin."""
         if not self._feeds_forward:
             return None
         step = self.settings.period / _TAKEN_OVER
@@ -203,7 +196,7 @@ class HandController:
 
 
 class _BentElbow(Task):
-    """A torque that keeps the elbow off the ends of its range, damped critically for an inertia of 1 kg m^2."""
+    """Keeps the elbow off the ends of its range, critically damped for an inertia of 1 kg m^2."""
 
     def __init__(self, joint: int, settings: HandControl) -> None:
         self._joint = joint
@@ -223,7 +216,7 @@ class _BentElbow(Task):
 
 
 class _Still(Task):
-    """A wrist that only keeps its orientation: what a robot without the compliant task would do."""
+    """A wrist that only keeps its orientation, for comparison."""
 
     def __init__(self, wrist: CompliantWrist) -> None:
         self._wrist = wrist

@@ -1,1 +1,1 @@
-"""Reaching a goal among obstacles that may be touched: layouts of obstacles, the controller, and what happened."""
+"""Reaching a goal among obstacles that may be touched: layouts, controller and record."""

@@ -1,4 +1,4 @@
-"""Random layouts of obstacles between a tip and its goal, each of which can be solved by pushing what can be moved."""
+"""Random layouts of obstacles between a tip and its goal, each solvable by pushing what can be moved."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ class Post:
     """An upright cylinder.
 
     Attributes:
-        name: Name of its body and geom.
-        place: Where it stands (2,) at first in m.
-        radius: Radius in m.
-        friction: Force in N below which it slides along neither axis; 0 for one that is fixed.
+        name: Of its body and geom.
+        place: (2,) at first in m.
+        radius: In m.
+        friction: Force in N below which it does not slide; 0 for one that is fixed.
     """
 
     name: str
@@ -38,13 +38,7 @@ class Post:
     friction: float = 0.0
 
     def add_to(self, spec: Any, height: float, half: float) -> None:
-        """Add it to an `mujoco.MjSpec`, its middle at a height in m: what can be moved slides in the plane.
-
-        Args:
-            spec: The specification.
-            height: Height in m.
-            half: Half height in m.
-        """
+        """Add it to an `mujoco.MjSpec` `spec`, its middle at a `height` and with half its height `half`, in m."""
         body = spec.worldbody.add_body(name=self.name, pos=[*self.place, height])
         size = [self.radius, half, 0.0]
         shape = body.add_geom(name=self.name, type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=size)
@@ -60,11 +54,7 @@ class Post:
 
 @dataclass(frozen=True)
 class Layout:
-    """A goal and what is in its way.
-
-    Attributes:
-        goal: The goal (2,) in m.
-    """
+    """A `goal` (2,) in m and the posts in its way."""
 
     kind: str
     goal: NDArray[np.float64]
@@ -78,17 +68,17 @@ def random_layout(
     reach: tuple[tuple[float, float], tuple[float, float]],
     friction: tuple[float, float],
 ) -> Layout:
-    """A layout that can be solved: what is fixed leaves room for the tip along the straight way to the goal.
+    """A layout whose fixed posts leave room for the tip along the straight way to the goal.
 
-    Three posts stand in a bow that is open to the tip, too close for it to pass between: a pocket in which a potential
-    field has its minimum. An outer one is fixed in the second kind.
+    Three posts in a bow, too close for the tip to pass between, are a pocket in which a potential field has its
+    minimum. An outer one is fixed in the second kind.
 
     Args:
         rng: Random numbers.
         kind: One of `KINDS`.
-        tip: Where the tip is at first (2,) in m.
-        reach: Ranges in which the goal is drawn: distance from the tip in m, and direction to it in rad.
-        friction: Range of the force in N that it takes to push what can be moved.
+        tip: First place of the tip (2,) in m.
+        reach: Ranges of the goal's distance from the tip in m, and direction in rad.
+        friction: Range of the force in N that moves a post.
 
     Returns:
         The layout.

@@ -39,7 +39,7 @@ class ReachControl(CompanionControl):
 
     Attributes:
         policy: "intentional" for T Table 1; "avoid" for its first arrangement alone; "fields" for attraction and
-            repulsion added up, as in plain potential fields.
+            repulsion added up.
         speed: V_max of T 3.44 while it avoids.
         range: Sensing range that is used, d_range of T 3.30.
         proximity: k_prox of T 3.30 of a taxel.
@@ -47,9 +47,9 @@ class ReachControl(CompanionControl):
         slow: epsilon_v of T Table 1.
         stuck: Time for which it has to be slow before it approaches.
         transition: Time in which priorities change.
-        acceleration: Largest acceleration of a joint: what is seen on two sides leaves the goal almost no direction.
-        joint_speed: Largest speed of a joint, so that no link strikes what it does not see in time.
-        upright: Whether the tip's orientation is held, below everything that is touched or seen.
+        acceleration: Largest acceleration of a joint: things on two sides leave the goal almost no direction.
+        joint_speed: Largest speed of a joint, so that no link strikes an unseen thing.
+        upright: Whether the tip's orientation is held, on the last level.
     """
 
     policy: str = choice("intentional", "avoid", "fields")
@@ -81,7 +81,7 @@ class ReachController:
 
     Attributes:
         goal: The task of the tip's position.
-        signs: What it was chosen by.
+        signs: Inputs of the policy's choice.
     """
 
     def __init__(
@@ -122,14 +122,8 @@ class ReachController:
         self._stack = TaskStack([], fusion=weighted_sum if s.policy == "fields" else within)
 
     def step(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64]:
-        """Torques for the next control period.
-
-        Args:
-            robot: Kinematics and dynamics at the measured state.
-            reading: What the skin states.
-
-        Returns:
-            Torques or forces (k,), gravity included.
+        """Returns torques or forces (k,) for the next period, gravity included, by the `robot` as measured and its
+        skin's `reading`.
         """
         self.signs = self._look(robot, reading)
         if self.settings.policy == "intentional" and self.policy.update(self.signs, robot.time):
@@ -142,9 +136,8 @@ class ReachController:
         return self._blend.blend(self._stack.step(robot, reading).torque, robot.time)
 
     def _look(self, robot: RobotDynamics, reading: SkinReading) -> ContactSigns:
-        """What skin and tip state (T Table 1).
-
-        Speed and nearness are smoothed: at the end of its range the tip trembles, and what it sees comes and goes.
+        """Signs of skin and tip (T Table 1); speed and nearness are smoothed, since both flicker at the end of the
+        range.
         """
         period = robot.time - self._time if np.isfinite(self._time) else 0.0
         self._time = robot.time

@@ -22,12 +22,7 @@ _POSES = 6  # of the arm that are drawn
 
 
 class ReachRecord:
-    """Notes of a run.
-
-    Args:
-        machine: The machine, whose links are drawn.
-        limit: Tolerable force in N.
-    """
+    """Notes of a run of a `machine`, whose links are drawn, with a tolerable force `limit` in N."""
 
     def __init__(self, machine: Machine, layout: Layout, limit: float) -> None:
         self._layout, self._limit = layout, limit
@@ -38,14 +33,8 @@ class ReachRecord:
         self._posts: list[NDArray[np.float64]] = []
 
     def add(self, world: World, time: float, tip: NDArray[np.float64], force: float, hand: ReachController) -> None:
-        """Note the true state and what the controller makes.
-
-        Args:
-            world: The world.
-            time: Time in s.
-            tip: The tip (3,) in m.
-            force: True force in N.
-            hand: The controller.
+        """Note the true state of the `world` at `time` in s, the `tip` (3,) in m, the true `force` in N and the
+        controller `hand`.
         """
         signs = hand.signs
         share = hand.policy.range_share
@@ -55,18 +44,12 @@ class ReachRecord:
         self._posts.append(np.array([world.data.body(p.name).xpos[:2] for p in self._layout.posts]))
 
     def changes(self) -> list[str]:
-        """The arrangements in the order in which they counted."""
+        """The arrangements in their order."""
         return [name for name, _ in groupby(self._arrangements)]
 
     def plot(self, path: Path, title: str) -> Path:
-        """Draw it as T Figures 24-25: the way from above, and over time force, nearness, speed and arrangement.
-
-        Args:
-            path: Where to.
-            title: Title.
-
-        Returns:
-            The path.
+        """Draw T Figures 24-25 at `path` with a `title`: the way from above, and force, nearness, speed and arrangement
+        over time. Returns the path.
         """
         figure, axes = new_figure(12.0, 6.5, 4, 2, squeeze=False, gridspec_kw={"width_ratios": [1.2, 1.0]})
         for axis in axes[:, 0]:

@@ -1,1 +1,1 @@
-"""A machine that stands on its feet: how it knows where it is, what presses on it, and how it is judged."""
+"""A machine that stands on its feet: state, contacts and judge."""

@@ -1,4 +1,4 @@
-"""Contacts of many pads over a time: when each presses, how hard, and how far the robot yields to it."""
+"""Contacts of many pads over a time."""
 
 from __future__ import annotations
 
@@ -20,16 +20,15 @@ _FIRST = 0.05  # of its force when it touches
 
 @dataclass
 class PlannedContact:
-    """One pad that presses from a time on for a while; its force swells and fades.
+    """One pad that presses for a while; its force swells and fades.
 
     Attributes:
-        begin: Time in s at which it begins to press.
-        hold: Time in s for which it presses.
-        force: Its force in N.
+        begin: In s.
+        hold: For how long in s.
+        force: In N.
         swell: Time in s over which its force grows; it fades in that time, and in 0.6 s at least.
-        against: Link against which it is measured how far the pressed link yields; empty for the centre of mass, which
-            leans into the contacts.
-        yielded: How far in m the link yielded along the pad's first direction, at most.
+        against: Link against which the yield is measured; empty for the centre of mass, which leans into the contacts.
+        yielded: Largest yield in m along the pad's first direction.
         measured: Largest true force in N.
     """
 
@@ -45,12 +44,7 @@ class PlannedContact:
     _first: tuple[NDArray[np.float64], NDArray[np.float64]] | None = field(default=None, repr=False)
 
     def act(self, time: float, measured: float) -> None:
-        """Set the pad's wanted force: it comes near as if for all of it, which then grows from the first touch on.
-
-        Args:
-            time: Time in s.
-            measured: Force in N with which it presses now.
-        """
+        """Set the pad's wanted force at `time` in s, which grows from the first touch on, by the `measured` one."""
         left = self.begin + self.hold - time
         if time <= self.begin or left <= 0.0:
             self.pad.wanted = 0.0
@@ -61,12 +55,7 @@ class PlannedContact:
         self.pad.wanted = self.force * min(1.0, grown, left / max(0.6, self.swell))
 
     def judge(self, world: Any, force: float) -> None:
-        """Take note of how far the link has yielded.
-
-        Args:
-            world: The world.
-            force: True force of the pad in N.
-        """
+        """Note the link's yield in the `world` under the pad's true `force` in N."""
         if force <= 0.0:
             return
         self.measured = max(self.measured, force)
@@ -82,21 +71,13 @@ class PlannedContact:
 
     @property
     def compliance(self) -> float:
-        """Yield in mm/N; 0 for a pad that never pressed."""
+        """In mm/N; 0 for a pad that never pressed."""
         return 1e3 * self.yielded / self.measured if self.measured > 0.0 else 0.0
 
 
 def outer_taxel(robot: MujocoDynamics, patch: SkinPatch, trunk: str, rng: np.random.Generator) -> int:
-    """A taxel at random of those in the middle of a patch that face away from the trunk, where a hand can reach it.
-
-    Args:
-        robot: The machine in its posture.
-        patch: The patch.
-        trunk: Link that hands cannot reach through.
-        rng: Random numbers.
-
-    Returns:
-        Its index.
+    """Returns a random taxel, of `rng`, in the middle of a `patch` that faces away from the `trunk` of a `robot` in its
+    posture.
     """
     origin, rotation = robot.pose(patch.link)
     places = patch.positions @ rotation.T + origin

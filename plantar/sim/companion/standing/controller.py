@@ -1,4 +1,4 @@
-"""The controller of a machine that stands: it finds its base, filters its skin, and runs a stack of tasks."""
+"""The controller of a machine that stands: base, filtered skin, and a stack of tasks."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ class StandingControl(CompanionControl):
 
     Attributes:
         skin: Whether the skin's tasks are in the stack and contact forces are accounted for.
-        gain: Factor on contact forces with which the robot yields to them; 1 as if it had neither friction nor gears.
-        lean: Share of the moment of all contacts about the feet that the centre of mass is shifted against.
+        gain: Factor on contact forces by which the robot yields; 1 as without friction and gears.
+        lean: Share of the contacts' moment about the feet that the centre of mass is shifted against.
         lean_limit: Largest shift in m.
-        filter: Time constant in s of the low-pass filter of each taxel's force.
+        filter: Time constant in s of the low pass on each taxel's force.
         balance: Stiffness of the centre of mass over the feet.
         posture: Stiffness of the posture in N m/rad for a joint of 75 N m; others by their torque.
         posture_damping: Damping of the posture likewise, in N m s/rad.
@@ -53,14 +53,14 @@ class StandingController:
     """Runs a stack on a stance.
 
     Args:
-        stance: The feet that stand; they are taken to be where they are at the first step.
+        stance: The standing feet, fixed to their first places.
         levels: Tasks by priority, below the support.
-        balance: The task among them that holds the centre of mass, and leans against contacts; None for none.
+        balance: The task of the centre of mass, which leans against contacts; or None.
         before: Called with the machine and the filtered reading before each step, to change targets or levels.
 
     Attributes:
         active: Instances that were active at each step.
-        took: How long each step took in us.
+        took: Time of each step in us.
         torque: Torque (k,) of the last step in N m.
     """
 
@@ -89,14 +89,8 @@ class StandingController:
         self._weight = GRAVITY * float(stance.model.body_subtreemass[0])
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """Torques for the next period.
-
-        Args:
-            robot: The machine as measured; its base is put where the feet state.
-            reading: What the skin states.
-
-        Returns:
-            Torque (k,) of each joint in N m.
+        """Returns the torque (k,) in N m for the next period, by the `robot` as measured, whose base is put on the
+        feet, and the skin's `reading`.
         """
         began = perf_counter()
         self.stance.locate(robot)
@@ -116,7 +110,7 @@ class StandingController:
         return self.torque
 
     def _filtered(self, reading: SkinReading) -> SkinReading:
-        """The reading with forces low-pass filtered, so that yielding does not beat against the skin's stiffness."""
+        """The reading with low-passed forces, so that yielding does not beat against the skin's stiffness."""
         force = reading.force
         if np.isnan(force.sum()):
             force = np.nan_to_num(force)
@@ -131,8 +125,7 @@ class StandingController:
     def _external(
         self, robot: MujocoDynamics, measured: SkinReading
     ) -> tuple[NDArray[np.float64] | None, NDArray[np.float64]]:
-        """Generalized force (n,) of what the skin measures, None for nothing, and its moments (2,) about x and y at
-        the feet."""
+        """Generalized force (n,) on the skin, or None, and its moments (2,) about x and y at the feet."""
         wrenches = link_wrenches(self.skin, measured.force, measured.force >= self.skin.thresholds)
         self.active.append(len(wrenches))
         if not wrenches:
@@ -150,7 +143,7 @@ class StandingController:
         return total, np.array([mx, my])
 
     def _lean(self, balance: CenterOfMass, moment: NDArray[np.float64]) -> None:
-        """Shift the centre of mass until its weight holds against moments (2,) about the feet (K 9 corrected)."""
+        """Shift the centre of mass until its weight balances moments (2,) about the feet (K 9 corrected)."""
         s = self.settings
         wanted = s.lean / self._weight * np.array([-moment[1], moment[0]])
         wanted *= min(1.0, s.lean_limit / max(float(np.hypot(*wanted)), 1e-9))

@@ -1,9 +1,8 @@
 """How a hot plate warms taxels: radiation, and the warm air above it.
 
-A taxel is a layer of skin with one temperature T: C T' = eps^2 sigma F (T_p^4 - T^4) - h (T - T_air), with the view
-factor F of the plate's disc from the taxel, summed over small areas of it as cos cos dA / (pi r^2) (Incropera,
-Fundamentals of heat and mass transfer, ch. 13), and air that is hotter near the plate. Radiation to the room is part
-of h.
+A taxel is a layer of temperature T: C T' = eps^2 sigma F (T_p^4 - T^4) - h (T - T_air), with the view factor F of the
+plate's disc, summed over small areas as cos cos dA / (pi r^2) (Incropera, Fundamentals of heat and mass transfer, ch.
+13). Radiation to the room is part of h.
 """
 
 from __future__ import annotations
@@ -30,8 +29,8 @@ class PlateSettings(Settings):
         room: Of the room.
         radius: Of the plate: a cooker's small plate.
         emissivity: Of plate and skin: oxidised iron and dark silicone rubber.
-        capacity: Heat capacity of a taxel's area: 0.5 mm of silicone rubber (1100 kg/m^3, 1460 J/(kg K)) and what is
-            bonded to it.
+        capacity: Heat capacity of a taxel's area: 0.5 mm of silicone rubber (1100 kg/m^3, 1460 J/(kg K)) and its
+            substrate.
         loss: Heat transfer to the air: natural convection of a small plate and radiation to the room.
         plume: Height above the plate at which the air's excess temperature has fallen to 37 %.
     """
@@ -46,13 +45,10 @@ class PlateSettings(Settings):
 
 
 class HotPlate:
-    """A level round plate that warms taxels above it.
-
-    Args:
-        middle: Middle (3,) of its upper face in the world in m.
+    """A level round plate, with its upper face about `middle` (3,) in m, that warms taxels.
 
     Attributes:
-        temperature: Temperature (count,) of the taxels in degC.
+        temperature: Of the taxels (count,) in degC.
     """
 
     def __init__(self, middle: NDArray[np.float64], settings: PlateSettings, count: int) -> None:
@@ -65,14 +61,8 @@ class HotPlate:
         self._areas = r * (settings.radius / _RINGS) * (2.0 * math.pi / _SECTORS)
 
     def view_factors(self, points: NDArray[np.float64], outward: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Share (n,) of what taxels see that is the plate.
-
-        Args:
-            points: Places (n, 3) of the taxels in the world in m.
-            outward: Their outward normals (n, 3).
-
-        Returns:
-            The view factors, 0 to 1.
+        """Returns the share (n,) of the plate in the view of taxels at `points` (n, 3) in m with normals `outward` (n,
+        3).
         """
         to = self._spots - points[:, None]
         square = np.maximum(np.einsum("nsi,nsi->ns", to, to), 1e-8)
@@ -81,15 +71,8 @@ class HotPlate:
         return np.asarray(np.minimum((at_taxel * at_plate / (math.pi * square**2)) @ self._areas, 1.0))
 
     def step(self, points: NDArray[np.float64], outward: NDArray[np.float64], period: float) -> NDArray[np.float64]:
-        """Warm or cool the taxels for a time.
-
-        Args:
-            points: Places (n, 3) of the taxels in the world in m.
-            outward: Their outward normals (n, 3).
-            period: The time in s, short against C / h.
-
-        Returns:
-            Their temperatures (n,) in degC.
+        """Warm taxels at `points` (n, 3) in m with normals `outward` (n, 3) for a `period` in s, short against C / h.
+        Returns their temperatures (n,) in degC.
         """
         s = self.settings
         hot, own = s.temperature + _KELVIN, self.temperature + _KELVIN

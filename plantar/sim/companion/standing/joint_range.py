@@ -1,4 +1,4 @@
-"""Joints keep off the ends of their range: a repulsive field at each end, silent while all are far from it."""
+"""Keeps joints off the ends of their range by a repulsive field at each end."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class JointRange(Task):
         low: Lower ends (k,) in rad or m, in the order of `RobotDynamics.joints`; -inf for none.
         high: Upper ends (k,).
         margin: Distance to an end in rad or m from which on a joint is pushed back.
-        stiffness: Torque in N m a rad of margin that is used up, one or (k,).
-        damping: Torque in N m a rad/s towards the end, one or (k,).
+        stiffness: Torque in N m per rad of used margin, one or (k,).
+        damping: Torque in N m per rad/s towards the end, one or (k,).
     """
 
     def __init__(

@@ -47,7 +47,7 @@ class LeanControl(StandingControl):
     """How it leans.
 
     Attributes:
-        touch: Force in N, as a share of body weight, from which the forearm is taken to lie on the table.
+        touch: Force, as a share of body weight, from which the forearm counts as lying on the table.
         pitch: Angle by which the trunk bends forward.
     """
 
@@ -62,7 +62,7 @@ class Aim:
     """Integrates the error of a soft task: 20 N of difference between plan and measurement move it by a centimetre.
 
     Args:
-        axes: Factor (3,) of each axis; 0 for one that is aimed at as it is.
+        axes: Factor (3,) of each axis; 0 for none.
 
     Attributes:
         ahead: How far (3,) it aims beyond the target in m.
@@ -73,15 +73,8 @@ class Aim:
         self.ahead = np.zeros(3)
 
     def at(self, target: NDArray[np.float64], reached: NDArray[np.float64], period: float) -> NDArray[np.float64]:
-        """What (3,) to aim at.
-
-        Args:
-            target: What (3,) is to be reached in m.
-            reached: What (3,) is reached in m.
-            period: Time in s since the last call.
-
-        Returns:
-            The place in m.
+        """Returns the aim (3,) in m for a `target` (3,) of which `reached` (3,) is reached, a `period` in s after the
+        last call.
         """
         self.ahead += period / _CATCHING_UP * (target - reached) * self._axes
         self.ahead *= min(1.0, _MOST_AHEAD / max(float(np.linalg.norm(self.ahead)), _MOST_AHEAD))
@@ -95,11 +88,11 @@ class LeanController:
     skin measures it. Without skin it is held where the table is expected.
 
     Args:
-        experiment: The experiment, for its stance and first posture; not for what is true of the table.
+        experiment: For its stance and first posture, not for the table's truth.
 
     Attributes:
-        began: When each phase began in s by its name.
-        areas: What of each sole is seen to stand on the ground, about its middle.
+        began: Begin of each phase in s by its name.
+        areas: The supported part of each sole as measured, about its middle.
     """
 
     def __init__(self, experiment: StandingExperiment, skin: BodySkin) -> None:
@@ -134,15 +127,7 @@ class LeanController:
         self._paths: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """See `plantar.sim.companion.experiment.Controller`.
-
-        Args:
-            robot: The machine at its measured state.
-            reading: What its skin states.
-
-        Returns:
-            Torques (k,) for the next period in N m.
-        """
+        """Returns torques (k,) for the next period in N m, by the `robot` as measured and its skin's `reading`."""
         self.stance.locate(robot)
         self._see_ground(reading)
         measured = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
@@ -159,7 +144,7 @@ class LeanController:
     def _split(
         self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-        """Share the task among joints, feet and forearm, which presses by what its skin measures."""
+        """Share the task among joints, feet and forearm."""
         torque, carried = self._planned(robot, force, self._all.demand(robot, None))
         assert self._planned.last is not None
         self.wanted = float(self._planned.last.wrenches[ARM][2])
@@ -169,7 +154,6 @@ class LeanController:
         return torque - more[robot.joints], carried
 
     def _move(self, robot: Any, measured: float, time: float) -> None:
-        """Set the targets of this instant."""
         s = self.settings
         if "lean" not in self.began:
             self._posture.target[self._waist] = np.radians(self.control.pitch) * min(1.0, time / 3.0)
@@ -202,7 +186,7 @@ class LeanController:
             self._start_leaning(robot)
 
     def _start_leaning(self, robot: Any) -> None:
-        """The forearm is a contact from now on, and stays where it is."""
+        """From now on the forearm is a fixed contact."""
         s = self.settings
         self._posture.target = robot.joint_positions.copy()  # nothing turns back now that the forearm's angle is free
         origin, rotation = robot.pose(ARM)
@@ -219,7 +203,7 @@ class LeanController:
         self._paths["hand"] = (origin + rotation @ HAND, self._middle + self.settings.hand_target)
 
     def _ground_seen(self) -> NDArray[np.float64]:
-        """Polygon (m, 2) of what the soles see of the ground that they stand on, in the world in m."""
+        """Polygon (m, 2) in the world in m of the ground that the soles measure."""
         corners = []
         for link, area in self.areas.items():
             x, y = self.stance.places[link][:2]
@@ -227,7 +211,7 @@ class LeanController:
         return convex_hull(corners)
 
     def _between_feet(self) -> NDArray[np.float64]:
-        """Where (2,) the weight is shared by the feet as `SHARES` has it."""
+        """Point (2,) at which the feet share the weight by `SHARES`."""
         places, total = np.zeros(2), 0.0
         for link, area in self.areas.items():
             places += SHARES[link] * (self.stance.places[link][:2] + area.center)
@@ -235,7 +219,7 @@ class LeanController:
         return places / total
 
     def _see_ground(self, reading: SkinReading) -> None:
-        """Find what of each sole stands on ground, and let no more of it carry; before anything was seen, all."""
+        """Find the supported part of each sole, and limit its load to it; all before the first touch."""
         for link, middle in self.stance.feet.items():
             own = self.skin.slices[f"{link}_sole"]
             places = self.skin.positions[own][reading.distance[own] < _NEAR] - middle

@@ -1,4 +1,4 @@
-"""Pads that press on a link with a wanted force, as a hand does: they follow the link and press along its normal."""
+"""Pads that press on a link with a wanted force, along its normal, and follow the link."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ class Pad:
     """A cylinder or a box that is moved; its face stays on a taxel's normal.
 
     Args:
-        name: Its name; body and geom are called "pad " and it.
+        name: Body and geom are called "pad " and this.
         taxel: Index in the patch of the taxel in the middle of its face.
         face: Radius of its face in m.
-        stiffness: Stiffness in N/m of the skin under its face, about.
+        stiffness: In N/m of the skin under its face, about.
 
     Attributes:
-        wanted: Force in N that it should press with; 0 or less lifts it off.
-        parked: Whether it is out of everybody's way.
-        middle: Where (3,) the middle of its face touches the link, in the link's frame in m.
+        wanted: Force in N; 0 or less lifts it off.
+        parked: Whether it is far away.
+        middle: Place (3,) on the link of the middle of its face, in the link's frame in m.
     """
 
     def __init__(self, name: str, patch: SkinPatch, taxel: int, face: float, stiffness: float) -> None:
@@ -65,12 +65,8 @@ class Pad:
         )
 
     def act(self, world: Any, force: float, period: float) -> None:
-        """Move it, once a physics step.
-
-        Args:
-            world: The world.
-            force: Force in N with which it presses now.
-            period: Time in s since the last call.
+        """Move it in the `world`, once a physics step, by its `force` in N now and the `period` in s since the last
+        call.
         """
         if self.wanted > 0.0:
             rate = np.clip((force - self.wanted) * _SETTLE / self._stiffness, -_APPROACH, _APPROACH)
@@ -95,18 +91,12 @@ class Pad:
         mujoco.mju_mat2Quat(world.data.mocap_quat[number], np.ascontiguousarray(turned @ self._turn).ravel())
 
     def touching(self, world: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where (3,) its face is to touch the link in the world in m, and the direction (3,) into the link."""
+        """Target (3,) of its face in the world in m, and the direction (3,) into the link."""
         origin, rotation = world.pose(self.patch.link)
         return origin + rotation @ self.middle, rotation @ self.inward
 
     def force(self, on_obstacles: dict[str, NDArray[np.float64]], rotation: NDArray[np.float64]) -> float:
-        """Force in N with which it presses along its axis.
-
-        Args:
-            on_obstacles: Wrenches on the obstacles, of the skin sensor.
-            rotation: Rotation (3, 3) of the pressed link.
-
-        Returns:
-            The force.
+        """Returns the force in N along its axis, from the skin's wrenches `on_obstacles` and the pressed link's
+        `rotation` (3, 3).
         """
         return float(-on_obstacles[self.name][:3] @ (rotation @ self.inward))

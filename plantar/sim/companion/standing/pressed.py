@@ -1,4 +1,4 @@
-"""A standing machine that pads press on at many places: it yields to each and keeps its balance."""
+"""A standing machine under pads at many places: it yields to each and keeps its balance."""
 
 from __future__ import annotations
 
@@ -47,16 +47,16 @@ _STRONGEST = 4.0  # times the force of a single contact
 
 
 class PressedSettings(Settings):
-    """How hard it is pressed, and what counts as yielding.
+    """Forces, and limits of yielding.
 
     Attributes:
-        strength: Factor on the force of single contacts; 1 presses with up to 3 % of body weight on an upper arm and
-            4 % on the torso.
-        moment: Moment of all contacts that press together about the middle of the feet, as the distance by which it
-            shifts the centre of pressure of a robot that does not lean against it.
-        yield_median: How many times as far as on the springs of the posture alone limbs yield in the median: half of
-            the gain with which the skin's forces act.
-        yield_least: How many times as far every limb yields at least.
+        strength: Factor on the force of single contacts; 1 presses with up to 3 % of body weight on an upper arm and 4
+            % on the torso.
+        moment: Moment of all common contacts about the middle of the feet, as the shift of the centre of pressure of a
+            robot that does not lean against it.
+        yield_median: Median yield of limbs over that of the posture's springs alone: half of the gain of the skin's
+            forces.
+        yield_least: Least yield of every limb, likewise.
     """
 
     strength: float = number(1.0, "1", 0.0, 10.0)
@@ -88,7 +88,7 @@ class PressedExperiment(StandingExperiment):
         self._trace: list[tuple[float, ...]] = []
 
     def press_each(self) -> None:
-        """Plan a contact on each instance, one after the other: each moves links that others press on."""
+        """Plan a contact on each instance, one after the other."""
         for i, name in enumerate(self.rng.permutation(list(self.instances)).tolist()):
             begin = _FIRST + i * _APART + self.rng.uniform(0.0, 0.1)
             self._press(name, self.instances[name], begin, _EACH)
@@ -96,10 +96,7 @@ class PressedExperiment(StandingExperiment):
     def _press(
         self, name: str, patches: Sequence[str], begin: float, hold: float, swell: float = 0.3
     ) -> PlannedContact:
-        """Plan a contact on one of some patches, with a force and at a taxel of the seed.
-
-        Patches at the sides of the trunk, inside of the arms, are left out.
-        """
+        """Plan a contact on one of some patches, with a random force and taxel, not between trunk and arms."""
         free = [p for p in patches if p not in ("torso_left", "torso_right")]
         patch = self.skin.patch(str(self.rng.choice(free)))
         kind = next(k for k in _SHARES if k in patch.name)
@@ -112,16 +109,15 @@ class PressedExperiment(StandingExperiment):
         return self.contacts[-1]
 
     def _root(self, name: str) -> str:
-        """Link from which an instance's limb hangs; empty for the trunk."""
+        """Link that carries an instance's limb; empty for the trunk."""
         if name in _TRUNK:
             return ""
         return "torso" if name in UPPER_BODY else self.machine.base.link
 
     def press_together(self, names: Sequence[str]) -> None:
-        """Plan contacts that press together when the single ones are over, those on the trunk from front or back.
+        """Plan common contacts after the single ones, those on the trunk from front or back.
 
-        They grow slowly; torso and hips are pressed so hard that feet cannot hold the moment about them by the place of
-        their centre of pressure alone: the robot has to lean against it.
+        They grow slowly, and exceed the moment that feet alone can balance: the robot has to lean.
         """
         over = max(c.begin + c.hold for c in self.contacts)
         self.duration = over + _TOGETHER + 0.5
@@ -158,7 +154,7 @@ class PressedExperiment(StandingExperiment):
         return 1e3 * float((row[robot.joints] ** 2 / self.posture_task().stiffness).sum())
 
     def levels(self, skin: BodySkin) -> list[list[Task]]:
-        """Tasks by priority: balance, what keeps links and joints apart, and last skin and posture together."""
+        """Tasks by priority: balance; distance of links and joints; skin and posture."""
         yielding = [DirectInteraction(skin, self.control.gain, patches) for patches in self.instances.values()]
         apart: list[Task] = [self.self_collision_task(), self.joint_range_task()]
         return [self.balance_tasks(), apart, [*yielding, self.posture_task()]]

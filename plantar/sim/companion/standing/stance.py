@@ -1,4 +1,4 @@
-"""Feet that stand on the ground: what they support, and where the base is according to them."""
+"""Feet on the ground: support, and the base's place that follows."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SOLE_SITE = "{side}_sole"
 
 
 def add_floor(spec: Any) -> None:
-    """Add a level ground z = 0, which carries soles; skin does not feel it."""
+    """Add a level ground z = 0 for soles, which skin does not measure."""
     plane = mujoco.mjtGeom.mjGEOM_PLANE
     floor = spec.worldbody.add_geom(name="floor", type=plane, size=[5.0, 5.0, 0.1], material="ground")
     floor.contype, floor.conaffinity = 2, 1
@@ -34,11 +34,11 @@ class Stance:
 
     Args:
         model: The MjModel of the machine alone.
-        sides: Feet that stand: "left", "right" or both.
+        sides: Standing feet: "left", "right" or both.
 
     Attributes:
-        feet: Point (3,) in the middle of each standing sole by its link, in the link's frame in m.
-        places: Where (3,) that point is in the world in m.
+        feet: Middle (3,) of each standing sole by its link, in the link's frame in m.
+        places: That point (3,) in the world in m.
 
     Raises:
         RobotError: If the machine has no such foot.
@@ -53,7 +53,7 @@ class Stance:
             self.feet[link] = point
 
     def place(self, robot: MujocoDynamics) -> None:
-        """Take the soles to be on the ground below where they are now."""
+        """Fix the soles to the ground below their present places."""
         for link, point in self.feet.items():
             origin, rotation = robot.pose(link)
             self.places[link] = (origin + rotation @ point) * [1.0, 1.0, 0.0]
@@ -63,14 +63,7 @@ class Stance:
         return Support({link: Standing(link, point) for link, point in self.feet.items()})
 
     def locate(self, robot: MujocoDynamics) -> None:
-        """Set the base's position and linear velocity so that the feet rest where they stand.
-
-        What was measured of both does not count: only the base's orientation and angular velocity, of the IMU, and the
-        joints.
-
-        Args:
-            robot: The machine as measured; it is updated.
-        """
+        """Set the base's position and linear velocity of a measured `robot` so that the feet rest."""
         qpos, qvel = robot.data.qpos.copy(), robot.data.qvel.copy()
         off, slip = np.zeros(3), np.zeros(3)
         for link, point in self.feet.items():
@@ -88,10 +81,10 @@ class Stance:
         base: tuple[str, NDArray[np.float64]],
         lifted: Mapping[str, NDArray[np.float64]],
     ) -> NDArray[np.float64]:
-        """Posture with the feet level where they are placed, the centre of mass at a place, and the base turned.
+        """Posture with level feet, a centre of mass, and a turned base.
 
         Args:
-            robot: The machine in a posture that is near; it is updated.
+            robot: The machine in a near posture; it is updated.
             com: Wanted centre of mass (3,) in m.
             base: The base link and its wanted rotation (3, 3) to the world.
             lifted: Wanted place (3,) in m of the origin of further links, which stay level.
@@ -128,14 +121,8 @@ class Stance:
 
 
 def sole_point(model: Any, side: str) -> tuple[str, NDArray[np.float64]]:
-    """Link of a foot, and the middle (3,) of its sole in the link's frame in m.
-
-    Args:
-        model: The MjModel of the machine alone.
-        side: "left" or "right".
-
-    Returns:
-        Both.
+    """Returns the link of the foot of a `side` of the MjModel `model`, and the middle (3,) of its sole in the link's
+    frame in m.
 
     Raises:
         RobotError: If the machine has no such foot.

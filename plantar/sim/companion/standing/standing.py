@@ -1,4 +1,4 @@
-"""What all experiments of a standing machine share: its ground, its first posture, and whether it kept its balance."""
+"""What all experiments of a standing machine share: ground, first posture, and balance."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ _CARRIED = 4  # looks over which the centre of pressure is taken
 
 
 class StandingExperiment(Experiment):
-    """A machine on one foot or two. What it stands on and how it stands is judged by the true contacts.
+    """A machine on one foot or two, judged by the true contacts.
 
     Attributes:
-        weight: Weight of the machine in N.
+        weight: In N.
         pads: Pads that press on it.
     """
 
@@ -80,7 +80,7 @@ class StandingExperiment(Experiment):
         self._forces: dict[str, float] = {}
 
     def _first_posture(self) -> NDArray[np.float64]:
-        """Positions (nq,) of the machine with its feet on the ground and its centre of mass over them."""
+        """Positions (nq,) with the feet on the ground and the centre of mass over them."""
         robot, model = self.robot, self.robot.model
         qpos = model.qpos0.copy()
         qpos[7:] = self.machine.posture
@@ -110,11 +110,7 @@ class StandingExperiment(Experiment):
         world.data.qpos[world.positions] = self.first
 
     def balance_tasks(self, axes: Sequence[int] = (0, 1, 2)) -> list[Task]:
-        """Keep the centre of mass in its place and the base upright.
-
-        Args:
-            axes: Which axes of the centre of mass are held.
-        """
+        """Keep the `axes` of the centre of mass in place and the base upright."""
         stiff = self.control.balance
         gains = PoseGains(turn_stiffness=stiff, turn_damping=2.0 * math.sqrt(stiff))
         upright = CartesianPose(self.machine.base.link, gains=gains, rows="orientation")
@@ -123,27 +119,21 @@ class StandingExperiment(Experiment):
         return [self.balance, upright]
 
     def base_task(self) -> CartesianPose:
-        """Keeps the base where it is: what moves above it then moves by itself."""
+        """Keeps the base where it is."""
         stiff = _BASE_STIFFER * self.control.balance
         damp = 2.0 * math.sqrt(stiff)
         return CartesianPose(self.machine.base.link, gains=PoseGains(stiff, damp, stiff, damp))
 
     def posture_task(self, share: float = 1.0, stiffness: float = 1.0) -> Posture:
-        """Springs and dampers of the joints towards the first posture, by what each joint's motor can do.
-
-        Args:
-            share: Of the settings' stiffness and damping.
-            stiffness: Share of the stiffness in addition.
-
-        Returns:
-            The task.
+        """Returns springs and dampers of the joints towards the first posture, by each motor's torque: a `share` of the
+        settings', and a further share of the `stiffness`.
         """
         strength = share * self.machine.efforts / 75.0
         stiff, damp = self.control.posture * stiffness * strength, self.control.posture_damping * strength
         return Posture(self.first[7:], stiff, damp, torques=True)
 
     def joint_range_task(self) -> JointRange:
-        """Keeps joints 5 degrees off the ends of their range; half of a joint's effort holds it at the end."""
+        """Keeps joints 5 degrees off the ends of their range, with half of a joint's effort at the end."""
         low, high = self.machine.ranges(self.robot.model)
         stiff = 0.5 * self.machine.efforts / _MARGIN
         return JointRange(low, high, _MARGIN, stiff, 0.1 * stiff)
@@ -181,14 +171,14 @@ class StandingExperiment(Experiment):
         self.com_off_max = max(self.com_off_max, float(np.hypot(*off)))
 
     def look_at_trunk(self, world: World) -> None:
-        """Whether it falls: its base tilts or sinks."""
+        """Whether its base tilts or sinks."""
         base = world.data.body(self.machine.base.link)
         up = float(base.xmat[8])
         self.tilt_max = max(self.tilt_max, math.degrees(math.acos(min(1.0, up))))
         self.fell = bool(self.fell or up < _TILTED or base.xpos[2] < 0.7 * self.first[2])
 
     def pressing(self, pad: Pad) -> float:
-        """True force in N with which a pad presses at the last physics step."""
+        """True force in N of a pad at the last physics step."""
         return self._forces.get(pad.name, 0.0)
 
     def act(self, world: World, time: float) -> None:
@@ -198,10 +188,8 @@ class StandingExperiment(Experiment):
             pad.act(world, self.pressing(pad), world.model.opt.timestep)
 
     def _cop_margin(self, world: World) -> float:
-        """Distance in m of the true centre of pressure to the edge of the soles' common rectangle, negative outside.
-
-        It is that of the last 20 ms: what lands on the skin rings in the soles for a few steps. Both soles are level
-        and face forward, so the rectangle about them is their support polygon.
+        """Distance in m of the true centre of pressure, over 20 ms, to the edge of the rectangle about both level
+        soles, negative outside.
         """
         model, data = world.model, world.data
         floor = model.geom("floor").id
@@ -220,7 +208,7 @@ class StandingExperiment(Experiment):
         return float(min((cop - low).min(), (high - cop).min()))
 
     def balance_reasons(self) -> list[dict[str, Any]]:
-        """What failed of keeping the balance."""
+        """Failed criteria of the balance."""
         if self.fell:
             return [failed("balance", self.tilt_max, 35.0, f"it fell: tilted by {self.tilt_max:.0f} degrees")]
         margin = 1e3 * self.cop_margin_min
@@ -232,7 +220,7 @@ class StandingExperiment(Experiment):
         return []
 
     def balance_figures(self) -> dict[str, Any]:
-        """Figures of keeping the balance."""
+        """Figures of the balance."""
         return {
             "tilt_max_deg": round(self.tilt_max, 2),
             "com_off_max_mm": round(1e3 * self.com_off_max, 1),
@@ -241,14 +229,6 @@ class StandingExperiment(Experiment):
 
 
 def by_active(took: Sequence[float], active: Sequence[int]) -> dict[str, float]:
-    """How long ticks take by how much is active.
-
-    Args:
-        took: Time of each tick in us.
-        active: Number of active links at each.
-
-    Returns:
-        Median time in us by the number, which is a JSON key.
-    """
+    """Returns the median time in us of ticks, of `took`, by the number of `active` links, a JSON key."""
     counts, times = np.array(active), np.array(took[: len(active)])
     return {str(n): round(float(np.median(times[counts == n])), 1) for n in np.unique(counts).tolist()}

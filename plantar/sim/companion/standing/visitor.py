@@ -1,4 +1,4 @@
-"""A body that comes along a straight line towards a link and goes back: a hand, or an object without mass."""
+"""A hand, or an object without mass, that comes along a straight line towards a link and goes back."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ __all__ = ["Visitor"]
 
 
 class Visitor:
-    """A moved body; it neither weighs anything nor collides, and only skin takes note of it.
+    """A moved body without weight or collision, which only skin measures.
 
     Args:
-        name: Name of its body and geom.
-        size: Size (3,) of its geom in m.
-        face: Distance in m from its middle to what of it comes first.
+        name: Of its body and geom.
+        size: Of its geom (3,) in m.
+        face: Distance in m from its middle to its front.
     """
 
     def __init__(self, name: str, kind: Any, size: tuple[float, float, float], face: float) -> None:
@@ -50,8 +50,8 @@ class Visitor:
         Args:
             target: Point (3,) in the world in m at which its face would arrive.
             way: Direction (3,) in which it comes.
-            begin: Time in s at which it starts.
-            speed: Its speed in m/s.
+            begin: Start in s.
+            speed: In m/s.
             far: Distance in m from which it comes.
             beyond: How far in m beyond the point it goes.
 
@@ -64,12 +64,7 @@ class Visitor:
         return self._times[1]
 
     def act(self, world: Any, time: float) -> None:
-        """Move it.
-
-        Args:
-            world: The world.
-            time: Time in s.
-        """
+        """Move it in the `world` to its place at `time` in s."""
         begin, end = self._times
         number = int(world.model.body(self.name).mocapid[0])
         if not begin <= time < end:
