@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NamedTuple, Protocol
 
 import msgspec
 import numpy as np
@@ -20,7 +21,7 @@ from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
-__all__ = ["Command", "FootTarget", "Sensors"]
+__all__ = ["Command", "FootTarget", "JointTargets", "Motors", "Sensors"]
 
 
 class Sensors(Record, frozen=True):
@@ -65,6 +66,24 @@ class FootTarget(Record, frozen=True):
     center_of_pressure: NDArray[np.float64]
 
 
+class JointTargets(NamedTuple):
+    """Targets of leg joints: a drive exerts stiffness (angles - q) + damping (velocities - v) + torques.
+
+    Attributes:
+        angles: Joint angles (k,) in rad.
+        torques: Torques (k,) in N m that the expected load takes.
+        velocities: Rates (k,) of the angles in rad/s; None for at rest.
+        stiffness: Gains (k,) in N m/rad; None leaves both gains to the drive.
+        damping: Gains (k,) in N m s/rad.
+    """
+
+    angles: NDArray[np.float64]
+    torques: NDArray[np.float64]
+    velocities: NDArray[np.float64] | None = None
+    stiffness: NDArray[np.float64] | None = None
+    damping: NDArray[np.float64] | None = None
+
+
 class Command(Record, frozen=True):
     """What the controller asks of the body, for inverse kinematics and servos.
 
@@ -84,6 +103,7 @@ class Command(Record, frozen=True):
         moved_steps: Footsteps that were moved at this tick.
         joint_offsets: What joint set-points have to be higher by (k,) in rad, as encoders err; None for zero.
         stiffness: Share of the joints' stiffness and load that servos should keep; 1, but of a robot that has fallen.
+        joints: Targets of the joints with torques and gains (`control.drives`); None where servos solve for them.
     """
 
     com: NDArray[np.float64]
@@ -100,3 +120,12 @@ class Command(Record, frozen=True):
     moved_steps: tuple[MovedStep, ...] = ()
     joint_offsets: NDArray[np.float64] | None = None
     stiffness: float = 1.0
+    joints: JointTargets | None = None
+
+
+class Motors(Protocol):
+    """What turns a command into targets of the joints."""
+
+    def targets(self, command: Command, sensors: Sensors) -> JointTargets:
+        """Targets of the joints for the command that answers these sensors; it never raises."""
+        ...

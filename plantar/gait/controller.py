@@ -15,7 +15,7 @@ import numpy as np
 
 from plantar.gait.balance.balance_laws import balance_law
 from plantar.gait.balance.open_loop import OpenLoop
-from plantar.gait.command import Command, FootTarget, Sensors
+from plantar.gait.command import Command, FootTarget, Motors, Sensors
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.body_sensors import BodySensors
@@ -70,6 +70,7 @@ class WalkingController:
         start: How the walk begins.
         layouts: Sole layout of each side.
         kinematics: Forward kinematics of the robot.
+        motors: Solves each command for the joints; None leaves that to position servos.
 
     Attributes:
         plan: The plan of the walk.
@@ -86,7 +87,9 @@ class WalkingController:
         start: Start,
         layouts: Mapping[Side, SoleLayout],
         kinematics: LegKinematics,
+        motors: Motors | None = None,
     ) -> None:
+        self._motors = motors
         s, feet, begin = settings, start.feet, start.time - 1.0
         self.settings, self.layouts = settings, layouts
         self.replans = 0
@@ -153,7 +156,8 @@ class WalkingController:
 
     def step(self, sensors: Sensors) -> Command:
         """One control tick: sensors in, command out; it never raises while its `shell` guards it."""
-        return self._bridged(sensors) if self.shell is None else self.shell.step(sensors)
+        command = self._bridged(sensors) if self.shell is None else self.shell.step(sensors)
+        return command if self._motors is None else command.changed(joints=self._motors.targets(command, sensors))
 
     def _bridged(self, sensors: Sensors) -> Command:
         """A tick that bridges a moment without encoders or IMU; one that is blind or lost commands what it did last."""

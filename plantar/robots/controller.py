@@ -8,13 +8,13 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import SceneError
-from plantar.gait.command import Command, Sensors
+from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.gait.contact.foot_contacts import middle_of_sole
 from plantar.gait.controller import WalkingController
 from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
@@ -27,6 +27,7 @@ from plantar.robots.kinematics.command_joints import carry_command, follow_comma
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.kinematics.standing_posture import solve_standing
+from plantar.robots.motors.command_motors import command_motors
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk
@@ -34,18 +35,6 @@ from plantar.robots.walk import Control, Walk
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
 __all__ = ["JointTargets", "RobotController", "load_controller"]
-
-
-class JointTargets(NamedTuple):
-    """Targets of a robot's leg joints, in the order of `RobotController.joints`.
-
-    Attributes:
-        angles: Joint angles (k,) in rad.
-        torques: Joint torques (k,) in N m that hold the expected load at these angles.
-    """
-
-    angles: NDArray[np.float64]
-    torques: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -98,9 +87,11 @@ class RobotController:
         """Inverse kinematics of a command.
 
         Returns:
-            The targets. They stay within the joints' limits; where a command is out of reach, the foot that carries
-            no load misses its target first.
+            The targets, those of the command where motors are driven (`control.drives`). Angles stay within the joints'
+            limits; where a command is out of reach, the foot that carries no load misses its target first.
         """
+        if command.joints is not None:
+            return command.joints
         follow_command(self.legs, command)
         carry_command(self.legs, command)
         angles = self.legs.joints.copy()
@@ -138,7 +129,8 @@ def load_controller(
     limits = ankle_limits(own, legs.model, body.weight, min(walk.crouch, own.largest_crouch_partial))
     settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits)
     start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))
-    controller = WalkingController(settings, start, own.layouts, legs)
+    motors = command_motors(own, legs, body, control, settings.period)
+    controller = WalkingController(settings, start, own.layouts, legs, motors)
     centers = {s: vrp_of_step(foot, middle_of_sole(own.layouts[s], own.ankle_reach)) for s, foot in start.feet.items()}
     stance = JointTargets(*solve_standing(own, legs, start.feet, centers, settings.com_height))
     names = (*own.legs["left"].joints, *own.legs["right"].joints)

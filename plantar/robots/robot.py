@@ -112,6 +112,8 @@ class Robot:
             (`plantar.settings.body_scale`).
         stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.
         damping: Servo velocity gain of each leg joint in N m s/rad.
+        own_stiffness: Position gain of each leg joint's own motor in N m/rad (`control.drives`).
+        own_damping: Velocity gain of each in N m s/rad.
         balance: Balance law and its gains.
         controller: Settings of the controller's other parts by table and name (`plantar.gait.controller_tables`).
         path: The TOML file.
@@ -151,6 +153,8 @@ class Robot:
     pace: float
     stiffness: tuple[float, ...]
     damping: tuple[float, ...]
+    own_stiffness: tuple[float, ...]
+    own_damping: tuple[float, ...]
     balance: Mapping[str, Any]
     controller: Mapping[str, Mapping[str, Any]]
     path: Path

@@ -63,7 +63,7 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
         "ankle_reach",
         "rocks",
     ),
-    "servo": ("stiffness", "damping", "effort_limits", "velocity_limits"),
+    "servo": ("stiffness", "damping", "own_stiffness", "own_damping", "effort_limits", "velocity_limits"),
     "arms": ("machine", "chest", *SIDES),
 }
 """What each table of a robot file may hold; `biped` and `balance` check their own."""
@@ -298,9 +298,12 @@ class _RobotFile(RobotTables):
         speeds = () if biped is None else biped.velocity_limits
         if "velocity_limits" in given:
             speeds = self.numbers("velocity_limits", "servo", joints, 1e-3, 1e3)
+        own, stiff = ("own_", 0.0) if {"own_stiffness", "own_damping"} & set(given) else ("", 1.0)
         return {
             "stiffness": self.number_each("stiffness", "servo", joints, 1.0, 1e6),
             "damping": self.number_each("damping", "servo", joints, 0.0, 1e5),
+            "own_stiffness": self.number_each(f"{own}stiffness", "servo", joints, stiff, 1e6),
+            "own_damping": self.number_each(f"{own}damping", "servo", joints, 0.0, 1e5),
             "effort_limits": efforts,
             "velocity_limits": speeds,
         }

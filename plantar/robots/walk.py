@@ -165,6 +165,10 @@ class Control(Settings):
             takes what neither ZMP nor push explain for a push that nothing measures.
         swing_shape: Path of the swing foot: "polynomial" changes only with the plan; "fit" is fitted at every tick to
             where and when the foot should land; other packages may bring more ("plantar.swings").
+        drives: What drives the leg joints: "servo", position servos with the gains of the robot's file; "own", its
+            motors' own gains with the torques that the planned motion and ground forces take; "torque", torques of a
+            whole-body controller, with those gains about its motion.
+        joint_stiffness: Stiffness of every joint in place of the motors' own, for "own" and "torque"; 0 keeps those.
         period: Control period in s.
         physics_period: Time step of the simulated physics in s; a contact takes five of them.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
@@ -183,6 +187,8 @@ class Control(Settings):
     push_estimate: str = choice("skin", "soles", "off")
     dcm_estimate: str = choice("observer", "kalman")
     swing_shape: str = choice(*swing_kinds())
+    drives: str = choice("servo", "own", "torque")
+    joint_stiffness: float = number(0.0, "N m/rad", 0, 1e5)
     period: float = number(0.005, "s", 0.0005, 0.05)
     physics_period: float = number(0.001, "s", 0.0001, 0.002)
     skip: str = choice("auto", "none")

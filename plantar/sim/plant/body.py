@@ -40,7 +40,9 @@ def make_true(
     _move_com(model, plant.com_offset, torso)
     model.actuator_gainprm[servos, 0] *= plant.stiffness_ratio
     model.actuator_biasprm[servos, 1] *= plant.stiffness_ratio
-    model.dof_frictionloss[model.jnt_dofadr[model.actuator_trnid[servos, 0]]] += plant.joint_friction
+    joints = model.jnt_dofadr[model.actuator_trnid[servos, 0]]
+    model.dof_frictionloss[joints] += plant.joint_friction
+    model.dof_damping[joints] += plant.joint_damping
     make_ground_true(model, plant, [model.geom(name).id for name in touching], body)
     mujoco.mj_setConst(model, mujoco.MjData(model))
 

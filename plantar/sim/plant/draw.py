@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from plantar.layouts.layout import SoleLayout
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
-from plantar.sim.plant.settings import RANDOM, Plant
+from plantar.sim.plant.settings import RANDOM, STATED, Plant
 
 __all__ = ["RANGES", "Range", "TruePlant", "drawn_plant", "stream"]
 
@@ -114,6 +114,8 @@ class TruePlant:
         rubber: Thickness of the layer of foam under each sole in m.
         patchiness: Share by which friction and softness may be lower from one piece of ground to the next.
         reflectance: Share by which patches of the ground may be lighter or darker.
+        joint_damping: Viscous friction of each leg joint in N m s/rad, added to the model's.
+        corner_speed: Share of a joint's speed limit up to which its motor has its full torque.
         seed: Seed of the pieces of ground and of random events during the run.
     """
 
@@ -137,6 +139,8 @@ class TruePlant:
     rubber: float
     patchiness: float
     reflectance: float
+    joint_damping: float
+    corner_speed: float
     seed: int
 
     def summary(self) -> dict[str, Any]:
@@ -165,6 +169,8 @@ class TruePlant:
             "rubber_m": (self.rubber, 0.0),
             "patchiness": (self.patchiness, 0.0),
             "reflectance": (self.reflectance, 0.0),
+            "joint_damping_Nms": (self.joint_damping, 0.0),
+            "corner_speed": (self.corner_speed, 1.0),
         }
         return {
             name: _rounded(value) for name, (value, nominal) in told.items() if np.any(np.asarray(value) != nominal)
@@ -189,7 +195,7 @@ def drawn_plant(
         The plant; None where it is the nominal one.
     """
     plant = plant.for_body(body)
-    values = {name: _value(plant, name, seed) for name in plant.items()}
+    values = {name: _value(plant, name, seed) for name in (*plant.items(), *STATED)}
     values["backlash"] = math.radians(values["backlash"])
     most, spread = math.radians(values.pop("encoder_offset")), values.pop("taxel_gain")
     gains, drifts = (_of_each_taxel(stream(seed, name), layouts) for name in ("gains", "drifts"))

@@ -9,7 +9,7 @@ from typing import Any, Self
 from plantar.errors import InputError, PlantarError
 from plantar.settings.schema import Settings, choice, number, tables
 
-__all__ = ["EVERYTHING", "RANDOM", "Plant"]
+__all__ = ["EVERYTHING", "RANDOM", "STATED", "Plant"]
 
 RANDOM = "random"
 """The word in place of a number that the seed draws."""
@@ -19,6 +19,9 @@ EVERYTHING = "everything"
 
 _LAST_OF_CARE = "actuation_delay"
 """The last of the items that a robot has that was built and calibrated with care; wear and poor ground follow."""
+
+STATED = ("joint_damping", "corner_speed")
+"""Items that no seed draws."""
 
 _WORDS = (RANDOM,)
 _LARGEST = {"gyro_bias": ("rad/s", 1.0), "com_offset": ("m", 0.5)}
@@ -64,6 +67,9 @@ class Plant(Settings):
             stone, beam) to the next; drawn for each.
         reflectance: Share by which patches of the ground may be lighter or darker than in the proximity sensors'
             calibration; drawn for each. Dark ground appears farther away.
+        joint_damping: Viscous friction of each leg joint's gear, added to the model's; stated only.
+        corner_speed: Share of a joint's speed limit up to which its motor has its full torque, which falls to zero at
+            the limit; 1 for full torque at any speed. Stated only, for robots whose files give both limits.
     """
 
     draw: str = choice("nominal", RANDOM, EVERYTHING)
@@ -89,6 +95,9 @@ class Plant(Settings):
     patchiness: float | str = number(0.0, "1", 0, 0.95, _WORDS)
     reflectance: float | str = number(0.0, "1", 0, 0.95, _WORDS)
 
+    joint_damping: float = number(0.0, "N m s/rad", 0, 100)
+    corner_speed: float = number(1.0, "1", 0, 1)
+
     def __post_init__(self) -> None:
         super().__post_init__()
         for name in _LARGEST:
@@ -107,8 +116,8 @@ class Plant(Settings):
 
     @classmethod
     def items(cls) -> tuple[str, ...]:
-        """Names of the items."""
-        return cls.names()[2:]
+        """Names of the items that a seed may draw."""
+        return tuple(name for name in cls.names()[2:] if name not in STATED)
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:

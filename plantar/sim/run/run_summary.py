@@ -26,6 +26,7 @@ from plantar.sim.judging.zmp_comparison import ZmpComparison
 from plantar.sim.loop import Result
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
+from plantar.sim.run.motor_drives import MotorDrives
 from plantar.sim.run.pushing import Pusher
 from plantar.sim.run.scene import Scene
 from plantar.sim.run.servos import LegServos
@@ -47,7 +48,7 @@ class FinishedRun(Protocol):
     ground: Ground
     plant: TruePlant | None
     controller: WalkingController
-    servos: LegServos
+    servos: LegServos | MotorDrives
     feet: dict[Side, Footstep]
     steps: tuple[Footstep, ...]
     centers: dict[Side, NDArray[np.float64]]

@@ -25,6 +25,7 @@ from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import Visitor, build_leg_model
+from plantar.robots.motors.command_motors import command_motors
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk
@@ -47,6 +48,7 @@ from plantar.sim.model.world import World, build_world, check_stable
 from plantar.sim.plant.draw import drawn_plant
 from plantar.sim.run.hand_pushing import upper_body_skin_of
 from plantar.sim.run.log import RunLog
+from plantar.sim.run.motor_drives import MotorDrives
 from plantar.sim.run.planned_walk import planned_feet
 from plantar.sim.run.pushing import Pusher
 from plantar.sim.run.run_summary import summary_of
@@ -100,7 +102,8 @@ class Simulation(Run):
             ankle_limits(robot, self.legs.model, self.body.weight, min(walk.crouch, robot.largest_crouch_partial)),
             skin if scene.sensing.body_skin else None,
         )
-        self.controller = WalkingController(self.settings, start, robot.layouts, self.legs)
+        self.motors = command_motors(robot, self.legs, self.body, scene.control, self.settings.period)
+        self.controller = WalkingController(self.settings, start, robot.layouts, self.legs, self.motors)
         planned = planned_feet(robot, self.feet, self.steps, self.controller.schedule)
         ground = scene.terrain.ground(planned, np.random.default_rng([seed, 0x7E]))
         self.ground = ground
@@ -133,7 +136,11 @@ class Simulation(Run):
             or "force_torque" in (scene.control.zmp_source, scene.control.feasibility),
             plant=self.plant,
         )
-        self.servos = LegServos(self.world, self.legs, self.settings.period, self.plant)
+        self.servos: LegServos | MotorDrives
+        if self.motors is None:
+            self.servos = LegServos(self.world, self.legs, self.settings.period, self.plant)
+        else:
+            self.servos = MotorDrives(self.world, self.motors, self.plant)
         force = scene.push if scene.push.by == "force" else Push()
         self.pusher = Pusher(force, self.controller.schedule, seed)
         centers = {side: vrp_of_step(self.feet[side], self.centers[side]) for side in SIDES}

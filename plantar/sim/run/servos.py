@@ -12,6 +12,7 @@ from plantar.robots.kinematics.leg_model import LegModel
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.plant.drives import TrueDrives
+from plantar.sim.plant.motors import TorqueCurve
 
 __all__ = ["LegServos"]
 
@@ -59,6 +60,9 @@ class LegServos:
             *(legs.joints, legs.torques),
         )
         self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)
+        speeds = np.array([*world.robot.velocity_limits] * 2)
+        corner = 1.0 if plant is None else plant.corner_speed
+        self._curve = TorqueCurve(world.model, world.servos, speeds, corner)
         self._velocity = np.asarray(self._setpoints.velocity)  # views of what the kernel writes
         self._reference = np.asarray(self._setpoints.reference)
         self._stiffness = 1.0
@@ -95,6 +99,8 @@ class LegServos:
         if self._drives is None and self._stiffness == 1.0:
             self._setpoints.drive()
         else:
+            if self._curve.acts:
+                self._curve.limit(self._world.data.qvel[self._world.joint_qvel])
             self._write()
             self._setpoints.advance()
 

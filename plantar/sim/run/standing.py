@@ -16,6 +16,7 @@ from plantar.robots.kinematics.standing_posture import solve_standing
 from plantar.sides import SIDES
 from plantar.sim.judging.leg_contact import legs_that_touch
 from plantar.sim.model.world import World, check_stable
+from plantar.sim.run.motor_drives import MotorDrives
 from plantar.sim.run.servos import LegServos
 
 __all__ = ["stand"]
@@ -27,7 +28,7 @@ _SINKING_MAX = 1 / 12  # leg, of the base while it settles; soft servos yield by
 def stand(
     world: World,
     legs: LegModel,
-    servos: LegServos,
+    servos: LegServos | MotorDrives,
     feet: Mapping[Side, Footstep],
     centers: Mapping[Side, NDArray[np.float64]],
     com_height: float,

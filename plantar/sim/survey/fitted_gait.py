@@ -179,6 +179,7 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
     robot = replace(robot, posture=_angles(robot, legs, configuration))
     inertia = joint_inertia(robot, legs.model, configuration)
     stiffness, damping = _gains(inertia, legs, body, height, gains, notes)
+    own = _own_gains(inertia, gains) if gains else np.array([stiffness, damping])
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     crouch = _crouch(robot, legs, body, float((reach.torque / limits).max()))
     pace = _pace(robot, legs, body)
@@ -187,6 +188,8 @@ def fit_gait(draft: Robot, gains: Sequence[tuple[float, float]] = (), rotors: Ar
         robot,
         stiffness=tuple(stiffness.tolist()),
         damping=tuple(damping.tolist()),
+        own_stiffness=tuple(own[0].tolist()),
+        own_damping=tuple(own[1].tolist()),
         largest_crouch=crouch,
         largest_crouch_partial=crouch,
         pace=pace,
@@ -215,9 +218,9 @@ def _gains(
     """Stiffness and damping of each joint of a leg: the model's own where they hold the robot, else fitted."""
     stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
     if gains:
-        own, unit = np.array(gains), body.weight * height
-        kept = bool((own[:, 0] >= _OWN_STIFFNESS * unit).all())
-        least, most = own[:, 0].min(), own[:, 0].max()
+        own, unit = _own_gains(inertia, gains), body.weight * height
+        kept = bool((own[0] >= _OWN_STIFFNESS * unit).all())
+        least, most = own[0].min(), own[0].max()
         notes.append(
             f"the model's own servos have {least:.3g} to {most:.3g} N m/rad; "
             + (
@@ -228,8 +231,15 @@ def _gains(
             )
         )
         if kept:
-            return own[:, 0], own[:, 1]
+            return own[0], own[1]
     return stiffness, damping
+
+
+def _own_gains(inertia: JointInertia, gains: Sequence[tuple[float, float]]) -> Array:
+    """Stiffness and damping (2, k) of the model's own servos; a damping below 0 is a ratio of critical damping."""
+    stiffness, damping = np.array(gains).T
+    critical = 2.0 * np.sqrt(stiffness * inertia.swing)
+    return np.array([stiffness, np.where(damping < 0.0, -damping * critical, damping)])
 
 
 def _balance(body: BodyScale) -> dict[str, Any]:

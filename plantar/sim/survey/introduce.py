@@ -226,6 +226,8 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
         rocks=False,
         stiffness=(1000.0,) * len(joints["left"]),
         damping=(10.0,) * len(joints["left"]),
+        own_stiffness=(),
+        own_damping=(),
         balance={"law": "com_admittance"},
         controller={},
         path=folder / "robot.toml",

@@ -250,6 +250,12 @@ def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
         f"stiffness = {_numbers(robot.stiffness, 4)}  # N m/rad",
         f"damping = {_numbers(robot.damping, 4)}  # N m s/rad",
     ]
+    if robot.own_stiffness != robot.stiffness:
+        lines += [
+            "# Gains of the model's own servos, for control.drives = own or torque.",
+            f"own_stiffness = {_numbers(robot.own_stiffness, 4)}  # N m/rad",
+            f"own_damping = {_numbers(robot.own_damping, 4)}  # N m s/rad",
+        ]
     if robot.effort_limits:
         missing = [n for n, e in zip(survey.joint_names("left"), survey.efforts, strict=True) if e is None]
         how = f" but for {', '.join(missing)}: 1e5 stands for none" if missing else ""

@@ -12,7 +12,7 @@ from plantar.robots import load_robot
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sides import SIDES
 from plantar.sim.plant.draw import RANGES, TruePlant, drawn_plant
-from plantar.sim.plant.settings import EVERYTHING, RANDOM, Plant
+from plantar.sim.plant.settings import EVERYTHING, RANDOM, STATED, Plant
 
 LAYOUTS = load_robot("h1").layouts
 SEEDS = range(300)
@@ -58,6 +58,7 @@ def test_the_seed_decides() -> None:
         "dropout",
         "patchiness",
         "reflectance",
+        *STATED,
     }
     assert {name for name in names if same(first, other, name)} == whole
 

@@ -64,6 +64,7 @@ def test_the_world_its_sensors_and_its_servos_alone_know_the_true_plant() -> Non
     outside = {name for name in knowing if not name.startswith("plant/")}
     assert outside == {
         "model/world.py",
+        "run/motor_drives.py",
         "run/run_summary.py",  # gives it in the summary, when the run is over
         "run/runner.py",
         "run/servos.py",

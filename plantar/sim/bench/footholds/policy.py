@@ -81,8 +81,8 @@ class OwnController:
     def step(self, sensors: Sensors) -> Action:
         """One tick of the controller, and inverse kinematics."""
         command = self._walker.step(sensors)
-        angles, torques = self._walker.joint_targets(command)
-        return Action(angles, torques, command.moved_steps)
+        targets = self._walker.joint_targets(command)
+        return Action(targets.angles, targets.torques, command.moved_steps)
 
 
 def load_policy(path: str | os.PathLike[str]) -> Any:

@@ -1,0 +1,82 @@
+"""Dynamics of a free-floating robot that moves its legs, by its controller's model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sides import SIDES, Side
+
+__all__ = ["BodyDynamics"]
+
+_BASE = 6  # velocities of the free base: three of its origin in the world frame, three turns in its own
+
+
+class BodyDynamics:
+    """M(q) a + h(q, v) = [0, tau] + sum J^T w over the base (6) and the leg joints (k); joints of no leg stay at rest.
+
+    Args:
+        model: The robot alone, first joint free.
+        dofs: Place (k,) of each leg joint among the model's velocities.
+        sites: Sole site of each side.
+
+    Attributes:
+        rows: Places (6 + k,) of the base's and the joints' velocities.
+        mass: M (6 + k, 6 + k), with rotors, after `place`; likewise all below.
+        bias: h (6 + k,): Coriolis, centrifugal and gravity terms and what damps the joints.
+        soles: Jacobian (6, 6 + k) of each sole site's velocity and turn, world frame.
+        drifts: Acceleration (6,) of each sole site for a = 0.
+    """
+
+    def __init__(self, model: mujoco.MjModel, dofs: NDArray[np.int_], sites: Mapping[Side, int]) -> None:
+        self._model, self.data = model, mujoco.MjData(model)
+        self._sites = sites
+        self.rows = np.concatenate([np.arange(_BASE), dofs]).astype(np.intp)
+        count, size = len(self.rows), model.nv
+        self._grid = np.ix_(self.rows, self.rows)
+        self._full, self._acceleration, self._force = np.zeros((size, size)), np.zeros(size), np.zeros(size)
+        self._wide = np.zeros((6, size))
+        self._damping = model.dof_damping[self.rows]
+        self.mass, self.bias = np.zeros((count, count)), np.zeros(count)
+        self.soles: dict[Side, NDArray[np.float64]] = {s: np.zeros((6, count)) for s in SIDES}
+        self.drifts: dict[Side, NDArray[np.float64]] = {s: np.zeros(6) for s in SIDES}
+
+    def place(self, configuration: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
+        """Compute all at a configuration (nq,) of the model and a velocity (6 + k,)."""
+        model, data = self._model, self.data
+        data.qpos[:] = configuration
+        data.qvel[self.rows] = velocity
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_comVel(model, data)
+        mujoco.mj_makeM(model, data)
+        mujoco.mj_fullM(model, data, self._full)
+        self.mass[:] = self._full[self._grid]
+        mujoco.mj_rne(model, data, 0, self._force)
+        self.bias[:] = self._force[self.rows] + self._damping * velocity
+        for side, site in self._sites.items():
+            mujoco.mj_jacSite(model, data, self._wide[:3], self._wide[3:], site)
+            self.soles[side][:] = self._wide[:, self.rows]
+            body, point = int(model.site_bodyid[site]), data.site_xpos[site]
+            mujoco.mj_jacDot(model, data, self._wide[:3], self._wide[3:], point, body)
+            self.drifts[side][:] = self._wide @ data.qvel
+
+    def forces(
+        self, acceleration: NDArray[np.float64], wrenches: Mapping[Side, NDArray[np.float64]]
+    ) -> NDArray[np.float64]:
+        """Inverse dynamics: M a + h - sum J^T w.
+
+        Args:
+            acceleration: a (6 + k,) of the base and the joints.
+            wrenches: Wrench (6,) of the ground on each sole in N and N m about its site, world frame.
+
+        Returns:
+            Forces (6 + k,): what the base lacks, 0 for a motion that the wrenches explain, then the joints' torques.
+        """
+        found = self.mass @ acceleration + self.bias
+        for side, wrench in wrenches.items():
+            found -= wrench @ self.soles[side]
+        return np.asarray(found)

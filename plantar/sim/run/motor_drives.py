@@ -1,0 +1,75 @@
+"""Leg joints driven by motors with gains and feed-forward torques in place of stiff position servos."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import SceneError
+from plantar.gait.command import Command, JointTargets
+from plantar.robots.motors.command_motors import CommandMotors
+from plantar.sim.model.world import World
+from plantar.sim.plant.draw import TruePlant
+from plantar.sim.plant.motors import TorqueCurve, TrueMotors
+
+__all__ = ["MotorDrives"]
+
+
+class MotorDrives:
+    """Hands each command's joint targets to the motors, and moves the angles on between control ticks.
+
+    Args:
+        world: The world; its actuators become sources of torque with the gains.
+        motors: What solved the commands.
+        plant: How the true motors differ; None for no difference.
+
+    Attributes:
+        out_of_reach_since: Time in s at which something was first asked for that the legs do not reach; None if never.
+    """
+
+    def __init__(self, world: World, motors: CommandMotors, plant: TruePlant | None = None) -> None:
+        self._world, self._motors = world, motors
+        model, servos = world.model, world.servos
+        self._stiffness = motors.stiffness * (1.0 if plant is None else plant.stiffness_ratio)
+        self._damping = motors.damping
+        model.actuator_gainprm[servos, 0] = 1.0
+        model.actuator_biasprm[servos, 1], model.actuator_biasprm[servos, 2] = -self._stiffness, -self._damping
+        self._true = TrueMotors(plant, self._stiffness, self._damping)
+        speeds = np.array([*world.robot.velocity_limits] * 2)
+        self._curve = TorqueCurve(model, servos, speeds, 1.0 if plant is None else plant.corner_speed)
+        self._targets = JointTargets(np.zeros(len(servos)), np.zeros(len(servos)))
+        self._share, self._elapsed = 1.0, 0.0
+        self.out_of_reach_since: float | None = None
+
+    def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
+        """Hold joint angles (k,) in rad with torques (k,) in N m."""
+        self._targets, self._elapsed = JointTargets(joints.copy(), torques.copy()), 0.0
+        self.drive()
+
+    def command(self, command: Command) -> NDArray[np.float64]:
+        """Follow a command until the next; returns its joint angles (k,) in rad."""
+        if command.joints is None:
+            raise SceneError("the command has no joint targets; allowed: a controller with control.drives")
+        if self._motors.out_of_reach and self.out_of_reach_since is None:
+            self.out_of_reach_since = float(self._world.data.time)
+        self._targets, self._share, self._elapsed = command.joints, command.stiffness, 0.0
+        return command.joints.angles
+
+    def follow(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
+        """Go to joint angles (k,) in rad with torques (k,) in N m by the next tick."""
+        self._targets, self._elapsed = JointTargets(joints, torques), 0.0
+
+    def drive(self) -> None:
+        """Write the torques of one physics step."""
+        w, target = self._world, self._targets
+        joints, speeds = w.data.qpos[w.joint_qpos], w.data.qvel[w.joint_qvel]
+        asked = self._stiffness * target.angles + target.torques
+        if target.velocities is not None:
+            asked += (self._damping + self._stiffness * self._elapsed) * target.velocities
+        if self._share < 1.0:
+            held = self._stiffness * joints
+            asked = held + self._share * (asked - held)
+        if self._curve.acts:
+            self._curve.limit(speeds)
+        w.data.ctrl[w.servos] = self._true.control(float(w.data.time), asked, joints, speeds)
+        self._elapsed += w.period
