@@ -127,5 +127,5 @@ class Motors(Protocol):
     """What turns a command into targets of the joints."""
 
     def targets(self, command: Command, sensors: Sensors) -> JointTargets:
-        """Targets of the joints for the command that answers these sensors; it never raises."""
+        """Returns targets for the `command` that answers the `sensors`; never raises."""
         ...

@@ -41,7 +41,7 @@ class MotorGains(NamedTuple):
 
 
 def motor_gains(robot: Robot, stiffness: float) -> MotorGains:
-    """Gains of a robot's own motors.
+    """Returns gains of a robot's own motors.
 
     Args:
         robot: The robot.
@@ -94,7 +94,7 @@ class CommandMotors:
         self._slow = _SLOW / body.beat
 
     def targets(self, command: Command, sensors: Sensors) -> JointTargets:
-        """Targets of the joints for a command (see `plantar.gait.command.Motors`)."""
+        """Returns targets for the `command` that answers the `sensors` (`plantar.gait.command.Motors`)."""
         self.out_of_reach = not follow_command(self._legs, command) <= _REACH_ERROR
         self.motion.update(self._legs.configuration)
         velocity = self.motion.velocity[6:]
@@ -105,7 +105,7 @@ class CommandMotors:
         return JointTargets(angles, torques, velocity, self.stiffness, self.damping)
 
     def torques(self, command: Command, sensors: Sensors) -> NDArray[np.float64]:
-        """Feed-forward torques (k,) in N m for the command that answers these sensors."""
+        """Returns feed-forward torques (k,) in N m for the `command` that answers the `sensors`."""
         self.dynamics.place(self._legs.configuration, self.motion.velocity)
         return self.dynamics.forces(self.motion.acceleration, planned_wrenches(command))[6:]
 
@@ -113,7 +113,9 @@ class CommandMotors:
 def command_motors(
     robot: Robot, legs: LegModel, body: BodyScale, control: Control, period: float
 ) -> CommandMotors | None:
-    """What drives a robot as a scene's `[control]` table asks for; None for position servos."""
+    """What drives a robot as a scene's `[control]` table asks for.
+
+    Takes `robot`, its `legs`, `body`, `control` and the control `period` in s; returns None for position servos."""
     if control.drives == "servo":
         return None
     return CommandMotors(robot, legs, body, motor_gains(robot, control.joint_stiffness), period)

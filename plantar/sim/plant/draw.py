@@ -173,7 +173,9 @@ class TruePlant:
             "corner_speed": (self.corner_speed, 1.0),
         }
         return {
-            name: _rounded(value) for name, (value, nominal) in told.items() if np.any(np.asarray(value) != nominal)
+            name: np.round(value, 6).tolist()
+            for name, (value, nominal) in told.items()
+            if np.any(np.asarray(value) != nominal)
         }
 
 
@@ -228,7 +230,3 @@ def _of_each_taxel(chance: np.random.Generator, layouts: Mapping[Side, SoleLayou
 def stream(seed: int, name: str) -> np.random.Generator:
     """The random generator of the item `name` of a run with a `seed`; returns another for every name."""
     return np.random.default_rng([seed, 0x91, zlib.crc32(name.encode())])
-
-
-def _rounded(value: Any) -> Any:
-    return np.round(value, 6).tolist()

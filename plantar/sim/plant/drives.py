@@ -1,6 +1,8 @@
-"""True drives: encoders with zero errors, delayed set-points, gears with play."""
+"""True drives of the leg joints: encoders with zero errors, delay, gears with play and ripple, torque-speed curves."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,51 +10,76 @@ from numpy.typing import NDArray
 from plantar.sim.plant.delay import Delay
 from plantar.sim.plant.draw import TruePlant
 
-__all__ = ["RIPPLES", "TrueDrives"]
+__all__ = ["RIPPLES", "TorqueCurve", "TrueDrives"]
 
 RIPPLES = 200.0
 """Swings of the torque in a turn of a joint: two in a turn of the wave generator of a harmonic drive of 100 : 1."""
 
 
-class TrueDrives:
-    """Converts set-points so that the simulator's ideal servos behave as the true drives.
-
-    A servo computes torque = kp (u - q) - kv q'. A gear with the play b passes no torque while the shaft moves between
-    its flanks, then kp times the excess of u - q over b / 2. A gear with torque ripple passes (1 + r sin(n q)) times
-    the torque. Both are expressed by another u.
+class TorqueCurve:
+    """Torque limits that fall with the speed at which a motor drives its joint; a brake keeps its full torque.
 
     Args:
-        plant: The true plant.
-        stiffness: Position gains (k,) in N m/rad by the robot's file.
-        damping: Velocity gains (k,) in N m s/rad, likewise.
+        model: The MjModel of the world, whose force ranges are written.
+        servos: Indices (k,) of the motors' actuators.
+        speeds: Speed limits (k,) of the joints in rad/s; empty without.
+        corner: Share of those up to which a motor has its full torque.
     """
 
-    def __init__(self, plant: TruePlant, stiffness: NDArray[np.float64], damping: NDArray[np.float64]) -> None:
-        self._offsets = plant.encoder_offsets
-        self._line: Delay[NDArray[np.float64]] | None = Delay(plant.actuation_delay) if plant.actuation_delay else None
-        self._play = 0.5 * plant.backlash
-        self._ripple = plant.torque_ripple
-        self._lead = damping / (plant.stiffness_ratio * stiffness)
+    def __init__(self, model: Any, servos: NDArray[np.int64], speeds: NDArray[np.float64], corner: float) -> None:
+        self._ranges, self._servos = model.actuator_forcerange, servos
+        self._full = model.actuator_forcerange[servos].copy()
+        self._speeds, self._corner = speeds, corner
+        self.acts = corner < 1.0 and len(speeds) > 0 and bool(model.actuator_forcelimited[servos].all())
 
-    def followed(
-        self, time: float, setpoint: NDArray[np.float64], joints: NDArray[np.float64], speeds: NDArray[np.float64]
+    def limit(self, speeds: NDArray[np.float64]) -> None:
+        """Write the limits at joint speeds (k,) in rad/s."""
+        drives = np.multiply.outer(speeds / self._speeds, (-1.0, 1.0))  # backwards, forwards
+        share = np.clip((1.0 - drives) / max(1.0 - self._corner, 1e-9), 0.0, 1.0)
+        self._ranges[self._servos] = share * self._full
+
+
+class TrueDrives:
+    """Turns what drives are asked for into the torque offset with which ideal actuators behave as the true drives.
+
+    A drive exerts stiffness (q* - q) + damping (v* - v) + tau_ff = offset - stiffness q - damping v; of a position
+    servo with the set-point u the offset is stiffness u. A gear with the play b passes no spring torque while the shaft
+    moves between its flanks, then that of the excess over b / 2. One with torque ripple passes (1 + r sin(n q)) times
+    the torque.
+
+    Args:
+        plant: The true plant; None for the nominal one.
+        stiffness: True position gains (k,) in N m/rad.
+        damping: Velocity gains (k,) in N m s/rad.
+    """
+
+    def __init__(self, plant: TruePlant | None, stiffness: NDArray[np.float64], damping: NDArray[np.float64]) -> None:
+        self._stiffness, self._damping = stiffness, damping
+        late = 0.0 if plant is None else plant.actuation_delay
+        self._line: Delay[NDArray[np.float64]] | None = Delay(late) if late else None
+        self._zero = 0.0 if plant is None else stiffness * plant.encoder_offsets
+        self._play = 0.0 if plant is None else 0.5 * plant.backlash * stiffness
+        self._ripple = 0.0 if plant is None else plant.torque_ripple
+
+    def offset(
+        self, time: float, asked: NDArray[np.float64], joints: NDArray[np.float64], speeds: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Set-points for the simulator's servos.
+        """Torque offset of the actuators.
 
         Args:
             time: Time in s, never decreasing.
-            setpoint: Set-points (k,) in rad.
+            asked: stiffness q* + damping v* + tau_ff (k,) in N m, which arrives late.
             joints: True joint angles (k,) in rad.
             speeds: True joint speeds (k,) in rad/s.
 
         Returns:
-            Angles (k,) in rad: the set-points that have arrived, less encoder offsets, after the gear.
+            The offset (k,) in N m.
         """
-        arrived = setpoint if self._line is None else self._line.passed(time, setpoint)
-        wanted = arrived - self._offsets
-        if self._play:
-            error = wanted - joints
-            wanted = wanted - np.clip(error, -self._play, self._play)
+        arrived = asked if self._line is None else self._line.passed(time, asked)
+        offset = arrived - self._zero
+        if np.any(self._play):
+            offset = offset - np.clip(offset - self._stiffness * joints, -self._play, self._play)
         if self._ripple:
-            wanted = wanted + self._ripple * np.sin(RIPPLES * joints) * (wanted - joints - self._lead * speeds)
-        return np.asarray(wanted)
+            torque = offset - self._stiffness * joints - self._damping * speeds
+            offset = offset + self._ripple * np.sin(RIPPLES * joints) * torque
+        return np.asarray(offset)

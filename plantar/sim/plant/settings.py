@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any, Self
 
@@ -155,12 +154,8 @@ class Plant(Settings):
         if not values or values == RANDOM:
             return (0.0, 0.0, 0.0)
         found = [self.in_si(value, unit, f"setting '{name}'") for value in values]
-        good = len(found) == 3 and all(_is_number(value) and abs(value) <= most for value in found)
-        if not good:
+        numbers = [v for v in found if isinstance(v, int | float) and not isinstance(v, bool) and abs(v) <= most]
+        if not len(numbers) == len(found) == 3:
             allowed = f'three numbers of -{most:g} to {most:g} {unit}, or "random"'
             raise InputError(f"setting '{name}' is {list(values)!r}; allowed: {allowed}")
-        return tuple(float(value) for value in found)
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+        return tuple(map(float, numbers))

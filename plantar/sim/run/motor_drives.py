@@ -10,7 +10,7 @@ from plantar.gait.command import Command, JointTargets
 from plantar.robots.motors.command_motors import CommandMotors
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
-from plantar.sim.plant.motors import TorqueCurve, TrueMotors
+from plantar.sim.plant.drives import TorqueCurve, TrueDrives
 
 __all__ = ["MotorDrives"]
 
@@ -34,7 +34,7 @@ class MotorDrives:
         self._damping = motors.damping
         model.actuator_gainprm[servos, 0] = 1.0
         model.actuator_biasprm[servos, 1], model.actuator_biasprm[servos, 2] = -self._stiffness, -self._damping
-        self._true = TrueMotors(plant, self._stiffness, self._damping)
+        self._true = TrueDrives(plant, self._stiffness, self._damping)
         speeds = np.array([*world.robot.velocity_limits] * 2)
         self._curve = TorqueCurve(model, servos, speeds, 1.0 if plant is None else plant.corner_speed)
         self._targets = JointTargets(np.zeros(len(servos)), np.zeros(len(servos)))
@@ -42,8 +42,8 @@ class MotorDrives:
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
-        """Hold joint angles (k,) in rad with torques (k,) in N m."""
-        self._targets, self._elapsed = JointTargets(joints.copy(), torques.copy()), 0.0
+        """Hold `joints` (k,) in rad with `torques` (k,) in N m."""
+        self.follow(joints.copy(), torques.copy())
         self.drive()
 
     def command(self, command: Command) -> NDArray[np.float64]:
@@ -56,7 +56,7 @@ class MotorDrives:
         return command.joints.angles
 
     def follow(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
-        """Go to joint angles (k,) in rad with torques (k,) in N m by the next tick."""
+        """Go to `joints` (k,) in rad with `torques` (k,) in N m by the next tick."""
         self._targets, self._elapsed = JointTargets(joints, torques), 0.0
 
     def drive(self) -> None:
@@ -71,5 +71,5 @@ class MotorDrives:
             asked = held + self._share * (asked - held)
         if self._curve.acts:
             self._curve.limit(speeds)
-        w.data.ctrl[w.servos] = self._true.control(float(w.data.time), asked, joints, speeds)
+        w.data.ctrl[w.servos] = self._true.offset(float(w.data.time), asked, joints, speeds)
         self._elapsed += w.period

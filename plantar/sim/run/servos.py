@@ -11,8 +11,7 @@ from plantar.robots.kinematics.command_joints import carry_command, follow_comma
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
-from plantar.sim.plant.drives import TrueDrives
-from plantar.sim.plant.motors import TorqueCurve
+from plantar.sim.plant.drives import TorqueCurve, TrueDrives
 
 __all__ = ["LegServos"]
 
@@ -59,7 +58,8 @@ class LegServos:
             world.period / (_LOW_PASS * world.body.beat + world.period),
             *(legs.joints, legs.torques),
         )
-        self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)
+        self._true = world.stiffness * (1.0 if plant is None else plant.stiffness_ratio)
+        self._drives = None if plant is None else TrueDrives(plant, self._true, world.damping)
         speeds = np.array([*world.robot.velocity_limits] * 2)
         corner = 1.0 if plant is None else plant.corner_speed
         self._curve = TorqueCurve(world.model, world.servos, speeds, corner)
@@ -112,7 +112,6 @@ class LegServos:
                 at = data.qpos[w.joint_qpos]
                 data.ctrl[w.servos] = at + self._stiffness * (data.ctrl[w.servos] - at)
             return
-        setpoint = np.array(self._setpoints.setpoint)
-        data.ctrl[w.servos] = self._drives.followed(
-            float(data.time), setpoint, data.qpos[w.joint_qpos], data.qvel[w.joint_qvel]
-        )
+        asked = self._true * np.asarray(self._setpoints.setpoint)
+        joints, speeds = data.qpos[w.joint_qpos], data.qvel[w.joint_qvel]
+        data.ctrl[w.servos] = self._drives.offset(float(data.time), asked, joints, speeds) / self._true

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import mujoco
 import numpy as np
 import pytest
@@ -12,7 +14,7 @@ from plantar.sides import SIDES
 from plantar.sim.model.world import World, build_world
 from plantar.sim.plant.delay import Delay
 from plantar.sim.plant.draw import TruePlant, drawn_plant
-from plantar.sim.plant.drives import RIPPLES, TrueDrives
+from plantar.sim.plant.drives import RIPPLES, TorqueCurve, TrueDrives
 from plantar.sim.plant.settings import Plant
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
@@ -39,8 +41,8 @@ def drives_of(**settings: object) -> TrueDrives:
 
 
 def torques(drives: TrueDrives, setpoint: np.ndarray, joints: np.ndarray, speeds: np.ndarray) -> np.ndarray:
-    """What a servo of nominal gains makes of what the drives tell it."""
-    return STIFFNESS * (drives.followed(0.0, setpoint, joints, speeds) - joints) - DAMPING * speeds
+    """What a servo of nominal gains exerts."""
+    return drives.offset(0.0, STIFFNESS * setpoint, joints, speeds) - STIFFNESS * joints - DAMPING * speeds
 
 
 def test_a_joint_moves_freely_by_its_play_and_winds_up_from_there() -> None:
@@ -65,6 +67,16 @@ def test_the_torque_swings_by_its_ripple_about_what_was_asked() -> None:
     asked = 2000.0 * 0.02 - 40.0 * 0.5
     assert torque.mean() == pytest.approx(asked)
     assert (torque.max() - asked, asked - torque.min()) == pytest.approx((0.05 * asked, 0.05 * asked), rel=1e-3)
+
+
+def test_a_motors_torque_falls_with_its_speed_and_its_brake_keeps_it() -> None:
+    ranges = np.array([[-8.0, 8.0]])
+    model = SimpleNamespace(actuator_forcerange=ranges, actuator_forcelimited=np.ones(1, dtype=bool))
+    curve = TorqueCurve(model, np.array([0]), np.array([10.0]), 0.5)
+    assert curve.acts
+    for speed, low, high in ((0, -8, 8), (5, -8, 8), (7.5, -8, 4), (-7.5, -4, 8), (12, -8, 0)):
+        curve.limit(np.array([float(speed)]))
+        assert ranges[0].tolist() == pytest.approx([low, high])
 
 
 def test_a_joint_with_dry_friction_does_not_move_under_less_torque_than_that(h1: Robot) -> None:
@@ -124,7 +136,7 @@ def test_what_is_read_late_is_what_was_read_then(world: World) -> None:
 def test_drives_follow_the_shifted_set_points() -> None:
     drives = drives_of(actuation_delay=0.007)
     sent = np.random.default_rng(0).normal(size=(40, 12))
-    followed = [drives.followed(0.001 * k, row, STILL, STILL) for k, row in enumerate(sent)]
+    followed = [drives.offset(0.001 * k, row, STILL, STILL) for k, row in enumerate(sent)]
     assert np.array_equal(followed, [sent[max(0, k - 7)] for k in range(40)])
 
 
