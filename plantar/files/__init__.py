@@ -1,1 +1,1 @@
-"""A file of unknown origin, read within limits: its size, its text, its archive, and libraries that run apart."""
+"""Files of unknown origin, read within limits of size, text, archive and separate processes."""

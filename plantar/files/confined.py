@@ -1,8 +1,4 @@
-"""Calling a library on a stranger's file in its own process, whose memory, time and output have limits.
-
-Libraries of native code may crash on a damaged file, and none of them asks how much of it there is before it takes
-memory for what the file states.
-"""
+"""Calling a library of native code on a foreign file in a separate process, with limits of memory, time and output."""
 
 from __future__ import annotations
 
@@ -32,16 +28,15 @@ _STARTING = 10.0  # s that starting the process may take on a busy machine
 def confined(
     function: str, path: str | os.PathLike[str], error: type[PlantarError], what: str, memory: float, seconds: float
 ) -> dict[str, NDArray[Any]]:
-    """Call a function on a file in its own process.
+    """Returns the arrays of a function that is called on a file in a separate process.
 
     Args:
         function: Its module and name, as "package.module:name"; it takes the file's path and returns arrays by name.
+        path: The file.
+        error: Class of the error if the function raises, crashes or passes a limit.
         what: What the file should be, for the message, for example "a C3D file".
         memory: Bytes of data that the process may hold.
-        seconds: Time of the processor that it may take; it may wait as long again.
-
-    Raises:
-        PlantarError: If the function raises, crashes or passes a limit; of the class `error`.
+        seconds: Processor time in s; the same again to wait.
 
     Example:
         >>> confined("os.path:getsize", "none", PlantarError, "a file", memory=1e9, seconds=10.0)
@@ -70,14 +65,13 @@ def confined(
 
 
 def _environment(folder: str) -> dict[str, str]:
-    """One thread, a folder for temporary files, and no modules from the folder one works in."""
+    """One thread, a folder for temporary files, and no modules from the current folder."""
     threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
     places = [place for place in os.environ.get("PYTHONPATH", "").split(os.pathsep) if place]
     return {**os.environ, **threads, "TMPDIR": folder, "PYTHONPATH": os.pathsep.join(places)}
 
 
 def _reason(done: subprocess.CompletedProcess[bytes], memory: float, seconds: float) -> str:
-    """Why the process returned no arrays."""
     if done.returncode < 0:
         name = signal.Signals(-done.returncode).name
         if name == "SIGXCPU":
@@ -91,7 +85,7 @@ def _reason(done: subprocess.CompletedProcess[bytes], memory: float, seconds: fl
 
 
 def _called_on_file() -> None:
-    """In the separate process: call the function that the arguments name, and write what it returns to stdout."""
+    """In the separate process: call the function of the arguments, and write its result to stdout."""
     function, path, *limits = sys.argv[1:]
     output = os.dup(1)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # libraries may print

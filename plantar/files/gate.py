@@ -1,6 +1,6 @@
-"""The gate for what comes from outside: how large files may be, and which libraries read them in a process apart.
+"""Limits for files from outside, and the libraries that read them in a separate process.
 
-SECURITY.md is made of what is declared here (`tools/security_page.py`).
+SECURITY.md is made of these declarations (`tools/security_page.py`).
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ _TRIMESH = "plantar.shoes.foot.trimesh_file"
 
 
 class Helper(NamedTuple):
-    """A library that reads a kind of file in a process apart.
+    """A library that reads a kind of file in a separate process.
 
     Attributes:
         function: The function that is called there, as "package.module:name".
         what: What the file should be, for messages.
         memory: Bytes of data that the process may hold: some, and more for each byte of the file.
-        seconds: Time of the processor in s that it may take, likewise.
+        seconds: Processor time in s, likewise.
         library: The library.
     """
 
@@ -76,19 +76,13 @@ HELPERS: Mapping[str, Helper] = {
 def read_apart(
     kind: str, path: str | os.PathLike[str], error: type[PlantarError], size: int | None = None
 ) -> dict[str, NDArray[Any]]:
-    """Read a file in a process apart.
+    """Returns the arrays of a file, read in a separate process.
 
     Args:
         kind: A key of HELPERS.
         path: The file.
-        error: What is raised.
-        size: Bytes of the file; None for those of a single file. Give it for a folder.
-
-    Returns:
-        The arrays that the helper's function returns, by name.
-
-    Raises:
-        PlantarError: If the file cannot be read, or reading it crashes or passes a limit; of the class `error`.
+        error: Class of the error if the file cannot be read, or reading it crashes or passes a limit.
+        size: Bytes of a folder; None for a single file.
 
     Example:
         >>> read_apart("image", "/dev/zero", PlantarError)

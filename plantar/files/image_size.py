@@ -1,4 +1,4 @@
-"""The size that an image states, before it is decoded: a small file may ask for any amount of memory."""
+"""The stated size of an image, before it is decoded."""
 
 from __future__ import annotations
 
@@ -36,13 +36,7 @@ class ImageSize:
 
 
 def stated_size(data: bytes) -> ImageSize | None:
-    """Size that a PNG, JPEG, TIFF or BMP states.
-
-    Args:
-        data: The file's bytes.
-
-    Returns:
-        The size; None for other files, and where they end before they state it.
+    """Size that the bytes of a PNG, JPEG, TIFF or BMP state; None for other files, and where they end before.
 
     Example:
         >>> stated_size(b"BM" + bytes(12) + struct.pack("<IiiHH", 40, 30, -20, 1, 24) + bytes(20))

@@ -1,8 +1,4 @@
-"""Opens foreign files: a regular file, at most so large, or one line that explains why not.
-
-A pipe would wait for a writer that never comes, a device may never end, and what is larger than a reader can hold must
-be refused before it is read.
-"""
+"""Opens foreign files: a regular file of a largest size, or one line that explains why not."""
 
 from __future__ import annotations
 
@@ -27,7 +23,7 @@ Name = str | os.PathLike[str]
 
 
 def is_file(path: Name) -> bool:
-    """Whether there is a regular file of this name; False also for names that no file can have.
+    """Whether there is a regular file of this name; False also for impossible names.
 
     Example:
         >>> is_file("/dev/null"), is_file("x" * 300), is_file("")
@@ -40,17 +36,13 @@ def is_file(path: Name) -> bool:
 
 
 def check_input(path: Name, error: type[PlantarError], most: float | None = None, where: str | None = None) -> int:
-    """Refuse what is no regular file, or is larger than allowed; for libraries that open a file themselves.
+    """Returns the size in bytes of a file; for libraries that open it themselves.
 
     Args:
+        path: The file.
+        error: Class of the error if it cannot be read, is no regular file, or is too large.
         most: Largest size in bytes; None where there is no limit.
         where: Beginning of the message; the path where None.
-
-    Returns:
-        Size of the file in bytes.
-
-    Raises:
-        PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.
 
     Example:
         >>> from plantar.errors import FormatError
@@ -63,19 +55,7 @@ def check_input(path: Name, error: type[PlantarError], most: float | None = None
 
 
 def open_input(path: Name, error: type[PlantarError], most: float | None = None, where: str | None = None) -> BinaryIO:
-    """Open a regular file for reading.
-
-    Args:
-        path: The file.
-        error: What is raised.
-        most: Largest size in bytes; None where there is no limit.
-        where: Beginning of the message; the path where None.
-
-    Returns:
-        The open file.
-
-    Raises:
-        PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.
+    """Returns a regular file opened for reading; path, error, most and where as of `check_input`.
 
     Example:
         >>> with open_input(__file__, PlantarError) as stream:
@@ -106,19 +86,7 @@ def open_input(path: Name, error: type[PlantarError], most: float | None = None,
 
 
 def read_input(path: Name, error: type[PlantarError], most: float, where: str | None = None) -> bytes:
-    """All bytes of a regular file.
-
-    Args:
-        path: The file.
-        error: What is raised.
-        most: Largest size in bytes.
-        where: Beginning of the message; the path where None.
-
-    Returns:
-        The bytes.
-
-    Raises:
-        PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.
+    """Returns all bytes of a regular file; path, error, most and where as of `check_input`.
 
     Example:
         >>> len(read_input(__file__, PlantarError, most=1e6)) == os.path.getsize(__file__)

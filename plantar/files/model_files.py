@@ -1,10 +1,10 @@
-"""Where the files that a robot's file names may lie: a downloaded robot reads only files that came with it.
+"""Allowed places of the files that a robot's file names: a downloaded robot reads only files that came with it.
 
 - A robot TOML names files in its own folder and below.
-- A model (MJCF, URDF) names files in its own folder and below, and in the folder above it, where packages keep their
-  meshes; but not where that folder is the home folder, the one of temporary files, or one that holds either.
+- A model (MJCF, URDF) also in the folder above it, unless that is, or holds, the home folder or that of temporary
+  files.
 - `package://name/...` is looked for in the folders above the model that are called so.
-- Folders that the environment variable PLANTAR_MODEL_FOLDERS names (separated as PATH is) are allowed in addition.
+- Folders in the environment variable PLANTAR_MODEL_FOLDERS (separated as PATH is) are allowed in addition.
 
 Links are followed before a place is judged.
 """
@@ -46,19 +46,13 @@ _OWN = Path(__file__).resolve().parents[1]
 
 
 def named_file(path: Path, folders: tuple[Path, ...], error: type[PlantarError], where: str) -> Path:
-    """A file that another file names, if it lies where it may.
+    """Returns the path of a file that another file names, if its place is allowed.
 
     Args:
         path: The file.
         folders: Folders that it may lie in or below.
-        error: What is raised.
+        error: Class of the error if it lies elsewhere, links followed.
         where: Beginning of the message: what names it.
-
-    Returns:
-        The path.
-
-    Raises:
-        PlantarError: If it lies elsewhere, links followed; of the class `error`.
 
     Example:
         >>> named_file(Path("/etc/passwd"), (Path("/robots/mine"),), PlantarError, "robot.toml")
@@ -101,16 +95,13 @@ def folders_of_model(file: Path) -> tuple[Path, ...]:
 
 
 def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -> Path:
-    """Where a URDF's mesh lies: `package://` is looked for next to the file and in the folders above it.
+    """Returns the path, which may not exist, of a URDF's mesh; `package://` is found in the folders above the file.
 
     Args:
-        name: The mesh's name in the file.
-
-    Returns:
-        The mesh's path; it may not exist.
-
-    Raises:
-        PlantarError: If it lies where it may not; of the class `error`.
+        file: The URDF.
+        name: The mesh's name in it.
+        error: Class of the error if its place is not allowed.
+        where: Beginning of the message.
 
     Example:
         >>> mesh_of_urdf(Path("/robots/mine/mine.urdf"), "foot.stl", PlantarError, "mine.urdf").as_posix()
@@ -133,18 +124,11 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
 
 
 def parsed_model(file: Path, error: type[PlantarError]) -> Element:
-    """The XML of an MJCF or URDF, MJCF includes put in their place.
+    """Returns the outermost element of an MJCF or URDF, MJCF includes put in their place.
 
     Args:
         file: The model.
-        error: What is raised.
-
-    Returns:
-        The outermost element.
-
-    Raises:
-        PlantarError: If a file cannot be read, is no XML, is included twice, or lies where it may not; of the class
-            `error`.
+        error: Class of the error if a file cannot be read, is no XML, is included twice, or its place is not allowed.
 
     Example:
         >>> parsed_model(Path("none.xml"), PlantarError)
@@ -155,18 +139,7 @@ def parsed_model(file: Path, error: type[PlantarError]) -> Element:
 
 
 def files_of_model(file: Path, error: type[PlantarError]) -> set[Path]:
-    """An MJCF or URDF and the files that it includes.
-
-    Args:
-        file: The model.
-        error: What is raised.
-
-    Returns:
-        Their full paths.
-
-    Raises:
-        PlantarError: As `parsed_model`.
-    """
+    """Returns the full paths of an MJCF or URDF file and the files that it includes; error as of `parsed_model`."""
     seen: set[Path] = set()
     _included(file, file, seen, error)
     return seen
@@ -194,12 +167,10 @@ def _included(file: Path, main: Path, seen: set[Path], error: type[PlantarError]
 
 
 def check_model(file: Path, error: type[PlantarError]) -> None:
-    """Refuse a model that names files where it may not, or asks for more than a robot is; for a library that reads it.
+    """Refuse a model file of too many parts, or that names files in other places; foreign ones are tried in MuJoCo
+    first.
 
-    A model that did not come with Plantar is read by MuJoCo in its own process first.
-
-    Raises:
-        PlantarError: If it cannot be read, or names such a file; of the class `error`.
+    The error is of the class `error`.
 
     Example:
         >>> check_model(Path("none.xml"), PlantarError)
@@ -212,7 +183,7 @@ def check_model(file: Path, error: type[PlantarError]) -> None:
 
 
 def _tried(file: Path, changed: int, error: type[PlantarError]) -> None:
-    """Let MuJoCo read a model in a separate process; one that passed is not read there again."""
+    """Let MuJoCo read a model in a separate process, once."""
     key = file.resolve(), changed
     if key in _PASSED:
         return
@@ -251,7 +222,7 @@ def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None
 
 
 def _check_size(path: Path, tag: str, error: type[PlantarError], where: str) -> None:
-    """Refuse a mesh, height field or texture that is too large, or no file; one that is missing is the reader's."""
+    """Refuse a mesh, height field or texture that is too large, or no file; a missing one is the reader's."""
     if tag not in ("mesh", "hfield", "texture", "skin") or not os.path.exists(path):
         return
     check_input(path, error, _LARGEST_PART, f"{where}: {path}")
@@ -265,6 +236,6 @@ def _check_size(path: Path, tag: str, error: type[PlantarError], where: str) -> 
 
 
 def _asset_folders(compiler: dict[str, str]) -> Iterator[str]:
-    """Folders that MuJoCo looks in for what a model names."""
+    """Folders in which MuJoCo looks for a model's files."""
     found = [compiler[key] for key in ("meshdir", "texturedir", "assetdir") if key in compiler]
     yield from found or [""]

@@ -1,4 +1,4 @@
-"""Limits of a robot's model (MJCF, URDF) that are read off its text, before MuJoCo makes what a few words ask for."""
+"""Limits of a robot's model (MJCF, URDF), checked in its text."""
 
 from __future__ import annotations
 
@@ -36,15 +36,12 @@ _UNITS = {"": 1.0, "K": 2.0**10, "M": 2.0**20, "G": 2.0**30}
 
 
 def check_model_size(root: Element, error: type[PlantarError], where: str) -> None:
-    """Refuse a model of more parts than any robot has, replicas counted, or of tables that take any memory.
+    """Refuse a model of more parts than any robot has, replicas counted, or of tables of too much memory.
 
     Args:
         root: Its outermost element, includes in their place.
-        error: What is raised.
+        error: Class of the error if it passes a limit.
         where: Beginning of the message.
-
-    Raises:
-        PlantarError: If it passes a limit; of the class `error`.
 
     Example:
         >>> from plantar.files.xml_file import parse_xml
@@ -80,7 +77,7 @@ def _check_number(tag: str, key: str, text: str, error: type[PlantarError], wher
 
 
 def _numbers(text: str) -> list[float]:
-    """The numbers of an attribute; 0 for what is none, which MuJoCo reports."""
+    """The numbers of an attribute; 0 for others, which MuJoCo reports."""
     out = [0.0]
     for word in text.split():
         try:
@@ -91,11 +88,7 @@ def _numbers(text: str) -> list[float]:
 
 
 def parsed_in_trial(path: str) -> dict[str, int]:
-    """Let MuJoCo read a model, for `confined`: only a crash, or memory or time beyond its limits, counts.
-
-    Returns:
-        The number of its bodies; 0 where MuJoCo refuses it, as it will again.
-    """
+    """Let MuJoCo read a model, for `confined`; returns the number of its bodies, 0 where MuJoCo refuses it."""
     import mujoco
 
     try:

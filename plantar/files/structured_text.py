@@ -28,10 +28,7 @@ _DEEP_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{10}}")
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """The table of a TOML text.
-
-    Raises:
-        ValueError: If it is not valid TOML, or nested too deep; one line.
+    """The table of a TOML text; ValueError of one line if it is not valid, or nested too deep.
 
     Example:
         >>> parse_toml("a = [1, 2]")
@@ -51,7 +48,6 @@ def parse_toml(text: str) -> dict[str, Any]:
 
 
 def _refuse_long_integers(value: Any) -> None:
-    """Refuse what TOML does not allow and Python cannot write into a message."""
     if isinstance(value, int) and value.bit_length() > 64:
         raise ValueError("it holds an integer of more than 64 bits")
     for inner in value.values() if isinstance(value, dict) else value if isinstance(value, list) else ():
@@ -59,18 +55,12 @@ def _refuse_long_integers(value: Any) -> None:
 
 
 def read_toml(path: str | os.PathLike[str], error: type[PlantarError], where: str) -> dict[str, Any]:
-    """The table of a TOML file, UTF-8 with or without a byte order mark.
+    """Returns the table of a TOML file, UTF-8 with or without a byte order mark.
 
     Args:
         path: The file, of up to TOML_MOST bytes.
-        error: What is raised.
+        error: Class of the error if it cannot be read or is not valid TOML.
         where: Beginning of the message, for example "scene file walk.toml".
-
-    Returns:
-        The table.
-
-    Raises:
-        PlantarError: If it cannot be read or is not valid TOML; of the class `error`.
 
     Example:
         >>> from plantar.errors import SceneError
@@ -85,19 +75,13 @@ def read_toml(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
 
 def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: str, kind: str = "valid JSON") -> Any:
-    """What a JSON file holds, UTF-8 with or without a byte order mark.
+    """Returns the value of a JSON file, UTF-8 with or without a byte order mark.
 
     Args:
         path: The file, of up to JSON_MOST bytes.
-        error: What is raised.
+        error: Class of the error if it cannot be read or is not valid JSON.
         where: Beginning of the message, for example "layout file sole.json".
         kind: What it should have been, for the message.
-
-    Returns:
-        The value.
-
-    Raises:
-        PlantarError: If it cannot be read or is not valid JSON; of the class `error`.
 
     Example:
         >>> from plantar.errors import LayoutError
@@ -114,14 +98,11 @@ def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: st
 
 
 def packaged_files(package: str, pattern: str) -> list[Path]:
-    """Data files that lie in a package, which is not loaded: another one may read a robot's file without MuJoCo.
+    """Returns the sorted paths of data files in a package, which is not loaded; none where it is not installed.
 
     Args:
-        package: Name of the package; where it is not installed, there are none.
+        package: Name of the package.
         pattern: Which files, with wildcards, below its folder.
-
-    Returns:
-        Their paths, sorted.
 
     Example:
         >>> [path.name for path in packaged_files("plantar.sim", "scenes/beam*.toml")]
@@ -135,10 +116,7 @@ def packaged_files(package: str, pattern: str) -> list[Path]:
 
 
 def described_files(paths: Iterable[Path]) -> dict[Path, str]:
-    """The first line of the "title" or "description" that each TOML file gives.
-
-    Returns:
-        The lines by path; empty where a file gives none or cannot be read.
+    """First line of the "title" or "description" of each TOML file by path; empty where there is none.
 
     Example:
         >>> [*described_files(packaged_files("plantar.sim", "scenes/beam.toml")).values()][0][:14]

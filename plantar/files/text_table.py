@@ -1,4 +1,4 @@
-"""Small tables of text (CSV, TSV) in any encoding: at most so large, of so many rows and columns."""
+"""Small tables of text (CSV, TSV) in any encoding, limited in size, rows and columns."""
 
 from __future__ import annotations
 
@@ -38,17 +38,11 @@ class TextTable(NamedTuple):
 
 
 def read_text_table(path: str | os.PathLike[str], error: type[PlantarError]) -> TextTable:
-    """Read a table: tabs, semicolons or commas between cells, a row of names first.
+    """Returns a table: tabs, semicolons or commas between cells, a row of names first.
 
     Args:
         path: The file, of up to TABLE_MOST bytes; UTF-8, UTF-16 or Latin-1.
-        error: What is raised.
-
-    Returns:
-        The table.
-
-    Raises:
-        PlantarError: If it cannot be read, is no text, or has too many rows or columns; of the class `error`.
+        error: Class of the error if it cannot be read, is no text, or is too large.
 
     Example:
         >>> read_text_table("none.csv", PlantarError)

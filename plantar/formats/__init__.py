@@ -1,7 +1,6 @@
 """Formats of plantar pressure recordings, one a file.
 
-Each module of this folder with a `FORMAT` is one; so is what a package of yours names as an entry point of the group
-"plantar.formats".
+Each module of this folder with a `FORMAT` is one, and each entry point of the group "plantar.formats".
 """
 
 from __future__ import annotations
@@ -34,10 +33,7 @@ of a hundred kilobytes."""
 
 
 def formats() -> dict[str, Format]:
-    """All formats by name, in the order in which they are tried.
-
-    Raises:
-        FormatError: If an entry point of another package is no format.
+    """All formats by name, in the order in which they are tried; FormatError if an entry point is no format.
 
     Example:
         >>> list(formats())[:4]
@@ -62,18 +58,7 @@ def _formats() -> dict[str, Format]:
 
 
 def named_format(path: str | os.PathLike[str], name: str | None = None) -> Format:
-    """The format of a name, or that of a file's content where the name is None.
-
-    Args:
-        path: The file.
-        name: Name of a format, or None.
-
-    Returns:
-        The format.
-
-    Raises:
-        FormatError: If there is no format of this name, or the file is of none.
-    """
+    """Returns the format of a name, or of the content of the file at path where name is None; else FormatError."""
     known = formats()
     if name is not None and name not in known:
         raise FormatError(f"unknown format {name!r}; allowed: {', '.join(known)}")
@@ -81,21 +66,13 @@ def named_format(path: str | os.PathLike[str], name: str | None = None) -> Forma
 
 
 def is_study_folder(path: str | os.PathLike[str]) -> bool:
-    """Whether a path is a folder of recordings, and not a folder that is one recording itself.
-
-    Returns:
-        True for a folder that no format claims.
-    """
+    """Whether a path is a folder of recordings, and not one that a format claims."""
     held = (f.folders for f in formats().values() if f.folders is not None)
     return os.path.isdir(path) and not any(is_file(Path(path) / name) for name in held)
 
 
 def detect_format(path: str | os.PathLike[str]) -> Format:
-    """Recognise a file, or a folder that holds a recording, by its content.
-
-    Raises:
-        FormatError: If the file cannot be read, is empty, or is of no known format.
-    """
+    """Recognise a file, or a folder that holds a recording, by its content; FormatError if it is of no known format."""
     known = formats()
     names = ", ".join(f"{f.name} ({f.title})" for f in known.values())
     if os.path.isdir(path):
@@ -131,7 +108,7 @@ def read_recording(
         path: The file.
         format: Name of its format; recognised from the content where None.
         layout: Sole layout to use instead of the format's own geometry; its mirror image serves the other foot.
-        options: All that the user knows about the file; `layout` is put into it.
+        options: What else is known of the file.
 
     Returns:
         The recording, in SI units, or in counts where it states so.
@@ -170,7 +147,6 @@ def read_recording(
 
 
 def _insole_size(size: str, format: str) -> str:
-    """A size of insole in lower case, refused where it has no meaning."""
     from plantar.formats.nominal_insole import CELL_AREAS
 
     if format != "pedar":

@@ -1,8 +1,8 @@
 """Arrays in numpy's own files (.npz, .npy): a frame a row, a cell a column, and the times next to them.
 
-In an NPZ the arrays are found by their names: "time" (s), "left" and "right" or one array whose name names no foot;
-"unit", "rate_hz", "side", "kind" ("insole", "platform", "robot") and "layout_left" (JSON of a layout file) are read
-where they are there. `Recording.to_npz` writes such a file.
+In an NPZ the arrays are "time" (s), "left" and "right" or one of another name, and optionally "unit", "rate_hz",
+"side", "kind" ("insole", "platform", "robot") and "layout_left" (JSON of a layout file), as `Recording.to_npz` writes
+them.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass(frozen=True)
 class _Array:
-    """An array of the file, of which only what precedes its values has been read."""
+    """An array of the file, of which only the header has been read."""
 
     shape: tuple[int, ...]
     dtype: np.dtype[Any]
@@ -77,7 +77,6 @@ class _Array:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read an NPZ or NPY file."""
     try:
         with _arrays(path) as arrays:
             return _recording(path, arrays, options)
@@ -86,18 +85,12 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def recording_of_arrays(arrays: Mapping[str, NDArray[Any]], options: ReadOptions, name: Path) -> PressureRecording:
-    """A recording from arrays in memory, with the names that an NPZ file has.
+    """Returns a recording from arrays in memory; FormatError if none holds frames of cells.
 
     Args:
-        arrays: The arrays by name.
+        arrays: The arrays by the names of an NPZ file.
         options: What is known of them.
-        name: What the recording is called.
-
-    Returns:
-        The recording.
-
-    Raises:
-        FormatError: If no array holds frames of cells.
+        name: Name of the recording.
     """
     held = {}
     for key, values in arrays.items():
@@ -162,13 +155,12 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
 
 
 def _kind(arrays: dict[str, _Array]) -> Kind:
-    """What measured, as the file states it; insoles where it does not."""
     stated = _text(arrays, "kind")
     return next((kind for kind in get_args(Kind) if kind == stated), "insole")
 
 
 def _one_platform(feet: dict[Side, FootRecording]) -> dict[Side, FootRecording]:
-    """A platform as it measured, of what its feet carried: no cell carries both at once."""
+    """A platform from its feet's loads: no cell carries both at once."""
     if len(feet) < 2 or feet["left"].force.shape != feet["right"].force.shape:
         return feet
     return {"left": replace(feet["left"], force=feet["left"].force + feet["right"].force)}
@@ -176,7 +168,7 @@ def _one_platform(feet: dict[Side, FootRecording]) -> dict[Side, FootRecording]:
 
 @contextmanager
 def _arrays(path: Path) -> Iterator[dict[str, _Array]]:
-    """The arrays of a file by their names; their values can be read as long as it is open."""
+    """The arrays of a file by their names, readable as long as it is open."""
     with open_input(path, FormatError) as stream:
         if stream.read(2) != b"PK":
             stream.seek(0)
@@ -219,7 +211,7 @@ def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) ->
 
 
 def _frames(array: _Array) -> NDArray[np.float64]:
-    """An array as (frames, cells); a matrix of cells is laid out row by row."""
+    """An array as (frames, cells), a matrix of cells row by row."""
     table = np.asarray(array.read(), dtype=float).reshape(array.shape[0], -1)
     for start in range(0, len(table), 4096):  # by blocks: a mask of all would be as large as the file
         block = table[start : start + 4096]

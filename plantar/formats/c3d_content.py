@@ -1,4 +1,4 @@
-"""What of a C3D file is wanted, as plain arrays; runs in a process of its own, since ezc3d is native code."""
+"""Contents of a C3D file as plain arrays; runs in a separate process, since ezc3d is native code."""
 
 from __future__ import annotations
 
@@ -38,13 +38,7 @@ def foot_of_marker(label: str) -> Side | None:
 
 
 def event_of(label: str, context: str = "") -> tuple[Side, str] | None:
-    """The foot and kind of an event, from its label and the context where there is one.
-
-    Args:
-        context: Its context, such as "Left".
-
-    Returns:
-        The foot, and "strikes" or "lifts"; None of other events.
+    """Returns the foot and "strikes" or "lifts" of an event's label and context, or None.
 
     Example:
         >>> event_of("LHS"), event_of("RTO"), event_of("Foot Off", "Right"), event_of("start", "General")
@@ -65,10 +59,10 @@ def content_of_file(path: Path) -> dict[str, Any]:
     """Force plates, tracks of the feet and events of a C3D file.
 
     Returns:
-        "rate" in Hz and "frames" of the analog channels and the number of "plates"; of each plate i "channels_i"
-        (c, n) as scaled by the file, their "units_i", "type_i", "corners_i" (4, 3), "origin_i" (3,) and "matrix_i"
-        (6, c) or empty; "point_unit"; "track_left" and "track_right" (n, 3), the mean of the foot's markers at the
-        analog rate, where there are some; "strikes_..." and "lifts_..." of each side in s from the first frame.
+        "rate" in Hz and "frames" of the analog channels and the number of "plates"; of each plate i "channels_i" (c, n)
+        as scaled by the file, their "units_i", "type_i", "corners_i" (4, 3), "origin_i" (3,) and "matrix_i" (6, c) or
+        empty; "point_unit"; "track_left" and "track_right" (n, 3), the mean of the foot's markers at the analog rate;
+        "strikes_..." and "lifts_..." of each side in s from the first frame.
     """
     import ezc3d  # 0.08 s
 
@@ -93,7 +87,7 @@ def content_of_file(path: Path) -> dict[str, Any]:
 
 
 def _values(parameters: Any, group: str, *names: str) -> list[Any]:
-    """Values of the first of some parameters that is there, with its continuations (LABELS2, ...); empty without."""
+    """Values of the first existing parameter, with its continuations (LABELS2, ...); empty without."""
     held = parameters.get(group, {})
     for name in names:
         if name in held:
@@ -108,7 +102,6 @@ def _array(parameters: Any, name: str) -> NDArray[np.float64]:
 
 
 def _plates(parameters: Any, analogs: NDArray[np.float64]) -> dict[str, Any]:
-    """The plates that the group FORCE_PLATFORM describes, with their channels."""
     used = _array(parameters, "USED")
     count = int(used[0]) if len(used) else 0
     types, channels = _array(parameters, "TYPE"), _array(parameters, "CHANNEL")
@@ -138,7 +131,7 @@ def _plates(parameters: Any, analogs: NDArray[np.float64]) -> dict[str, Any]:
 
 
 def _events(content: Any) -> dict[str, NDArray[np.float64]]:
-    """Times in s of the strikes and lifts of each foot, from the first frame that the file holds."""
+    """Times in s of the strikes and lifts of each foot, from the first frame."""
     out = {f"{kind}_{side}": np.zeros(0) for kind in ("strikes", "lifts") for side in SIDES}
     parameters = content["parameters"]
     labels, contexts = (_values(parameters, "EVENT", name) for name in ("LABELS", "CONTEXTS"))

@@ -1,7 +1,6 @@
 """Force plates in C3D files: force, moment and centre of pressure of each plate, without cells.
 
-ezc3d reads the file in a process of its own, with limits: its native code might crash or ask for any amount of memory
-on damaged files. Plate types 1 to 5 are computed here from their channels (C3D format user guide, "Force platforms").
+Plate types 1 to 5 are computed from their channels (C3D format user guide, "Force platforms").
 """
 
 from __future__ import annotations
@@ -47,7 +46,6 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read the force plates."""
     if find_spec("ezc3d") is None:
         raise DependencyError("ezc3d", "formats")
     check_input(path, FormatError, _LARGEST)
@@ -84,13 +82,13 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _stated_events(held: Mapping[str, NDArray[Any]]) -> dict[Side, StatedEvents]:
-    """The foot strikes and foot offs that the group EVENT states, in the frames' time."""
+    """Foot strikes and foot offs of the group EVENT, in the frames' time."""
     found = {side: StatedEvents(held[f"strikes_{side}"], held[f"lifts_{side}"]) for side in SIDES}
     return {side: own for side, own in found.items() if len(own.heel_strikes) or len(own.toe_offs)}
 
 
 def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
-    """A warning where the file holds fewer frames than its header states: the library reads what there is."""
+    """A warning where the file holds fewer frames than its header states."""
     first, last = struct.unpack_from("<HH", head, 6)
     (samples,) = struct.unpack_from("<H", head, 18)
     read = int(held["frames"])
@@ -116,7 +114,7 @@ def _axes(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _vertical_axis(corners: list[NDArray[np.float64]], warnings: list[str]) -> int:
-    """The laboratory's vertical axis: the one that the plates' surfaces are perpendicular to; z where none shows it."""
+    """The laboratory's axis to which the plates' surfaces are perpendicular; z where none is."""
     normals = [np.abs(_axes(c)[:, 2]) for c in corners if len(c) == 4 and np.isfinite(c).all() and np.ptp(c) > 0.0]
     if not normals:
         warnings.append(

@@ -1,4 +1,4 @@
-"""Columns of cells, from formats that hold numbers and no geometry, as the recording of one foot."""
+"""Columns of cells without geometry, as the recording of one foot."""
 
 from __future__ import annotations
 
@@ -22,19 +22,13 @@ __all__ = ["cells_of_foot", "halves", "scale_to_force", "unit_of_values"]
 
 
 def unit_of_values(stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file") -> Unit:
-    """The unit of the values: the user's word, else the file's, else raw counts with a warning.
+    """Returns the unit of the values: the options', else the stated one, else raw counts with a warning.
 
     Args:
-        stated: Unit that the file states, None where it states none.
+        stated: Unit that the file states, or None; FormatError if it is not known.
         options: The user's options.
-        warnings: Where an assumption is put.
-        what: What states nothing, for the warning.
-
-    Returns:
-        The unit.
-
-    Raises:
-        FormatError: If the stated unit is not known.
+        warnings: List to which assumptions are added.
+        what: What states no unit, for the warning.
     """
     text = options.unit or stated
     if not text:
@@ -55,19 +49,16 @@ def cells_of_foot(
     ids: Sequence[int] | None = None,
     own: SoleLayout | None = None,
 ) -> FootRecording:
-    """One foot's forces from values in a unit.
+    """Returns one foot's forces from values in a unit.
 
     Args:
         side: The foot.
         values: Values (n, k), NaN where not measured; they become the forces in place.
-        unit: What they are.
-        options: With the layout that the user gave, which comes before the file's own.
-        warnings: Where an assumption is put.
+        unit: Their unit.
+        options: With the user's layout, which overrides the file's own.
+        warnings: List to which assumptions are added.
         ids: Cell ids of the columns, where the file names them.
-        own: Layout that the file itself holds.
-
-    Returns:
-        The foot.
+        own: Layout of the file itself.
 
     Raises:
         FormatError: If the layout has another number of cells, or pressures have no cell areas to make forces of.
@@ -92,12 +83,12 @@ def cells_of_foot(
 
 
 def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.float64] | None) -> None:
-    """Make forces in N of readings, in place; raw counts stay what they are.
+    """Convert readings to forces in N, in place, unless they are raw counts.
 
     Args:
         values: Readings (n, k).
-        unit: What they are.
-        areas: Areas (k,) of the cells in m^2; None where they are not known, and the readings are no pressures.
+        unit: Their unit.
+        areas: Areas (k,) of the cells in m^2, for pressures.
     """
     if unit.kind == "pressure" and areas is not None:
         scale_frames(values, unit.factor * areas)
@@ -108,15 +99,12 @@ def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.fl
 def halves(
     values: NDArray[np.float64], options: ReadOptions, warnings: list[str]
 ) -> list[tuple[Side, NDArray[np.float64]]]:
-    """Columns that name no foot: both feet where there are twice the layout's cells, else one.
+    """Returns feet and their columns, from columns that name no foot: both where there are twice the layout's cells.
 
     Args:
         values: Values (n, k).
         options: The user's options.
-        warnings: Where an assumption is put.
-
-    Returns:
-        The feet and their columns.
+        warnings: List to which assumptions are added.
     """
     k = values.shape[1]
     if options.layout is not None and k == 2 * len(options.layout):

@@ -1,7 +1,7 @@
-"""What the heading of a table's column names: a quantity, its axis, the foot or plate, and a unit.
+"""Meaning of a column's heading: a quantity, its axis, the foot or plate, and a unit.
 
-A heading is cut into known words ("FzLeft" is force, z, left; "1_ground_force_vy" is 1, ground, force, y), whatever
-signs and cases part them; one unknown word makes the whole heading unknown.
+A heading is cut into known words ("FzLeft" is force, z, left; "1_ground_force_vy" is 1, ground, force, y); one unknown
+word makes the whole heading unknown.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ _STATED = {**FORCES, **PASCALS, **LENGTHS, **MOMENTS, **BODY_WEIGHTS}
 
 @dataclass(frozen=True)
 class Heading:
-    """What a heading names.
+    """Meaning of a heading.
 
     Attributes:
         quantity: The quantity.
@@ -82,7 +82,7 @@ class Heading:
 
 
 def heading_of(text: str) -> Heading:
-    """What a heading names.
+    """Meaning of a heading.
 
     Example:
         >>> h = heading_of("Left Fz (N)"); h.quantity, h.axis, h.side, h.unit
@@ -130,7 +130,6 @@ def _cut(chunk: str) -> list[str] | None:
 
 
 def _fewest(text: str) -> list[str] | None:
-    """The fewest known words and numbers that make up a text; None where none do."""
     best: list[list[str] | None] = [[]] + [None] * len(text)
     for end in range(1, len(text) + 1):
         for begin in range(max(0, end - _LONGEST), end):

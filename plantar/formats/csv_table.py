@@ -1,8 +1,7 @@
 """Tables of any origin (CSV, TSV, text): a row a frame, below any lines of text that state unit, rate and names.
 
-Names such as "time [ms]", "left 12 [kPa]", "R_3", "Left Fz (N)", "1_ground_force_vy" are understood, see
-`plantar.formats.column_names`. So are OpenSim's .mot and .sto, Cortex' .forces, loadsol's text and tables without names
-whose last columns are the sums of others (PhysioNet's gaitpdb).
+Names are read by `plantar.formats.column_names`. OpenSim's .mot and .sto, Cortex' .forces, loadsol's text and tables
+without names whose last columns are the sums of others (PhysioNet's gaitpdb) are such tables, too.
 """
 
 from __future__ import annotations
@@ -37,7 +36,6 @@ _FEWEST = 3
 
 
 def _recognises(head: bytes) -> bool:
-    """Printable lines, of which those after some text are rows of numbers."""
     text = head_text(head)
     if text is None:
         return False
@@ -53,7 +51,6 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a table."""
     warnings: list[str] = []
     with open_text(path) as stream:
         lines = list(islice((x.rstrip("\n") for x in stream if x.strip()), _HEAD))
@@ -76,19 +73,18 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _column(lines: list[str], delimiter: str | None, column: int) -> Iterator[str]:
-    """The cells of a column, of lines that have one."""
     return (cells[column] for cells in (line.split(delimiter) for line in lines) if column < len(cells))
 
 
 def _content(stream: TextIO) -> Iterator[str]:
-    """The lines that hold something and are no comment."""
+    """Lines that are not empty and no comment."""
     return (line.rstrip("\n") for line in stream if line.strip() and not line.startswith("#"))
 
 
 def _table(
     path: Path, lines: Iterator[str], delimiter: str | None, width: int, warnings: list[str]
 ) -> NDArray[np.float64]:
-    """The numbers (rows, width), NaN where a cell is empty or none; read block by block to have them there once."""
+    """The numbers (rows, width), NaN where a cell is empty or none, in one table."""
     if width > _MOST_COLUMNS:
         raise FormatError(f"{path}: a table of {width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
     table = FrameTable(width, 0)
@@ -118,7 +114,7 @@ def _table(
 
 
 def _rows(block: list[str], delimiter: str | None, width: int) -> tuple[NDArray[np.float64], int, int]:
-    """Numbers of some lines, how many cells are none, and how many lines have another width."""
+    """Numbers of some lines, and counts of bad cells and of lines of another width."""
     rows = number_rows(block, delimiter, width)
     if rows is not None:
         return rows, 0, 0

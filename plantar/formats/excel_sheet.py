@@ -1,6 +1,6 @@
-"""Binary Excel workbooks (.xls, BIFF8 in an OLE2 file): the fullest sheet, read as the text it would be saved as.
+"""Binary Excel workbooks (.xls, BIFF8 in an OLE2 file): the fullest sheet, read as text; footscan exports so.
 
-Plates such as footscan export so. Sources: [MS-CFB] and [MS-XLS], Microsoft's open specifications.
+Sources: [MS-CFB] and [MS-XLS], Microsoft's open specifications.
 """
 
 from __future__ import annotations
@@ -31,11 +31,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def lines_of_workbook(data: bytes) -> list[str]:
-    """The cells of a workbook's fullest sheet, a line a row, with tabs between them.
-
-    Raises:
-        FormatError: If the file is damaged, encrypted, or holds no sheet.
-    """
+    """Rows of a workbook's fullest sheet, with tabs between cells; FormatError if it is damaged, encrypted or empty."""
     try:
         sheets = _sheets(_stream(data))
     except (struct.error, IndexError, UnicodeDecodeError, ValueError) as error:
@@ -152,7 +148,7 @@ def _sheets(stream: bytes) -> list[dict[tuple[int, int], str]]:
 
 
 def _rk(value: int) -> str:
-    """A number in 30 bits: the high ones of a double, or a whole one; over 100 where the first bit is set."""
+    """A number in 30 bits: the high ones of a double, or an integer; over 100 where the first bit is set."""
     number = float(struct.unpack("<i", struct.pack("<I", value & 0xFFFFFFFC))[0] >> 2) if value & 2 else 0.0
     if not value & 2:
         number = struct.unpack("<d", struct.pack("<II", 0, value & 0xFFFFFFFC))[0]
@@ -160,7 +156,7 @@ def _rk(value: int) -> str:
 
 
 def _strings(parts: list[bytes]) -> list[str]:
-    """The shared strings: a string that goes on in a further record states its width there again."""
+    """The shared strings; a string that continues in a further record states its width there again."""
     part, at = 0, 8
     unique = struct.unpack_from("<I", parts[0], 4)[0]
     out: list[str] = []
@@ -199,7 +195,6 @@ def _strings(parts: list[bytes]) -> list[str]:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a workbook as the text that it would be saved as."""
     from plantar.formats import detect_format
 
     lines = lines_of_workbook(read_input(path, FormatError, _LARGEST))

@@ -1,6 +1,5 @@
-"""Footprints in images: a scan, an ink print or a pressure plot (PNG, JPEG, TIFF, BMP), found against the background.
-
-An image is no recording over time: `read_footprints` gives what is in it, and `Format.read` is None.
+"""Footprints in images: a scan, an ink print or a pressure plot (PNG, JPEG, TIFF, BMP), found against the
+background.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ class Print:
 
     Attributes:
         mask: Which pixels (h, w) belong to it.
-        contours: Outlines (k, 2) of its parts as (column, row) in pixels of the mask: the foot, and toes apart from it.
+        contours: Outlines (k, 2) of its parts as (column, row) in pixels of the mask: the foot, and separate toes.
     """
 
     mask: NDArray[np.bool_]
@@ -69,17 +68,14 @@ def _recognises(head: bytes) -> bool:
 
 
 def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintImage:
-    """Find the footprints in an image.
+    """Returns an image and its footprints.
 
     Args:
         path: The image.
         mm_per_pixel: Size of a pixel in mm; where None, the resolution that the file states.
 
-    Returns:
-        The image and its footprints.
-
     Raises:
-        FormatError: If the file is no image, or no footprint stands out from its background.
+        FormatError: If the file is no image, or no footprint differs from its background.
         InputError: If mm_per_pixel is not possible.
         DependencyError: If OpenCV is not installed.
     """
@@ -106,7 +102,7 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
 
 
 def _decoded(path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
-    """The image as BGR over white, upright whatever its bit depth, and how much it was reduced by."""
+    """The image as BGR over white, upright whatever its bit depth, and the factor of its reduction."""
     _refuse_large(path, data)
     held = read_apart("image", path, FormatError)
     image = np.asarray(held["image"])
@@ -119,8 +115,7 @@ def decoded_image(path: Path) -> dict[str, Any]:
     """An image of a size that is enough to outline a foot, for `confined`.
 
     Returns:
-        "image": BGR over white (h, w, 3), of 8 bits, empty where OpenCV reads none; "factor": by how much it was
-        reduced.
+        "image": BGR over white (h, w, 3), of 8 bits, empty where OpenCV reads none; "factor": of its reduction.
     """
     import cv2
 
@@ -143,7 +138,7 @@ def decoded_image(path: Path) -> dict[str, Any]:
 
 
 def _refuse_large(path: Path, data: bytes) -> None:
-    """Refuse an image that takes more memory or time than it can mean, before it is decoded."""
+    """Refuse an image of too much memory or time, before it is decoded."""
     size = stated_size(data)
     if size is None or min(size.width, size.height) < 16:
         raise FormatError(f"{path}: {_IMAGE}")
@@ -158,7 +153,7 @@ def _refuse_large(path: Path, data: bytes) -> None:
 
 
 def _reduced(cv2: Any, image: NDArray[Any]) -> tuple[NDArray[Any], float]:
-    """The image, no larger than is enough to outline a foot, and by how much it was reduced."""
+    """The image, no larger than is enough to outline a foot, and the factor of its reduction."""
     factor = min(1.0, _WORKING / max(image.shape[:2]))
     if factor == 1.0:
         return image, 1.0
@@ -203,7 +198,7 @@ def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _prints(cv2: Any, mask: NDArray[np.uint8], pixel: float | None, warnings: list[str]) -> list[Print]:
-    """Parts of the foreground gathered to feet: toes and a heel that stand apart belong to the part they are near."""
+    """Parts of the foreground grouped to feet: separate toes and heels belong to the part they are near."""
     count, labels, stats, centres = cv2.connectedComponentsWithStats(mask, connectivity=8)
     areas = stats[1:, cv2.CC_STAT_AREA].astype(float)
     if not len(areas):
@@ -239,7 +234,6 @@ def _prints(cv2: Any, mask: NDArray[np.uint8], pixel: float | None, warnings: li
 
 
 def _tall(boxes: dict[int, NDArray[np.float64]], length: float) -> bool:
-    """Whether the longest part stands upright."""
     longest = max(boxes.values(), key=lambda b: float(max(b[2], b[3])))
     return bool(longest[3] >= longest[2])
 

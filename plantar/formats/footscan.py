@@ -1,8 +1,7 @@
 """Footscan (formerly RSscan) text exports of a pressure plate: "Frame 3 (12 ms)", then the plate's cells in rows, in N.
 
-What the file holds follows from the public reader of the R package pressuRe (0.2.4, `load_footscan`): each cell's value
-is its force in N, the times are in ms, the first row of a frame is the hind edge of the plate. Cells are 5.08 mm wide
-and 7.62 mm long; every footscan plate has 64 of them across.
+After the R package pressuRe (0.2.4, `load_footscan`): times in ms, the first row is the hind edge; cells are 5.08 mm
+wide and 7.62 mm long, 64 across.
 """
 
 from __future__ import annotations
@@ -50,7 +49,6 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a text export."""
     with open_input(path, FormatError) as stream:
         if stream.read(4) == _EXCEL:
             raise FormatError(f"{path}: a binary Excel file; save it as text (tab delimited) or CSV first")
@@ -91,7 +89,6 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _times(stated: list[float], options: ReadOptions, warnings: list[str]) -> tuple[NDArray[np.float64], float]:
-    """Times in s of the frames and their rate in Hz."""
     time = 1e-3 * np.array(stated)
     steps = np.diff(time)
     if options.rate_hz is not None:
@@ -144,7 +141,7 @@ def _take_frames(
 
 
 def _bodies(path: Path, lines: Iterator[str]) -> Iterator[tuple[float, list[str]]]:
-    """The frames one by one: their times in ms and the lines of their cells."""
+    """Times in ms of the frames and the lines of their cells."""
     found = None
     for count, line in enumerate(lines):
         found = _FRAME.match(line)

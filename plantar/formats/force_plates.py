@@ -1,7 +1,6 @@
-"""Force plates as feet: zero, sign, centre of pressure, and which foot each contact is of; for every format of plates.
+"""Force plates as feet: zero, sign, centre of pressure, and the foot of each contact; for every format of plates.
 
-Axes here are the laboratory's with z up. What a foot does to a plate, its plate does to the foot with the other sign;
-everything below is on the foot.
+Axes are the laboratory's with z up; loads are on the foot.
 """
 
 from __future__ import annotations
@@ -47,12 +46,12 @@ _STATED = 2.0
 
 @dataclass(frozen=True, eq=False)
 class Plate:
-    """What one force plate measured.
+    """Measurements of one force plate.
 
     Attributes:
         name: Its name for messages, such as "plate 1".
         force: Force (n, 3) in N; horizontal ones NaN where they were not measured.
-        moment: Moment (n, 3) in N m about `origin`; None where the file holds CoPs or nothing.
+        moment: Moment (n, 3) in N m about `origin`; None where the file holds CoPs or none.
         cop: Centre of pressure (n, 2) in m that the file states; None without.
         free: Free moment (n,) in N m that the file states; None where it follows from `moment`, or is unknown.
         origin: Point (2,) in m on the surface that moments are about.
@@ -82,23 +81,20 @@ def feet_of_plates(
     markers: Mapping[Side, NDArray[np.float64]] | None = None,
     events: Mapping[Side, StatedEvents] | None = None,
 ) -> tuple[dict[Side, FootRecording], bool]:
-    """The feet that step on force plates.
+    """Returns the feet that step on force plates, and whether the plates see every step, as those of a treadmill do.
 
     Each plate's zero is the mean of its own empty frames; its sign is that of its load.
 
     Args:
         plates: The plates as the file gives them.
         rate: Frames a second.
-        options: With the user's word about the plates' feet.
-        warnings: Where assumptions are put.
-        markers: Where each foot's markers are (n, 2) in m, NaN where unseen.
+        options: With the feet of the plates, where given.
+        warnings: List to which assumptions are added.
+        markers: Place of each foot's markers (n, 2) in m, NaN where unseen.
         events: Heel strikes of each foot that the file states, in s from the first frame.
 
-    Returns:
-        The feet, and whether the plates see every step: a treadmill does, plates in a walkway do not.
-
     Raises:
-        FormatError: If no plate is stepped on, what pushes is no foot, or one plate carries both feet at once.
+        FormatError: If no plate is stepped on, the load is no foot's, or one plate carries both feet at once.
         InputError: If `options.plates` names another number of plates.
     """
     if options.plates and len(options.plates) != len(plates):
@@ -177,8 +173,9 @@ def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
 
 
 def _zero(values: NDArray[np.float64], empty: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """What columns (n, k) read when empty: straight lines between the means of runs of empty frames where these differ
-    by more than their scatter, else one mean; 0 for a column that holds no number."""
+    """Empty reading of columns (n, k): lines between means of runs of empty frames where these differ, else one
+    mean.
+    """
     known = np.where(np.isfinite(values), values, 0.0)
     out = np.tile(known[empty].mean(axis=0), (len(values), 1))
     halves = [(a, b) for c, d in _runs(empty) for a, b in ((c, (c + d) // 2), ((c + d) // 2, d)) if b - a > 1]
@@ -190,8 +187,7 @@ def _zero(values: NDArray[np.float64], empty: NDArray[np.bool_]) -> NDArray[np.f
 
 
 def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool_] | None:
-    """Frames (n,) in which nothing is on a plate: flat ones about its commonest level near zero, or at an end of its
-    range; None where there is none."""
+    """Frames (n,) of an empty plate: flat ones near zero, or at an end of its range; None where there is none."""
     known = vertical[np.isfinite(vertical)]
     if len(known) < 3:
         return None
@@ -224,7 +220,7 @@ def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool
 
 
 def _level(values: NDArray[np.float64], reach: float, about: float, peak: float) -> tuple[float, float]:
-    """The commonest level of values within a reach about a place, and how far its noise goes."""
+    """The commonest level of values within a reach about a place, and the extent of its noise."""
     counts, edges = np.histogram(values, bins=60, range=(about - reach, about + reach))
     smooth = np.convolve(counts, [1, 2, 1], mode="same")
     level = 0.5 * float(edges[np.argmax(smooth)] + edges[np.argmax(smooth) + 1])
@@ -237,7 +233,6 @@ def _level(values: NDArray[np.float64], reach: float, about: float, peak: float)
 
 
 def _refuse_no_foot(plate: Plate) -> None:
-    """Refuse what no foot does to a plate."""
     size = np.linalg.norm(np.nan_to_num(plate.force), axis=1)
     loaded = size > max(LEAST, 0.2 * float(np.percentile(size, 99.5)))
     if not loaded.any() or not np.isfinite(plate.force[loaded][:, :2]).any():
@@ -252,7 +247,6 @@ def _refuse_no_foot(plate: Plate) -> None:
 
 
 def _with_cop(plate: Plate, warnings: list[str]) -> Plate:
-    """The plate with its centre of pressure and free moment."""
     vertical = np.where(plate.force[:, 2] > LEAST, plate.force[:, 2], np.nan)
     cop, free = plate.cop, plate.free
     if plate.moment is not None:
@@ -275,7 +269,7 @@ def _with_cop(plate: Plate, warnings: list[str]) -> Plate:
 
 
 def _is_of_both(plate: Plate, contact: PlateContact) -> bool:
-    """Whether the CoP of a contact goes farther than that of one foot."""
+    """Whether the CoP of a contact moves farther than that of one foot."""
     if plate.cop is None:
         return False
     span = slice(contact.begin, contact.end)

@@ -1,4 +1,4 @@
-"""Recordings of what a program already holds: a file's path, arrays of cells, or a data frame."""
+"""Recordings from a file's path, arrays of cells, or a data frame."""
 
 from __future__ import annotations
 
@@ -22,17 +22,14 @@ __all__ = ["recording_of"]
 
 
 def recording_of(given: Any, format: str | None = None, options: ReadOptions | None = None) -> PressureRecording:
-    """A recording from whatever holds one.
+    """Returns a recording from a value in any form.
 
     Args:
-        given: A recording, which is returned; the path of a file; an array (n, k) of n frames and k cells (or n x rows
-            x columns); a mapping with the arrays "left" and "right", "time" in s, "unit", "rate_hz" as an NPZ file has
-            them; or a data frame (pandas, polars) with a column a cell and names as in a CSV table.
+        given: A recording; the path of a file; an array (n, k) of n frames and k cells (or n x rows x columns); a
+            mapping with the arrays of an NPZ file; or a data frame (pandas, polars) with a column a cell and names as
+            in a CSV table.
         format: Name of a file's format; recognised from its content where None.
         options: What else is known: layout, unit, rate, side. Arrays are raw counts where no unit is given.
-
-    Returns:
-        The recording.
 
     Raises:
         InputError: If it is none of these.

@@ -1,4 +1,4 @@
-"""Layouts of rectangular cells in rows and columns, as mats, platforms and matrix insoles have them."""
+"""Layouts of rectangular cells in rows and columns, of mats, platforms and matrix insoles."""
 
 from __future__ import annotations
 
@@ -15,16 +15,17 @@ __all__ = ["grid_cells"]
 def grid_cells(
     present: NDArray[np.bool_], row_pitch: float, column_pitch: float, *, side: Side, name: str, threshold: float
 ) -> SoleLayout:
-    """A layout of the cells of a matrix that are there; the first row is the front, the first column the left.
+    """Returns a layout of the cells of a matrix that are there; the first row is the front, the first column the left.
+
+    Its origin is in the middle of the hind edge; ids count through the whole matrix.
 
     Args:
         present: Which cells (rows, columns) there are.
         row_pitch: Distance of rows in m.
         column_pitch: Distance of columns in m.
+        side: The foot.
+        name: Name of the layout.
         threshold: Pressure in Pa from which a cell counts as loaded.
-
-    Returns:
-        The layout, its cells row by row, its origin in the middle of the hind edge; ids count through the whole matrix.
 
     Raises:
         FormatError: If there is no cell, or a pitch is not usable.

@@ -1,4 +1,4 @@
-"""Marks that files hold in place of what was not measured, such as 9999, 65535 and -999, taken for what they are."""
+"""Marks for missing values in files, such as 9999, 65535 and -999."""
 
 from __future__ import annotations
 
@@ -30,16 +30,10 @@ _SAME = 1e-6
 
 
 def without_marks(recording: PressureRecording) -> PressureRecording:
-    """The recording with what is marked as not measured as NaN, and a warning for each mark.
+    """The recording with marks as NaN, and a warning for each; those of robots and force plates are unchanged.
 
-    A mark is one value that is read several times and stands apart: three times as large as any other reading, or the
-    only one below zero.
-
-    Args:
-        recording: The recording; those of robots and of force plates are taken as they are.
-
-    Returns:
-        The recording; the same one where there is no mark.
+    A mark is one value that is read several times and is three times as large as any other reading, or the only one
+    below zero.
     """
     if recording.kind in ("robot", "plate"):
         return recording
@@ -92,7 +86,6 @@ def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: 
 
 
 def _ends(force: NDArray[np.float64], per: NDArray[np.float64]) -> tuple[float, float]:
-    """The lowest and the highest reading, and 0."""
     low, high = np.zeros(len(per)), np.zeros(len(per))
     for rows in blocks_of_frames(force):
         np.fmin(low, np.fmin.reduce(force[rows], axis=0, initial=0.0), out=low)
@@ -105,7 +98,7 @@ def _is(value: NDArray[np.float64], mark: float) -> NDArray[np.bool_]:
 
 
 def _left_out(force: NDArray[np.float64], per: NDArray[np.float64], mark: float) -> tuple[NDArray[np.float64], int]:
-    """The readings with NaN in place of a mark, and how many they are."""
+    """The readings with NaN in place of a mark, and their number."""
     out, count = room(*force.shape), 0
     for rows in blocks_of_frames(force):
         marked = _is(force[rows] / per, mark)

@@ -65,7 +65,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _once(table: Table) -> Table:
-    """A topic without the frames that were written again for the same instant, as a run's first is: the last counts."""
+    """A topic without frames repeated for the same instant, as a run's first is: the last one counts."""
     kept = np.append(np.diff(table.time) != 0.0, True)
     if kept.all() or not kept[-1]:
         return table
@@ -73,7 +73,7 @@ def _once(table: Table) -> Table:
 
 
 def _placement(recording: Recording, side: Side, time: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Where the sole is on the ground (n, 3), from the simulator's "/truth/<side>"; None where it is not recorded."""
+    """Pose of the sole on the ground (n, 3), from the simulator's "/truth/<side>"; None where it is not recorded."""
     truth = recording.topics.get(f"/truth/{side}")
     if truth is None or not {"position", "rotation"} <= set(truth.fields) or len(truth) < 2:
         return None
@@ -86,7 +86,6 @@ def _placement(recording: Recording, side: Side, time: NDArray[np.float64]) -> N
 
 
 def _other_bag(path: Path, options: ReadOptions, topics: str) -> PressureRecording:
-    """Read an MCAP file that is not the project's own as a ROS bag."""
     from plantar.formats.ros_bag import read_bag
 
     try:

@@ -1,8 +1,7 @@
 """Moticon OpenGo text exports (.txt): tab-separated channels of two sensor insoles of 16 cells each.
 
-Lines that start with "#" are the header; the last of them names the channels with their units in brackets. Empty values
-are dropouts of the radio link and stay missing. The insole's total force and centre of pressure are the device's own:
-its cells cover a part of the sole.
+Lines that start with "#" are the header; the last of them names the channels with their units. Empty values are
+dropouts of the radio link. Total force and centre of pressure are the device's, as its cells cover a part of the sole.
 """
 
 from __future__ import annotations
@@ -43,7 +42,6 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a text export."""
     warnings: list[str] = []
     with open_text(path) as stream:
         lines = iter(stream)
@@ -122,7 +120,7 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], list
 def _numbers(
     path: Path, lines: Iterator[str], delimiter: str, names: list[str], wanted: list[int], warnings: list[str]
 ) -> NDArray[np.float64]:
-    """The wanted channels (n, channels); NaN where a value is missing or is none, such as the labels of events."""
+    """The wanted channels (n, channels); NaN where a value is missing or none, such as the labels of events."""
     rows = (x for x in lines if x.strip() and not x.startswith("#"))
     table = FrameTable(len(wanted), 0)
     bad = short = 0
@@ -153,7 +151,7 @@ def _numbers(
 
 
 def _cells(line: str, delimiter: str, columns: int) -> list[str] | None:
-    """Cells of a row; None where it has another number of them. Empty ones too many do not count."""
+    """Cells of a row; None where it has another number of them, empty ones at its end aside."""
     cells = line.rstrip("\n").split(delimiter)
     if len(cells) < columns or any(c.strip() for c in cells[columns:]):
         return None
@@ -161,7 +159,7 @@ def _cells(line: str, delimiter: str, columns: int) -> list[str] | None:
 
 
 def _block(block: list[str], delimiter: str, columns: int, wanted: list[int]) -> tuple[NDArray[np.float64], int, int]:
-    """Numbers (rows, wanted) of some lines, how many cells are none, and how many lines have another width."""
+    """Numbers (rows, wanted) of some lines, and counts of bad cells and of lines of another width."""
     goes = np.full(columns, -1)
     goes[wanted] = np.arange(len(wanted))
     rows = number_rows(block, delimiter, goes.tolist())

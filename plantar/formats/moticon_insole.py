@@ -1,4 +1,4 @@
-"""The 16 cells of a Moticon insole: where they are and which area each stands for."""
+"""The 16 cells of a Moticon insole: their places and areas."""
 
 from __future__ import annotations
 
@@ -46,16 +46,15 @@ _AREA_SIZE = 7
 
 
 def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | None = None) -> SoleLayout:
-    """The insole cut into the parts that are nearest to each cell.
+    """Returns the insole cut into the parts that are nearest to each cell.
+
+    The origin is in the middle of the heel edge, ids are 1 to 16. Its areas differ a little from those of the drawn
+    parts.
 
     Args:
         size: Size of the insole; 7 is assumed where None or unknown.
         side: "left" or "right".
-        areas: Area (16,) in m^2 that each cell represents, where the recording gives it.
-
-    Returns:
-        The layout; the origin lies in the middle of the heel edge, ids are 1 to 16. Its areas are those that the cells
-        stand for, which differ a little from those of the parts that are drawn.
+        areas: Area (16,) in m^2 of each cell, where the recording gives it.
 
     Example:
         >>> layout = moticon_insole(7, "left")

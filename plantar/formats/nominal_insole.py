@@ -1,4 +1,4 @@
-"""A nominal geometry for 99-cell insoles, whose recordings do not say where their cells are."""
+"""A nominal geometry for 99-cell insoles, whose recordings do not state the places of their cells."""
 
 from __future__ import annotations
 
@@ -89,10 +89,8 @@ _CENTRE = np.array([0.0, 0.0, 0.0, 0.0, -0.004, -0.008, -0.004, 0.004, 0.014, 0.
 
 
 def insole_outline(length: float) -> NDArray[np.float64]:
-    """Outline (k, 2) in m of a right insole, counter-clockwise, with the origin in the middle of its heel edge.
-
-    Args:
-        length: Its length in m.
+    """Outline (k, 2) in m of a right insole of a length in m, counter-clockwise, its origin in the middle of the heel
+    edge.
     """
     stations = np.linspace(0.0, 1.0, 41)
     half = 0.5 * np.interp(stations, _STATIONS, _WIDTH)
@@ -103,18 +101,14 @@ def insole_outline(length: float) -> NDArray[np.float64]:
 
 
 def nominal_insole(size: str, side: Side) -> SoleLayout:
-    """A parametric insole of 99 quadrilateral cells with the areas that are published for the size.
+    """Returns a parametric insole of 99 quadrilateral cells with the areas that are published for the size.
 
-    The outline is a smooth insole shape (width and midline as fractions of its length); each row's height is
-    proportional to the area of its cells, and a row is cut into cells as wide as their areas ask for.
-    Its length follows from the whole area. The origin lies in the middle of the heel edge; x runs to the toe.
+    Each row's height is proportional to the area of its cells. The origin is in the middle of the heel edge; x points
+    to the toe; ids are 1 to 99.
 
     Args:
         size: A key of `CELL_AREAS`.
         side: "left" or "right".
-
-    Returns:
-        The layout; cell ids are 1 to 99 as the insoles are numbered.
 
     Example:
         >>> layout = nominal_insole("y", "left")
@@ -179,7 +173,7 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
 
 
 def _neighbours(spans: list[tuple[int, float, float]]) -> tuple[tuple[int, ...], ...]:
-    """Cells that share a part of an edge: next to each other in a row, or overlapping in the rows beside."""
+    """Cells that share a part of an edge: next to each other in a row, or overlapping in adjacent rows."""
 
     def touch(p: tuple[int, float, float], q: tuple[int, float, float]) -> bool:
         if p[0] == q[0]:

@@ -1,8 +1,8 @@
 """Novel emed ASCII exports (.lst): one page of a printed table for each frame of a pressure platform.
 
-Each page repeats a header and gives the columns and rows of the matrix that it shows, pressures, and the force of each
-row, column and frame: sums of pressure times sensor area. The unit of pressure is stated nowhere; it follows from those
-forces. Frames that are too wide come on several pages. Summary pages (MVP, MPP) follow the frames.
+Each page gives the columns and rows of the matrix that it shows, pressures, and the force of each row, column and
+frame. The unit of pressure is not stated; it follows from those forces. Wide frames have several pages. Summary pages
+(MVP, MPP) follow the frames.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass
 class _Page:
-    """One frame as its pages give it."""
+    """One frame on its pages."""
 
     picture: int
     columns: list[int] = field(default_factory=list)
@@ -64,7 +64,7 @@ class _Page:
     columns_shown: set[int] = field(default_factory=set)
 
     def close(self) -> None:
-        """Put the rows that were read into one table."""
+        """Join the rows that were read to one table."""
         self.tables.append((np.array(self.labels), np.array(self.columns), np.array(self.values)))
         self.rows_shown.update(self.labels)
         self.columns_shown.update(self.columns)
@@ -72,7 +72,6 @@ class _Page:
 
     @property
     def cells(self) -> int:
-        """Number of its cells."""
         return sum(values.size for _, _, values in self.tables)
 
     def goes_on_with(self, page: _Page) -> bool:
@@ -84,7 +83,7 @@ class _Page:
         return self.columns == page.columns and self.rows_shown.isdisjoint(page.rows_shown)
 
     def join(self, page: _Page) -> None:
-        """Take in another page of the same frame."""
+        """Add another page of the same frame."""
         if self.columns_shown.isdisjoint(page.columns):
             self.columns += page.columns
         self.tables += page.tables
@@ -95,7 +94,6 @@ class _Page:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a .lst export."""
     facts: dict[str, str] = {}
     warnings: list[str] = []
     with open_text(path) as stream:
@@ -157,7 +155,6 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _pages(lines: Iterable[str], facts: dict[str, str]) -> list[_Page]:
-    """The pages that hold a table, in their order."""
     pages: list[_Page] = []
     page: _Page | None = None
     begun = 0
@@ -219,7 +216,7 @@ def _is_count(text: str) -> bool:
 
 
 def _frames(pages: list[_Page], warnings: list[str]) -> list[_Page]:
-    """Pages put together to frames; a last frame that is cut short and damaged ones are reported."""
+    """Pages joined to frames, with a report of damaged ones."""
     frames: list[_Page] = []
     for page in pages:
         if frames and frames[-1].goes_on_with(page):
@@ -237,7 +234,7 @@ def _frames(pages: list[_Page], warnings: list[str]) -> list[_Page]:
 
 
 def _matrix(facts: dict[str, str], needed: tuple[int, int], warnings: list[str]) -> tuple[int, int]:
-    """Columns and rows of the platform, of which the tables show as many as are needed."""
+    """Columns and rows of the platform that the tables need."""
     match = re.match(r"(\d+)\s*x\s*(\d+)", facts.get("matrix", ""))
     if match is None:
         warnings.append(f"the file states no size of the matrix: {needed[1]} rows and {needed[0]} columns are shown")
@@ -283,7 +280,7 @@ def _unit(
     area: float,
     warnings: list[str],
 ) -> float | None:
-    """Pa a unit of the tables, None for raw: the user's word, or what the file's own forces say."""
+    """Pa a unit of the tables, None for raw: of the options, or by the file's own forces."""
     if options.unit is not None:
         unit = find_unit(options.unit)
         if unit is None or unit.kind == "force":

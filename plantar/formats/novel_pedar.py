@@ -1,8 +1,8 @@
 """Novel pedar and pliance ASCII exports (.asc): pressures of insoles or a mat, one row a frame.
 
-A header states the sensor, the rate and the unit, and may list the cells of each insole ("left insole: 1,2,...").
-The row of column names starts with "time[secs]" and gives cell numbers; where they start anew, the next foot begins.
-A pedar export holds no geometry; a pliance export may append a table of cell corners (x[0] .. y[3], in cm).
+A header states the sensor, the rate and the unit, and may list the cells of each insole ("left insole: 1,2,..."). The
+row of column names starts with "time[secs]" and gives cell numbers; where they restart, the next foot begins. A pliance
+export may end with a table of cell corners (x[0] .. y[3], in cm).
 """
 
 from __future__ import annotations
@@ -53,7 +53,6 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a .asc export."""
     notes: list[str] = []
     with open_text(path) as stream:
         lines = iter(stream)
@@ -93,7 +92,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int], str | None]:
-    """Lines before the row of column names, the cells of that, and the sign between its names; None for blanks."""
+    """Lines before the row of column names, the cells of that, and its delimiter; None for blanks."""
     header: list[str] = []
     for line in lines:
         if _COLUMNS.match(line):
@@ -119,7 +118,7 @@ class _Rows:
 def _take_rows(
     path: Path, lines: Iterator[str], delimiter: str | None, cells: int, spans: Sequence[range]
 ) -> tuple[_Rows, list[str]]:
-    """Frames up to the next section; also the lines after them that may give the cells' corners."""
+    """Frames up to the next section, and the lines after them that may give the cells' corners."""
     tail: list[str] = []
 
     def frames() -> Iterator[str]:
@@ -267,7 +266,7 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
 
 
 def _sensor_type(text: str) -> str:
-    """What the header states about the sensors in lower case, such as "y-1865l-1870r"."""
+    """The header's sensors in lower case, such as "y-1865l-1870r"."""
     return (_field(text, r"(?:sensor|mat)\s+type:?[ \t]*([^\n]*)") or "").lower()
 
 
@@ -311,7 +310,7 @@ def _layout(
 
 
 def _size(text: str, given: str | None) -> tuple[str, str]:
-    """The insole's size: the user's word, else the letters that begin the sensor type; and what to say of it."""
+    """The insole's size, of the options or the letters that begin the sensor type; and a note on it."""
     if given is not None:
         return given, " (--insole-size)"
     stated = (_field(text, r"sensor\s+type:?[ \t]*([a-z]{1,2})(?![a-z])") or "").lower()

@@ -1,4 +1,4 @@
-"""Lines of plain numbers, many at once: what nearly all of a long text export is made of."""
+"""Lines of plain numbers, many at once."""
 
 from __future__ import annotations
 
@@ -18,17 +18,15 @@ _COMPILED = is_compiled("decimals")
 def number_rows(
     lines: Sequence[str], delimiter: str | None, columns: int | Sequence[int]
 ) -> NDArray[np.float64] | None:
-    """Numbers of lines, each to the last bit what `float` makes of it.
+    """Returns the numbers (n, columns) of lines, NaN where one is missing, each to the last bit as `float` gives it.
+
+    None where a line has another count of them or anything that is no finite number, and without the compiled kernel.
 
     Args:
         lines: The lines, with their ends or without.
         delimiter: The sign between numbers, between two of which a number may be missing; None for any blanks. Unless
             it is a comma, numbers may have a decimal comma.
-        columns: How many numbers a line has; or for each of them the column that it goes to, -1 where it is left out.
-
-    Returns:
-        The numbers (n, columns), NaN where one is missing; None where a line has another count of them or anything that
-        is no finite number, and where the kernel is not compiled: line by line is quicker then.
+        columns: Number of numbers of a line; or for each of them the column that it goes to, -1 where it is left out.
 
     Example:
         >>> rows = number_rows(["1;2,5;x\\n", ";1e3;y\\n"], ";", [0, 1, -1])

@@ -1,4 +1,4 @@
-"""Which foot each contact on a force plate is of: by names, markers, events, inward push, or the plates' places."""
+"""Foot of each contact on a force plate: by names, markers, events, inward push, or the plates' places."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _LONG = 1.4
 
 
 class _Plate(Protocol):
-    """What of a plate is looked at."""
+    """The used properties of a plate."""
 
     @property
     def name(self) -> str: ...
@@ -58,15 +58,12 @@ class PlateContact:
 
 
 def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> list[PlateContact]:
-    """The contacts on one plate.
+    """Returns the contacts on one plate in order; cut ones as well, but none that lasts throughout.
 
     Args:
         plate: Its number.
         vertical: Vertical force (n,) in N on the foot.
         rate: Frames a second.
-
-    Returns:
-        The contacts in order; those that the recording cuts as well, but none that lasts throughout.
     """
     force = np.nan_to_num(vertical)
     loaded = force > max(_LEAST, _SHARE * float(np.percentile(force, 99.5)))
@@ -90,20 +87,17 @@ def sides_of_contacts(
     markers: Mapping[Side, NDArray[np.float64]] | None = None,
     events: Mapping[Side, StatedEvents] | None = None,
 ) -> list[Side]:
-    """The foot of each contact.
+    """Returns the foot of each contact.
 
     Args:
         plates: The plates, which may name their foot.
         contacts: Their contacts.
         treadmill: Whether each plate is a belt that one foot walks on.
         rate: Frames a second.
-        given: The user's word on a file of one foot.
-        warnings: Where the reason is put.
-        markers: Where each foot's markers are (n, 2).
+        given: The user's side of a file of one foot.
+        warnings: List to which the reason is added.
+        markers: Place of each foot's markers (n, 2).
         events: Heel strikes of each foot in s.
-
-    Returns:
-        A foot for each contact.
     """
     if treadmill:
         _report_crossings(plates, contacts, rate, warnings)
@@ -170,7 +164,6 @@ def _walks_on_one_foot(contacts: Sequence[PlateContact], found: Sequence[Side | 
 def _by_markers(
     plate: _Plate, contact: PlateContact, markers: Mapping[Side, NDArray[np.float64]] | None
 ) -> Side | None:
-    """The foot whose markers are nearer to the CoP."""
     if not markers or plate.cop is None:
         return None
     span = slice(contact.begin, contact.end)
@@ -196,7 +189,7 @@ def _by_events(contact: PlateContact, rate: float, events: Mapping[Side, StatedE
 
 
 def _forward(plates: Sequence[_Plate], contacts: Sequence[PlateContact], treadmill: bool) -> NDArray[np.float64] | None:
-    """The direction (2,) of walking: a foot brakes first and pushes off last; else the way of the CoP."""
+    """The direction (2,) of walking: a foot brakes first and pushes off last; else that of the CoP."""
     push, way = np.zeros(2), np.zeros(2)
     for contact in contacts:
         plate, length = plates[contact.plate], contact.end - contact.begin
@@ -217,7 +210,7 @@ def _forward(plates: Sequence[_Plate], contacts: Sequence[PlateContact], treadmi
 def _by_push(
     plates: Sequence[_Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
 ) -> list[Side | None]:
-    """The foot of each contact by its push in mid-stance: the body is next to the foot, which pushes it inwards."""
+    """The foot of each contact by its push in mid-stance, which is inwards, towards the body."""
     out: list[Side | None] = []
     for contact in contacts:
         length = contact.end - contact.begin
@@ -256,7 +249,7 @@ def _by_place(
 
 
 def _filled_in(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -> list[Side]:
-    """Contacts of an unknown foot take the other foot than the known one next to them in time."""
+    """Contacts of an unknown foot as the other foot than the known one next to them in time."""
     order = sorted(range(len(contacts)), key=lambda i: contacts[i].begin)
     sides: dict[int, Side | None] = dict(enumerate(found))
     for way in (order, order[::-1]):

@@ -34,11 +34,7 @@ _SLENDER = (1.8, 4.2)
 
 
 def doubts(recording: PressureRecording) -> list[str]:
-    """What does not look like feet, one line each; none for a recording that does.
-
-    Returns:
-        Warnings about raw counts, peak force, peak pressure, cell area, insole length and rate.
-    """
+    """Warnings about raw counts, peak force, peak pressure, cell area, insole length and rate that are no foot's."""
     out: list[str] = []
     if recording.raw and not any("raw counts" in w or "of body weight" in w for w in recording.warnings):
         out.append("the readings are raw counts: forces and pressures cannot be given")
@@ -72,7 +68,7 @@ def doubts(recording: PressureRecording) -> list[str]:
 
 
 def _slender_or_wide(foot: FootRecording) -> list[str]:
-    """What to say of an insole whose length and width are no foot's: the size of a cell is wrong in one direction."""
+    """Warning about an insole whose length and width are no foot's: the cell size is wrong in one direction."""
     assert foot.layout is not None
     length, width = (float(v) for v in np.ptp(foot.layout.outline, axis=0))
     if not width > 0.0 or _SLENDER[0] <= length / width <= _SLENDER[1]:
@@ -84,7 +80,7 @@ def _slender_or_wide(foot: FootRecording) -> list[str]:
 
 
 def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
-    """What to say of cells at the end of their range, and of frames that are copies of those before."""
+    """Warning about cells at the end of their range, and of frames that repeat earlier ones."""
     measured = foot.force[: max(20, _SEEN // foot.force.shape[1])]
     part = np.nan_to_num(measured)
     let_go(foot.force)
@@ -124,7 +120,7 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
 
 
 def _switched_on(side: str, value: NDArray[np.float64]) -> list[str]:
-    """What to say of cells that read nothing below a pressure that matters; values (n, k) in Pa."""
+    """Warning about cells that read zero below a pressure that matters; values (n, k) in Pa."""
     seen = value[:, value.max(axis=0) > 0.0]
     positive = seen[seen > 0.0]
     if not len(positive) or float((seen == 0.0).mean()) < _ZEROS:

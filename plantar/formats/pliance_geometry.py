@@ -14,15 +14,13 @@ __all__ = ["corner_table", "layout_of_corners"]
 
 
 def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
-    """Corner points of the cells, from the rows "x[0]" .. "y[3]" (in cm) after the frames.
+    """Returns corners (cells, 4, 2) in m in the file's axes, from the rows "x[0]" .. "y[3]" (in cm); None without a
+    whole table.
 
     Args:
         tail: The lines after the frames.
         cells: Number of cells.
-        warnings: Where a table that is not whole is reported.
-
-    Returns:
-        Corners (cells, 4, 2) in m in the file's axes, or None where the file has no whole table.
+        warnings: List to which an incomplete table is reported.
     """
     rows: dict[str, list[float]] = {}
     for line in tail:
@@ -46,15 +44,12 @@ def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np
 
 
 def layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
-    """A layout of quadrilateral cells; the file's y becomes x (forward), its x becomes -y (to the right).
+    """Returns a layout of quadrilateral cells; the file's y becomes x (forward), its x becomes -y (to the right).
 
     Args:
         corners: Corners (n, 4, 2) in m in the file's axes, in any order.
         cells: Ids of the cells.
         side: "left" or "right".
-
-    Returns:
-        The layout.
     """
     import shapely  # only where a file brings its own geometry
 

@@ -17,17 +17,15 @@ __all__ = ["polygon_layout", "subset"]
 
 
 def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], side: Side, name: str) -> SoleLayout:
-    """A layout from the corners of each cell.
+    """Returns a layout from the corners of each cell.
+
+    Cells that share two corners are neighbours, the outline is the convex hull, and the activation threshold is 10 kPa.
 
     Args:
         rings: Corners (k, 2) of each cell in the sole frame in m, counter-clockwise.
-
-    Returns:
-        The layout: cells that share two corners are neighbours, the outline is the convex hull, and the activation
-        threshold is 10 kPa.
-
-    Raises:
-        FormatError: If a cell has no area, or the ids are not unique.
+        ids: Their ids; FormatError if they are not unique, or a cell has no area.
+        side: The foot.
+        name: Name of the layout.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]])
@@ -64,14 +62,7 @@ def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], 
 
 
 def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
-    """The layout of some of its cells, in the order given; vertices and outline stay.
-
-    Args:
-        layout: The layout.
-        cells: Indices of the cells to keep, each once.
-
-    Returns:
-        The smaller layout.
+    """Returns the layout of the cells of some indices, each once, in the order given; vertices and outline stay.
 
     Example:
         >>> from plantar import hex_layout

@@ -1,8 +1,7 @@
 """ROS bags with topics that carry an array of numbers: a ROS 2 bag (folder, .db3, .mcap) or a ROS 1 bag (.bag).
 
-Any message with a numeric array will do, for example std_msgs/Float64MultiArray or one of a robot's own. Topics and
-fields that name a foot are the feet. ROS messages are in SI units by agreement (REP 103), and do not state them: what a
-topic or field calls a force is taken as N, a pressure as Pa, anything else as raw counts.
+Topics and fields that name a foot are the feet. ROS messages are in SI units (REP 103): what a topic or field calls a
+force is in N, a pressure in Pa, anything else raw counts.
 """
 
 from __future__ import annotations
@@ -41,14 +40,11 @@ def _recognises(head: bytes) -> bool:
 
 
 def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read the arrays of a bag.
+    """Returns the recording of a bag's arrays.
 
     Args:
         path: Folder of a ROS 2 bag, or one of its files.
         options: Layout, unit and side, which a bag does not hold.
-
-    Returns:
-        The recording.
 
     Raises:
         FormatError: If the bag is damaged or holds no topic with an array of numbers.
@@ -111,7 +107,7 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _size(path: Path) -> int:
-    """Bytes of a bag: of its file, or of all files in its folder, which are regular ones."""
+    """Bytes of a bag's regular files."""
     if not os.path.isdir(path):
         return check_input(path, FormatError)
     check_input(path / _FOLDERS, FormatError, JSON_MOST)
@@ -143,10 +139,7 @@ class _Series:
 
 
 def series_of_bag(path: Path) -> dict[str, Any]:
-    """The arrays in a bag's topics; called in a process of its own.
-
-    Args:
-        path: Folder of a ROS 2 bag, or one of its files.
+    """The arrays of a bag, a folder of ROS 2 or one of its files; called in a separate process.
 
     Returns:
         The "names" of the arrays, "<topic>/<field>", and of each "<name>:times" (n,) in s and "<name>:values" (n, k).

@@ -1,4 +1,4 @@
-"""Which foot a recording of one sensor is of."""
+"""The foot of a recording of one sensor."""
 
 from __future__ import annotations
 
@@ -16,13 +16,7 @@ _MARKS: dict[Side, re.Pattern[str]] = {
 
 
 def side_of(*texts: str) -> Side | None:
-    """The foot that the first of some texts names which names one.
-
-    Args:
-        texts: For example a sensor's name, a comment, a file's name.
-
-    Returns:
-        "left" or "right"; None where no text names one foot and not the other.
+    """The foot that the first of some texts with a foot's name names; None without.
 
     Example:
         >>> side_of("HX210.11.31.M11-DFM-RF S0073"), side_of("walk_left.fsx"), side_of("walk", "left and right")
@@ -36,16 +30,7 @@ def side_of(*texts: str) -> Side | None:
 
 
 def sides_of_plates(text: str | None) -> tuple[Side | None, ...]:
-    """The foot of each force plate, as the command line names them.
-
-    Args:
-        text: For example "L,R", "left,-,right"; None or empty where the data decides.
-
-    Returns:
-        The feet; None for a plate that is left out.
-
-    Raises:
-        InputError: If a part names no foot.
+    """The foot of each force plate (None: left out) of a text such as "L,R" or "left,-,right"; else InputError.
 
     Example:
         >>> sides_of_plates("L,-,right"), sides_of_plates(None)

@@ -38,13 +38,8 @@ def is_side_column(name: str) -> bool:
 
 
 def with_numbers(lines: Iterator[str], delimiter: str | None, column: int) -> Iterator[str]:
-    """Lines in whose side column 0 stands for the left foot and 1 for the right one.
-
-    Args:
-        delimiter: What stands between its cells; None for blanks.
-
-    Yields:
-        The lines; those whose cell names no foot as they are.
+    """Yields lines of cells between a delimiter (None: blanks) with 0 for the left and 1 for the right foot in a side
+    column.
     """
     known: dict[str, str] = {}
     for line in lines:
@@ -59,17 +54,11 @@ def with_numbers(lines: Iterator[str], delimiter: str | None, column: int) -> It
 
 
 def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side, NDArray[np.int64]]:
-    """The rows of each foot.
+    """Returns the indices of the rows of each foot.
 
     Args:
-        values: What the side column (n,) holds as numbers.
-        warnings: Where an assumption is put.
-
-    Returns:
-        Indices of the rows of each foot that has some.
-
-    Raises:
-        FormatError: If the column holds more than two values.
+        values: Numbers (n,) of the side column; FormatError for more than two.
+        warnings: List to which assumptions are added.
     """
     kinds = np.unique(values[np.isfinite(values)])
     if len(kinds) > 2 or len(kinds) == 0:
@@ -92,15 +81,16 @@ def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side
 def on_one_time(
     time: NDArray[np.float64], rows: dict[Side, NDArray[np.int64]], columns: Sequence[NDArray[np.float64]]
 ) -> tuple[NDArray[np.float64], dict[Side, NDArray[np.float64]], bool]:
-    """Rows of both feet side by side.
+    """Returns rows of both feet on one time base: times (m,), values (m, k) of each foot, and whether the right's
+    moved.
+
+    Values are NaN where a foot has no rows for a while; where times differ, the right foot's are interpolated at the
+    left's.
 
     Args:
         time: Time (n,) of each row.
+        rows: Indices of the rows of each foot.
         columns: Columns (n,) of values.
-
-    Returns:
-        Times (m,); values (m, k) of each foot, NaN where it has no rows for a while; and whether the feet's
-        times differed, so that values were interpolated, the right foot's at the left one's times.
 
     Raises:
         FormatError: If a foot has no time.
@@ -135,8 +125,7 @@ def _usual(time: NDArray[np.float64]) -> float:
 def _without_ends(
     time: NDArray[np.float64], alone: NDArray[np.float64], others: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Times (n,) of a foot without those that it has alone at either end, where they are before or after the other
-    foot's by a shift at most."""
+    """Times (n,) of a foot within a shift of the other foot's."""
     most = _SHIFT * _usual(time)
     low = others[0] if 0.0 < others[0] - time[0] <= most else -np.inf
     high = others[-1] if 0.0 < time[-1] - others[-1] <= most else np.inf

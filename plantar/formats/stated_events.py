@@ -36,14 +36,11 @@ Pairs = dict[Side, list[tuple[float, float]]]
 
 
 def read_events(path: str | os.PathLike[str]) -> dict[Side, StatedEvents]:
-    """Read the events of both feet.
+    """Read the events of each foot that a file names.
 
     Args:
         path: A Moticon report (.xlsx) with the sheets "Left Steps" and "Right Steps", whose second and third columns
             are initial contact and toe off in s; or a CSV table with the columns side, heel_strike_s and toe_off_s.
-
-    Returns:
-        The events of each foot that the file names.
 
     Raises:
         FormatError: If the file is neither, or holds no event, or a time that is none.
@@ -62,7 +59,6 @@ def _events(pairs: list[tuple[float, float]]) -> StatedEvents:
 
 
 def _table_rows(path: str | os.PathLike[str]) -> Pairs:
-    """The rows of a table."""
     table = read_text_table(path, FormatError)
     columns = [table.column(name) for name in ("side", "heel_strike_s", "toe_off_s")]
     out: Pairs = {}
@@ -81,7 +77,6 @@ def _table_rows(path: str | os.PathLike[str]) -> Pairs:
 
 
 def _report_rows(path: str | os.PathLike[str]) -> Pairs:
-    """The rows of the sheets of a report that a side's steps are on."""
     out: Pairs = {}
     with open_archive(path, FormatError, _MOST) as (archive, _):
         for name, part in _sheets(path, archive):
@@ -99,7 +94,7 @@ def _report_rows(path: str | os.PathLike[str]) -> Pairs:
 
 
 def _number(cell: ElementTree.Element | None) -> float:
-    """Number of a cell; NaN where it holds a text, which is kept elsewhere, or nothing."""
+    """Number of a cell; NaN where it holds a text or nothing."""
     text = None if cell is None or cell.get("t") == "s" else cell.findtext(f"{_SHEET}v")
     found = None if text is None else number(text)
     return float("nan") if found is None else found
@@ -111,7 +106,7 @@ def _root(path: str | os.PathLike[str], archive: zipfile.ZipFile, part: str) -> 
 
 
 def _sheets(path: str | os.PathLike[str], archive: zipfile.ZipFile) -> list[tuple[str, str]]:
-    """Name and path of each sheet; a sheet is read once."""
+    """Name and path of each sheet, each once."""
     links = {r.get("Id"): r.get("Target", "") for r in _root(path, archive, "xl/_rels/workbook.xml.rels")}
     sheets = list(_root(path, archive, "xl/workbook.xml").iter(f"{_SHEET}sheet"))
     if len(sheets) > _MOST_SHEETS:

@@ -1,4 +1,4 @@
-"""A table of numbers with named columns as a recording: by what each column's name states."""
+"""A table of numbers with named columns as a recording."""
 
 from __future__ import annotations
 
@@ -42,21 +42,18 @@ def recording_of_columns(
     facts: dict[str, str] | None = None,
     warnings: list[str] | None = None,
 ) -> PressureRecording:
-    """A recording from a table of numbers and the names of its columns.
+    """Returns a recording from a table of numbers and the names of its columns.
 
-    Columns are taken by quantity: forces, moments and centres of pressure of plates; forces of a foot; or cells. What
-    is none of these is left out, and named.
+    Columns are, by quantity, forces, moments and centres of pressure of plates; forces of a foot; or cells. Others are
+    left out, with a warning.
 
     Args:
         table: Numbers (n, k), NaN where one is missing.
         names: Names (k) of the columns; empty where there are none.
         options: What is known of the table.
-        path: What the recording is called.
-        facts: What comments state: "unit", "rate", "side".
-        warnings: Where assumptions are put.
-
-    Returns:
-        The recording.
+        path: Name of the recording.
+        facts: "unit", "rate", "side" of comments.
+        warnings: List to which assumptions are added.
 
     Raises:
         FormatError: If no column is a load, rows are curves of trials, or a unit is not known.
@@ -117,7 +114,7 @@ def _refuse_curves(headings: Sequence[Heading], at: int | None) -> None:
 def _side_by_side(
     table: NDArray[np.float64], names: list[str], at: int | None, of_side: int, warnings: list[str]
 ) -> tuple[NDArray[np.float64], list[str]]:
-    """A table of both feet in columns, from one whose rows are of either foot; the times come first."""
+    """A table of both feet in columns, times first, from one whose rows are of either foot."""
     rows = rows_of_sides(table[:, of_side], warnings)
     cells = [i for i in range(table.shape[1]) if i not in (at, of_side)]
     time = np.arange(len(table), dtype=float) if at is None else table[:, at]
@@ -184,7 +181,7 @@ def _report_left_out(names: Sequence[str], warnings: list[str], what: str) -> No
 
 
 def _chosen_cells(headings: Sequence[Heading], columns: Sequence[int]) -> list[int]:
-    """Columns that are cells: known names of cells; names of one unknown word and numbers where there are none."""
+    """Columns of cells by their names; without known ones, those of one unknown word and numbers."""
     stated = any(find_unit(headings[i].unit) is not None for i in columns if headings[i].unit)
 
     def foreign(i: int) -> bool:  # where some state a unit of load, what is in another one is no load
@@ -286,6 +283,5 @@ def _cells(
 
 
 def _ids(headings: Sequence[Heading]) -> list[int] | None:
-    """Ids of cells, where all names have a number."""
     ids = [h.number for h in headings if h.number is not None]
     return ids if len(ids) == len(headings) else None

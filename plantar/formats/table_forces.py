@@ -1,4 +1,4 @@
-"""Tables of forces of plates, belts or whole feet: their columns put together by plate or foot, axis and quantity."""
+"""Tables of forces of plates, belts or whole feet: their columns grouped by plate or foot, axis and quantity."""
 
 from __future__ import annotations
 
@@ -30,13 +30,8 @@ _NOMINAL = 700.0
 
 
 def is_force_table(headings: Sequence[Heading]) -> bool:
-    """Whether a table's columns are forces of plates or whole feet, not cells.
-
-    Args:
-        headings: What its columns are called, without times.
-
-    Returns:
-        True where forces name an axis, the ground or a plate, or are one a foot.
+    """Whether headings, without times, are of forces of plates or whole feet: of an axis, ground, plate, or one a
+    foot.
     """
     forces = [h for h in headings if h.quantity == "force"]
     cells = [
@@ -57,21 +52,19 @@ def feet_of_forces(
     stated: str | None,
     warnings: list[str],
 ) -> tuple[dict[Side, FootRecording], bool, str, bool]:
-    """The feet of a table of forces.
+    """Returns the feet; whether every step is seen; "plate" or "insole"; and whether forces are in percent of body
+    weight.
 
     Args:
         table: Numbers (n, k).
-        columns: What columns hold, by number; times are not in it.
+        columns: Headings of columns by number, without times.
         rate: Frames a second.
         options: What is known of the table.
         stated: Unit that comments state.
-        warnings: Where assumptions are put.
-
-    Returns:
-        The feet; whether every step is seen; "plate" or "insole"; and whether forces are in percent of body weight.
+        warnings: List to which assumptions are added.
 
     Raises:
-        FormatError: If a unit of force is not known, or the vertical force cannot be told.
+        FormatError: If a unit of force is not known, or the vertical force cannot be found.
     """
     groups: dict[_Key, dict[str, dict[str, int]]] = {}
     for i, h in columns.items():
@@ -107,7 +100,6 @@ def feet_of_forces(
 
 
 def _upward(force: NDArray[np.float64], name: str, warnings: list[str]) -> NDArray[np.float64]:
-    """A force (n,) that is positive under load."""
     low, high = (float(v) for v in np.nanpercentile(force, (5.0, 95.0))) if np.isfinite(force).any() else (0.0, 0.0)
     if low + high >= 0.0:
         return force
@@ -116,7 +108,6 @@ def _upward(force: NDArray[np.float64], name: str, warnings: list[str]) -> NDArr
 
 
 def _scaled(foot: FootRecording, scale: float) -> FootRecording:
-    """A foot in another unit of force."""
     total = None if foot.total is None else foot.total * scale
     wrench = None if foot.wrench is None else foot.wrench * scale
     return replace(foot, force=foot.force * scale, total=total, wrench=wrench)

@@ -1,4 +1,4 @@
-"""Where the numbers of a table begin, what its columns are called, and what lines above them state."""
+"""Head of a table: where its numbers begin, its columns' names, and the facts in the lines above."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class TableHead:
         delimiter: The sign between cells; None for blanks.
         width: Cells of a row.
         first: Number of the line of the first row.
-        facts: What lines above the table state, by lower-case name.
+        facts: Facts in lines above the table, by lower-case name.
     """
 
     names: list[str]
@@ -58,13 +58,8 @@ class TableHead:
 
 
 def head_of_table(lines: Sequence[str]) -> TableHead | None:
-    """The beginning of a table of numbers, below any lines of text.
-
-    Args:
-        lines: The first lines that are not blank.
-
-    Returns:
-        It; None where no rows of numbers begin.
+    """The beginning of a table of numbers, from the first lines that are not blank; None where no rows of numbers
+    begin.
     """
     for first in range(len(lines)):
         if lines[first].startswith("#"):
@@ -132,7 +127,6 @@ def _is_row(line: str, delimiter: str | None, width: int) -> bool:
 
 
 def _numbers(line: str, delimiter: str | None) -> bool:
-    """Whether all cells of a line are numbers, however many."""
     return all(_is_cell(c) for c in _cells(line, delimiter))
 
 
@@ -154,7 +148,7 @@ def _is_cell(text: str) -> bool:
 
 
 def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[list[str], int]:
-    """Names of the columns from the lines above the rows, and how many of these lines are other ones."""
+    """Names of the columns from the lines above the rows, and the number of other lines among these."""
     at = len(above) - 1
     rows = []
     for line in above[-3:]:
@@ -187,13 +181,12 @@ def _names(above: Sequence[str], delimiter: str | None, width: int) -> tuple[lis
 
 
 def _names_columns(cells: Sequence[str], width: int) -> bool:
-    """Whether the cells of a line are names of so many columns."""
     words = sum(bool(re.search(r"[^\W\d_]", c)) for c in cells)
     return 0.6 * width <= len(cells) <= width and words >= max(1, 0.25 * len(cells))
 
 
 def _facts(lines: Sequence[str], delimiter: str | None) -> dict[str, str]:
-    """What lines such as "# unit: kPa", "SampleRate=1200" and "rate<tab>100" state."""
+    """Facts of lines such as "# unit: kPa", "SampleRate=1200" and "rate<tab>100"."""
     out: dict[str, str] = {}
     for line in lines:
         line = line.lstrip("#").strip()

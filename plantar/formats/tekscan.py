@@ -1,7 +1,7 @@
 """Tekscan ASCII exports (.asf, .csv): a header of KEY value lines, then a matrix of readings for each frame.
 
-F-Scan insoles, mats and walkways share the format. "B" marks places of the matrix without a cell. Readings are in the
-unit that UNITS names: a pressure, a force a cell, or raw counts.
+F-Scan insoles, mats and walkways share the format. "B" marks places of the matrix without a cell. UNITS names a
+pressure, a force a cell, or raw counts.
 """
 
 from __future__ import annotations
@@ -58,7 +58,6 @@ def _recognises(head: bytes) -> bool:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read an ASCII export."""
     warnings: list[str] = []
     with open_text(path) as stream:
         lines = iter(stream)
@@ -118,7 +117,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _measuring(frames: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which cells hold a number in any frame; looked at in blocks, since a mask of all is as large as the file."""
+    """Which cells hold a number in any frame, block by block."""
     out = np.zeros(frames.shape[1], dtype=bool)
     for rows in blocks_of_frames(frames):
         out |= ~np.isnan(frames[rows]).all(axis=0)
@@ -184,7 +183,7 @@ def _take_frames(
 
 
 def _bodies(first: re.Match[str], lines: Iterator[str], most: int) -> Iterator[tuple[int, list[str]]]:
-    """The frames one by one: their numbers and the lines of their matrices. One that has no end ends them."""
+    """Numbers of the frames and the lines of their matrices, up to one without an end."""
     found: re.Match[str] | None = first
     while found is not None:
         number_of_frame = int(found[1][-18:])

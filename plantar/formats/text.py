@@ -1,4 +1,4 @@
-"""Reading text exports: any encoding, any line end, comma or point, and numbers that are none."""
+"""Reading text exports: any encoding, any line end, comma or point, and bad numbers."""
 
 from __future__ import annotations
 
@@ -33,18 +33,12 @@ _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 
 
 def open_text(path: Path, encoding: str | None = None, longest: int = _LONGEST_LINE) -> TextIO:
-    """A text file opened for reading line by line, its line ends made one.
+    """Returns a text file opened for reading line by line, with uniform line ends; FormatError if it cannot be read.
 
     Args:
         path: The file.
         encoding: Its encoding; found from its beginning where None.
-        longest: Longest line in bytes that is read; a longer one is an error where it is met.
-
-    Returns:
-        The open stream.
-
-    Raises:
-        FormatError: If the file cannot be read, or is no regular one.
+        longest: Longest line in bytes; a longer one is an error when it is read.
     """
     stream = open_input(path, FormatError)
     if encoding is None:
@@ -55,7 +49,7 @@ def open_text(path: Path, encoding: str | None = None, longest: int = _LONGEST_L
 
 
 class _Lines(io.BufferedReader):
-    """The bytes of a text whose lines have an end: one that has none would be taken into memory as a whole."""
+    """The bytes of a text, whose lines may not exceed a length."""
 
     def __init__(self, stream: io.RawIOBase, longest: int, where: str) -> None:
         super().__init__(stream, 1 << 17)
@@ -64,7 +58,6 @@ class _Lines(io.BufferedReader):
         self._without_end = 0
 
     def read1(self, size: int = -1, /) -> bytes:
-        """Some bytes, as the text layer asks for them."""
         data = super().read1(size)
         end = max(data.rfind(b"\n"), data.rfind(b"\r"))
         self._without_end = len(data) - 1 - end + (self._without_end if end < 0 else 0)
@@ -74,14 +67,12 @@ class _Lines(io.BufferedReader):
 
 
 def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16_000_000) -> Iterator[list[str]]:
-    """Lines in blocks that are small whatever the lines are.
+    """Yields blocks of one line or more, small whatever the lines are.
 
     Args:
-        lines: The lines; more can be taken from them where the blocks were left.
+        lines: The lines; more can be taken from them between blocks.
+        most: Lines of a block.
         characters: Characters from which a block ends sooner.
-
-    Yields:
-        The blocks, one line or more each.
 
     Example:
         >>> [len(block) for block in blocks_of_lines(iter(["ab", "c", "d", "e"]), most=3, characters=2)]
@@ -100,7 +91,7 @@ def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16
 
 
 def head_text(head: bytes) -> str | None:
-    r"""The beginning of a text, its line ends made one; None of what is no text.
+    r"""The beginning of a text, with uniform line ends; None if it is no text.
 
     Example:
         >>> head_text("Units:;N/cm²\r\n1;2\r\n".encode("utf-16")), head_text(bytes(range(20)) * 9)
@@ -146,11 +137,7 @@ def number_in(text: str) -> float | None:
 
 
 def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
-    """Cells of a row as numbers, NaN where a cell is none.
-
-    Returns:
-        The numbers, and how many cells hold something that is not a number; empty ones do not count.
-    """
+    """Cells of a row as numbers, NaN where a cell is none, and the number of cells with other contents."""
     try:
         values = np.array(cells, dtype=np.float64)
         if np.isfinite(values).all() and not any("_" in cell for cell in cells):  # which Python lets stand in numbers

@@ -1,4 +1,4 @@
-"""Units that recordings state: pressure in Pa, force in N, length in m, and raw counts, which stay what they are."""
+"""Units that recordings state: pressure in Pa, force in N, length in m, and raw counts, which are not converted."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ RAW: tuple[str, ...] = ("raw", "counts", "count", "adc", "digital", "do", "bits"
 
 @dataclass(frozen=True)
 class Unit:
-    """What the numbers of a recording are.
+    """Unit of the numbers of a recording.
 
     Attributes:
         kind: "pressure", "force" or "raw".
@@ -82,13 +82,7 @@ def plain(text: str) -> str:
 
 
 def find_unit(text: str) -> Unit | None:
-    """What a stated unit means; None where it is not known.
-
-    Args:
-        text: The unit as a file or a user writes it.
-
-    Returns:
-        The unit. "mN" is read as millinewton and "MN" is refused: nothing here weighs so much.
+    """The unit of a text; None where it is not known. "mN" is millinewton, and "MN" is refused.
 
     Example:
         >>> find_unit("N/cm²")

@@ -1,4 +1,4 @@
-"""Cells of tables that are numbers in other clothes: quoted ones with a comma inside, and times of day or dates."""
+"""Cells of tables that are numbers in other forms: quoted ones with a comma inside, and times of day or dates."""
 
 from __future__ import annotations
 
@@ -33,15 +33,7 @@ _SINCE = datetime(2020, 1, 1)
 
 
 def names_of_row(line: str, delimiter: str | None) -> list[str]:
-    """The cells of a row of names; what stands in quotes may hold the delimiter.
-
-    Args:
-        line: The row.
-        delimiter: What stands between its cells; None for blanks.
-
-    Returns:
-        The cells without their quotes.
-    """
+    """Returns the unquoted cells of a line of names between a delimiter (None: blanks), which quotes may contain."""
     if delimiter is None or '"' not in line:
         return [cell.strip() for cell in line.split(delimiter)]
     (cells,) = csv.reader([line], delimiter=delimiter)
@@ -49,10 +41,7 @@ def names_of_row(line: str, delimiter: str | None) -> list[str]:
 
 
 def time_unit(name: str) -> float | None:
-    """What a column's name states about times.
-
-    Returns:
-        Their unit in s, 0 where it states none; None where it names no times.
+    """Unit in s of the times that a column's name names, 0 where it states none; None where it names no times.
 
     Example:
         >>> [time_unit(name) for name in ("Time [ms]", "t_min", "Elapsed time (s)", "Date/Time", "T [°C]", "left 3")]
@@ -69,10 +58,8 @@ def time_unit(name: str) -> float | None:
 
 
 def without_quotes(lines: Iterator[str]) -> Iterator[str]:
-    """Lines of a table with commas between cells, whose quoted numbers may have a decimal comma.
-
-    Yields:
-        The lines; `"1,5","2,5"` as `1.5,2.5`, and those without a comma in quotes as they are.
+    """Yields lines with commas between cells: `"1,5","2,5"` as `1.5,2.5`, and those without a comma in quotes as they
+    are.
 
     Example:
         >>> list(without_quotes(iter(['0.01,"1,5","-2,25"', '"0.02","1","1,234.5"'])))
@@ -90,21 +77,14 @@ def _plain(quoted: re.Match[str]) -> str:
 
 
 def has_quoted_commas(line: str) -> bool:
-    """Whether a cell of a line is in quotes and holds a comma.
-
-    Returns:
-        True where one does.
-    """
+    """Whether a cell of a line is in quotes and holds a comma."""
     return _QUOTED_COMMA.search(line) is not None
 
 
 def seconds_of_time(text: str) -> float | None:
-    """Seconds of a time of day, or since 2020 began of an ISO 8601 date and time.
+    """Seconds of a time of day, or since 2020 began of an ISO 8601 date and time, or None.
 
-    Of another date, whose order nobody knows, only the time of day counts.
-
-    Returns:
-        The seconds; None where the text is neither.
+    Of another date, whose order is unknown, only the time of day counts.
 
     Example:
         >>> seconds_of_time("08:21:17.5"), seconds_of_time("01:02.25"), seconds_of_time("1/2/2024 1:00:00 PM")
@@ -127,13 +107,13 @@ def seconds_of_time(text: str) -> float | None:
 
 
 def with_seconds(lines: Iterator[str], delimiter: str | None, column: int) -> Iterator[str]:
-    """Lines in whose time column seconds stand for times of day or dates; they go on beyond midnight.
+    """Yields lines in whose time column seconds, also beyond midnight, stand for times of day or dates; others as they
+    are.
 
     Args:
-        delimiter: What stands between its cells; None for blanks.
-
-    Yields:
-        The lines; those whose cell is no such time as they are. The first line's time counts as 0.
+        lines: The lines; the first one's time counts as 0.
+        column: The time column.
+        delimiter: The sign between cells; None for blanks.
     """
     first: float | None = None
     last = days = 0.0

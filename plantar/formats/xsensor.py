@@ -1,8 +1,8 @@
 """XSENSOR CSV exports: for each frame, for each insole, a header of its own and a matrix of pressures.
 
-After the whole matrix a frame repeats parts of it for groups of cells (heel, toes, ...); those are skipped. Each header
-states load and contact area of its insole, which check the unit and give the cells' area to more digits than the stated
-width and height. In swing the device states a load of 0 whatever the matrix holds.
+Repeated parts of the matrix for groups of cells (heel, toes, ...) are skipped. Each header states load and contact area
+of its insole, which check the unit and give the cells' area more precisely than width and height. In swing the stated
+load is 0 whatever the matrix holds.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass
 class _Sensor:
-    """One insole over all frames: the numbers of those that hold a whole matrix of it, and the matrices as rows."""
+    """One insole over all frames: the numbers of those with a whole matrix, and the matrices as rows."""
 
     name: str
     rows: int = 0
@@ -58,7 +58,7 @@ class _Sensor:
     damaged: int = 0
 
     def add(self, frame: int, rows: list[NDArray[np.float64]], file_size: int) -> None:
-        """Take the matrix of a frame if it is whole and of the sensor's shape; the first one defines both."""
+        """Add the matrix of a frame if it is whole and of the sensor's shape; the first one defines both."""
         stated = self.rows or len(rows)
         widths = {len(r) for r in rows}
         if len(rows) != stated or len(widths) != 1 or stated * len(rows[0]) > _LARGEST:
@@ -86,7 +86,7 @@ class _Sensor:
 
 @dataclass
 class _Scan:
-    """Everything in the file."""
+    """Contents of the file."""
 
     facts: dict[str, str] = field(default_factory=dict)
     clock: list[float | None] = field(default_factory=list)
@@ -95,7 +95,6 @@ class _Scan:
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
-    """Read a CSV export."""
     with open_text(path) as stream:
         scan = _scan(stream, path.stat().st_size)
     warnings: list[str] = []
@@ -239,7 +238,7 @@ def _take_fact(facts: dict[str, str], sensor: _Sensor, key: str, value: str) -> 
 
 
 def _keep(facts: dict[str, str], key: str, value: str) -> None:
-    """Keep the first value of a key; of a damaged file with no end of keys only so many."""
+    """Store the first value of a key, up to a number of keys."""
     if len(facts) < _MOST_FACTS:
         facts.setdefault(key[:_LONGEST_NAME].lower(), value[:_LONGEST_NAME])
 
@@ -373,7 +372,7 @@ def _cell(
 def _check_load(
     sensor: _Sensor, values: NDArray[np.float64], factor: float, frames: int, side: Side, warnings: list[str]
 ) -> None:
-    """The stated load shows a wrong unit or cell size."""
+    """Warn where the stated load shows a wrong unit or cell size."""
     sums = np.array([np.nansum(m) * factor for m in sensor.values.rows])
     load = np.array(sensor.load[: len(sums)])
     known = (load > _ENOUGH) & (sums > 0.0) if len(load) == len(sums) else np.zeros(0, dtype=bool)

@@ -1,9 +1,8 @@
 """Messages of Foxglove's own schemas, which its 3D and log panels draw without settings.
 
-Encoded as protocol buffers, numbered as Foxglove publishes them (https://docs.foxglove.dev/docs/sdk/schemas).
-`schemas/` holds the descriptors that a recording carries, from the package foxglove-schemas-protobuf
-(`tools/foxglove_schemas.py`, MIT licence). Positions and sizes are in m, rotations quaternions (x, y, z, w), colours
-red, green, blue and opacity, 0 to 1; a `place` is made by `pose`.
+Encoded as protocol buffers (https://docs.foxglove.dev/docs/sdk/schemas) with the descriptors in `schemas/`, of the
+package foxglove-schemas-protobuf (`tools/foxglove_schemas.py`, MIT licence). Positions and sizes are in m, rotations
+quaternions (x, y, z, w), colours red, green, blue and opacity, 0 to 1; a `place` is made by `pose`.
 """
 
 from __future__ import annotations
@@ -64,17 +63,16 @@ def descriptor(schema: str) -> bytes:
 
 
 def frame_transform(frame: str, translation: Numbers, rotation: Numbers, parent: str = "world") -> Part:
-    """Returns a `transforms` field of foxglove.FrameTransforms: the origin `translation` and the `rotation` of `frame`
-    in its `parent` at the time of the message."""
+    """Returns a `transforms` field of foxglove.FrameTransforms: `translation` and `rotation` of `frame` in its
+    `parent`.
+    """
     return nested(1, timestamp(1), text(2, parent), text(3, frame), numbers(4, translation), numbers(5, rotation))
 
 
 def entity(name: str, frame: str, *primitives: Part, locked: bool = True) -> Part:
-    """Returns an `entities` field of foxglove.SceneUpdate: `primitives` in the coordinates of `frame`, drawn under a
-    `name`.
+    """Returns an `entities` field of foxglove.SceneUpdate: `primitives` in the coordinates of `frame` under a `name`.
 
-    It replaces the topic's entity of that name. A `locked` one moves with its frame, others stay where that was at the
-    time of the message.
+    It replaces the topic's entity of that name. A `locked` one moves with its frame.
     """
     return nested(2, timestamp(1), text(2, frame), text(3, name), integer(5, locked), *primitives)
 

@@ -15,10 +15,9 @@ MOST_VALUES = 400_000_000
 
 
 class FrameTable:
-    """A table of numbers that grows by blocks of rows of `width` numbers.
+    """A table of numbers that grows by blocks of rows of `width` numbers, with room for the `expected` rows.
 
-    It has room for the `expected` rows (unwritten room takes no memory) and grows by a quarter beyond; views that
-    `rows` gave before are invalid then.
+    It grows by a quarter beyond; earlier views of `rows` are invalid then.
 
     Example:
         >>> table = FrameTable(2, expected=3)
@@ -53,7 +52,6 @@ class FrameTable:
             self._written = 0
 
     def _grow(self, rows: int) -> None:
-        """Make room for more rows."""
         if self._values.flags.owndata and rows * self._values.shape[1] * 8 <= LARGE:
             self._values.resize((rows, self._values.shape[1]), refcheck=False)  # moves pages, copies nothing
             return

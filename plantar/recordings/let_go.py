@@ -22,7 +22,8 @@ _BLOCK = 250_000
 
 def room(rows: int, width: int) -> NDArray[np.float64]:
     """Returns an uninitialised table (`rows`, `width`): in memory, or where it is large in a file that vanishes with
-    it."""
+    it.
+    """
     size = rows * width * 8
     if size > LARGE:
         try:
@@ -59,7 +60,8 @@ def column_maxima(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def let_go(array: NDArray[Any]) -> None:
     """Release the pages of `array` where it is part of a mapped table: they are read again from its file when
-    needed."""
+    needed.
+    """
     base: Any = array
     while base is not None and not isinstance(base, mmap.mmap):
         base = base.obj if isinstance(base, memoryview) else getattr(base, "base", None)

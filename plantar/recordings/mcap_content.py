@@ -53,7 +53,7 @@ class _Topic:
         self._gathered: list[tuple[int, bytes]] = []
 
     def gather(self, time: int, payload: bytes) -> None:
-        """Take a message; its values go to the table with the next `flush`."""
+        """Add a message, whose values go to the table with the next `flush`."""
         if len(payload) == 4 + 8 * self._width and payload[0] == 0 and payload[1] in (0, 1):
             self._gathered.append((time, payload))
             if len(self._gathered) == _BLOCK:
@@ -62,7 +62,6 @@ class _Topic:
             self.lost += 1
 
     def flush(self) -> None:
-        """Put what was gathered into the table."""
         gathered, self._gathered = self._gathered, []
         if not gathered:
             return
@@ -84,15 +83,13 @@ class _Topic:
 
 
 class McapContent:
-    """What an MCAP file holds.
+    """Content of an MCAP file.
 
     Attributes:
-        metadata: What was stored with the data.
+        metadata: Metadata records.
         layouts: Sole layout of each side that has one.
-        topics: The topics of float64 fields, by their channel's number.
+        topics: The topics of float64 fields, by their channel's number; empty with `sinks`, receivers of some topics.
         warnings: What was missing, damaged or skipped, one line each.
-
-    With `sinks`, the receivers of some topics' messages, other topics are skipped and `topics` stays empty.
     """
 
     def __init__(self, sinks: Mapping[str, Sink] | None = None) -> None:
@@ -107,7 +104,7 @@ class McapContent:
         self._damaged = self._undescribed = self._unpacked = self._size = 0
 
     def take_file(self, stream: BinaryIO) -> None:
-        """Take all records of a file `stream`, open at its first record; a FormatError if it unpacks to too much."""
+        """Read all records of a file `stream`, open at its first record; a FormatError if it unpacks to too much."""
         self._size = os.fstat(stream.fileno()).st_size
         closed = False
         for opcode, body in self._records(stream):
@@ -246,7 +243,6 @@ def message_values(payload: bytes, fields: list[tuple[str, int]]) -> NDArray[np.
 
 
 def _unpacked(chunk: Any) -> bytes:
-    """The data of a chunk, of the size and with the checksum that it states."""
     size = int(chunk.uncompressed_size)
     if size > _LARGEST_CHUNK:
         raise ValueError("chunk too large")
@@ -268,7 +264,7 @@ def _unpacked(chunk: Any) -> bytes:
 
 
 def _float_fields(channel: Any, schema: Any) -> list[tuple[str, int]] | None:
-    """Names and widths of the fields of a message type, None where it is not made of float64 alone."""
+    """Names and widths of the fields of a message type, None where it is not of float64 alone."""
     if schema is None or schema.encoding != "ros2msg" or channel.message_encoding != "cdr":
         return None
     out: list[tuple[str, int]] = []

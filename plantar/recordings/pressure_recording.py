@@ -1,4 +1,4 @@
-"""Plantar pressure over time, whatever measured it: the type that every format is read into."""
+"""Plantar pressure over time: the type that every format is read into."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ Kind = Literal["insole", "platform", "robot", "plate"]
 
 @dataclass(frozen=True, eq=False)
 class FootRecording:
-    """What the cells under one foot measured, n frames of k cells.
+    """Measurements of the cells under one foot, n frames of k cells; FormatError for a layout of another number.
 
     Attributes:
         force: Normal force (n, k) of each cell in N, NaN where not measured; counts where the recording is raw.
@@ -57,9 +57,6 @@ class FootRecording:
         cop: Centre of pressure (n, 2) in m by the device, NaN without load; None to compute it.
         wrench: Wrench (n, 6) on the foot in N and N m about the frame's origin, where measured.
         placement: Pose (n, 3) of the sole frame on the ground, x and y in m and the turn about z in rad, where known.
-
-    Raises:
-        FormatError: If the layout has another number of cells.
     """
 
     side: Side
@@ -103,7 +100,7 @@ class FootRecording:
     def vertical_force(self) -> NDArray[np.float64]:
         """Vertical force (n,) in N, the device's total or the sum over the measured cells; NaN where not measured.
 
-        Cells that never measure do not count; a frame that lacks more than a tenth of the others was not measured.
+        A frame that lacks more than a tenth of the cells that ever measure counts as not measured.
         """
         if self.total is not None:
             return self.total
@@ -123,7 +120,8 @@ class FootRecording:
 
     def center_of_pressure(self, minimum_force: float) -> NDArray[np.float64] | None:
         """Centre of pressure (n, 2) in the sole frame in m (T 4.21); NaN below `minimum_force` in N, None without a
-        layout."""
+        layout.
+        """
         with np.errstate(invalid="ignore"):
             loaded = self.vertical_force >= max(minimum_force, 1e-9)
         if self.cop is not None:
@@ -192,7 +190,7 @@ def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
 
 
 def possible_rate(rate: float, what: str) -> float:
-    """Returns the `rate` in Hz; a FormatError outside RATES, whose message begins with `what` gives it."""
+    """Returns the `rate` in Hz; outside RATES a FormatError, whose message begins with `what`."""
     if not RATES[0] <= rate <= RATES[1]:
         raise FormatError(
             f"{what} {rate:.4g} frames a second, which is not possible; allowed: {RATES[0]:g} to {RATES[1]:g} "
@@ -204,10 +202,10 @@ def possible_rate(rate: float, what: str) -> float:
 def sampling(
     time: NDArray[np.float64], stated_hz: float | None, given_hz: float | None = None
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
-    """Check the times of frames `time` (n,) in s, 1 or more, NaN where unreadable, and repair single damaged ones.
+    """Returns increasing times (n,) in s, the rate in Hz, and warnings; single damaged times are repaired.
 
-    The user's rate `given_hz` replaces times and the file's rate `stated_hz`, in Hz or None. Returns increasing times
-    (n,) in s, the rate in Hz, and warnings; a FormatError if there is no rate, or one outside RATES.
+    The user's rate `given_hz` replaces times and the file's rate `stated_hz`, in Hz or None. Frames have `time` (n,) in
+    s, 1 or more, NaN where unreadable. A FormatError if there is no rate, or one outside RATES.
     """
     if given_hz is not None:
         return np.arange(len(time)) / given_hz, given_hz, ()
@@ -280,14 +278,12 @@ def _begun_again(time: NDArray[np.float64], rate: float) -> str:
 
 
 def _counts(time: NDArray[np.float64]) -> bool:
-    """Whether times (n,) are the numbers of their frames."""
     known = time[np.isfinite(time)]
     return len(known) > 10 and bool((known == np.round(known)).all()) and float(np.median(np.diff(known))) == 1.0
 
 
 def _apart(time: NDArray[np.float64], usual: float) -> NDArray[np.float64]:
-    """Times (n,) with frames that share one spread evenly up to the next, at most the usual step in s each: a gap may
-    follow."""
+    """Times (n,) with equal ones spread evenly up to the next, at most the usual step in s each: a gap may follow."""
     first = np.flatnonzero(np.diff(time, prepend=-np.inf) > 0.0)
     count = np.diff(np.append(first, len(time)))
     step = np.minimum(np.append(np.diff(time[first]), np.inf) / count, usual)

@@ -1,9 +1,7 @@
 """Protocol buffer messages for recordings: written from a template, and read field by field.
 
-A recording draws messages of one length again and again. They are encoded once, with places for numbers and time that
-are filled later. The encoding is that of https://protobuf.dev/programming-guides/encoding/; the two integers of a time
-are written with all possible bytes, leading zeros included, which every decoder reads, so a message keeps its length.
-`field` is always the field's number.
+Messages of one length are encoded once (https://protobuf.dev/programming-guides/encoding/), with places for numbers and
+time, whose two integers have leading zeros so that a message keeps its length. `field` is the field's number.
 """
 
 from __future__ import annotations
@@ -40,8 +38,9 @@ _SHIFTS = 7 * np.arange(_LONG, dtype=np.uint64)
 
 
 class Part(NamedTuple):
-    """Encoded fields `data` with places to fill, zero until then: offset and value index of each double (`slots`), and
-    the offset of the seconds of each time (`times`)."""
+    """Encoded fields `data` with places to fill: offset and value index of each double (`slots`), and the offset of the
+    seconds of each time (`times`).
+    """
 
     data: bytes
     slots: tuple[tuple[int, Slot], ...] = ()
@@ -145,7 +144,8 @@ class Template:
 
     def filled_all(self, times: ArrayLike, values: NDArray[np.float64]) -> NDArray[np.uint8]:
         """Returns the encodings (m, l) of messages at `times` (m,) in ns, with the slots' `values` (m, k),
-        vectorised."""
+        vectorised.
+        """
         seconds, nanoseconds = np.divmod(np.asarray(times, dtype=np.uint64), np.uint64(10**9))
         out = np.tile(self._data, (len(seconds), 1))
         if len(self._slots):
@@ -164,7 +164,8 @@ class Template:
 
     def values_of(self, messages: Sequence[bytes]) -> NDArray[np.float64]:
         """The values (n, k) of the slots of `messages` that `filled` made; a ValueError if one is of another
-        template."""
+        template.
+        """
         if not all(map(self.matches, messages)):
             raise ValueError("a message is of another template")
         data = np.frombuffer(b"".join(messages), dtype=np.uint8).reshape(len(messages), -1)
@@ -183,8 +184,7 @@ def _long_varints(values: NDArray[np.uint64]) -> NDArray[np.uint8]:
 def read_fields(message: bytes) -> Iterator[tuple[int, int | float | bytes]]:
     """Yields number and value of each field: `int` of a varint or four bytes, `float` of eight, `bytes` of the rest.
 
-    Raises:
-        ValueError: If the message is cut short or of an unknown wire type.
+    Raises ValueError if the message is cut short or of an unknown wire type.
     """
     position = 0
     while position < len(message):

@@ -1,8 +1,7 @@
 """Write a recording: append-only, crash-safe MCAP that Foxglove and `read_mcap` open.
 
 The profile is "ros2": each topic of numbers has one message type of float64 fields, encoded as CDR (a 4-byte header,
-then little-endian values). Rows are gathered in one array a topic and become messages in one vectorised step a chunk,
-which is compressed: under 3 us a message. Topics for viewers carry encoded messages of Foxglove's schemas.
+then little-endian values), vectorised chunk by chunk. Topics for viewers carry encoded messages of Foxglove's schemas.
 """
 
 from __future__ import annotations
@@ -55,7 +54,7 @@ _Encode = Callable[[list[int], list[_Message]], "Sequence[bytes] | NDArray[np.ui
 
 
 class _Gathered(NamedTuple):
-    """The messages of a topic that a chunk takes: m records, one after the other."""
+    """Messages of a topic for a chunk: m records, one after the other."""
 
     times: NDArray[np.uint64]
     offsets: NDArray[np.int64]
@@ -77,10 +76,8 @@ class Channel(Generic[_Message]):
     def write(self, time_s: float, message: _Message) -> None:
         """Append a `message` at `time_s` in s, which the caller must not change; on disk after the next flush.
 
-        A message is an array of all fields' values, flat, or bytes, by the kind of the topic.
-
-        Raises:
-            RecordingError: If the time is not 0 to 1e9 s, or the number of values is wrong.
+        A message is an array of all fields' values, flat, or bytes, by the kind of the topic. RecordingError if the
+        time is not 0 to 1e9 s, or the number of values is wrong.
         """
         if not 0.0 <= time_s < 1e9:
             raise RecordingError(f"topic {self.topic} got the time {time_s} s; allowed: 0 to 1e9 s")
@@ -131,9 +128,8 @@ def _as_cdr(times: list[int], rows: list[NDArray[np.float64]]) -> NDArray[np.uin
 class Recorder:
     """Writes one recording; a context manager.
 
-    Messages reach the operating system in chunks: a killed process loses at most one, and the file reads up to its last
-    whole chunk. (A power cut can lose what the system has not yet written.) On a clean exit the index that viewers seek
-    by is appended.
+    A killed process loses at most one chunk, and the file reads up to its last whole one; a clean exit appends the
+    index.
 
     Args:
         path: File to write, replaced if it exists.
@@ -205,10 +201,10 @@ class Recorder:
         self._flush_at = 0.0
 
     def channel(self, topic: str, fields: Sequence[tuple[str, int]]) -> Channel[NDArray[np.float64]]:
-        """Declare a new topic of numbers; messages are copied.
+        """Returns the channel of a new `topic` of numbers; RecordingError if it exists or lacks "/", or a field is
+        invalid.
 
-        Field names of `fields` are lower case, as ROS 2 allows, with 1 value or more each. Returns its channel; a
-        RecordingError if `topic` exists or does not start with "/", or a field is invalid.
+        Names of `fields` are lower case, as ROS 2 allows, with 1 value or more each; messages are copied.
         """
         names = [name for name, _ in fields]
         if not names or len(set(names)) != len(names):
@@ -226,8 +222,9 @@ class Recorder:
         return channel
 
     def message_channel(self, topic: str, schema: str) -> Channel[bytes]:
-        """Declare a new `topic` of encoded messages of a `schema` of `foxglove.SCHEMAS`, else a RecordingError. Returns
-        its channel."""
+        """Returns the channel of a new `topic` of encoded messages of a `schema` of `foxglove.SCHEMAS`, else a
+        RecordingError.
+        """
         return self._drawn(topic, schema, lambda times, messages: messages)
 
     def template_channel(
@@ -237,15 +234,14 @@ class Recorder:
         template: Template,
         values: Callable[[NDArray[np.float64]], NDArray[np.float64]] = np.asarray,
     ) -> Channel[NDArray[np.float64]]:
-        """Declare a new `topic` of messages of a `schema` that fill a `template`, encoded a chunk at once. Returns its
-        channel.
+        """Returns the channel of a new `topic` of messages of a `schema` that fill a `template`, encoded a chunk at
+        once.
 
         `values` maps the written rows (m, j) to the template's slot values (m, k). Errors as of `message_channel`.
         """
         return self._drawn(topic, schema, lambda times, rows: template.filled_all(times, values(np.array(rows))))
 
     def _drawn(self, topic: str, schema: str, encode: _Encode[_Message]) -> Channel[_Message]:
-        """A topic of messages that viewers draw."""
         if schema not in SCHEMAS:
             raise RecordingError(f"schema {schema!r} of topic {topic} is unknown; allowed: {', '.join(SCHEMAS)}")
         channel = Channel(self, len(self._channels) + 1, topic, encode)
@@ -263,7 +259,9 @@ class Recorder:
         self._channels.append(channel)
 
     def flush(self) -> None:
-        """Write what was gathered as one chunk; a RecordingError if the disk is full or the file cannot be written."""
+        """Write the gathered messages as one chunk; a RecordingError if the disk is full or the file cannot be
+        written.
+        """
         full = [channel for channel in self._channels if channel._times]
         if not full:
             return
@@ -402,7 +400,6 @@ class Recorder:
         return bytes(builder.end())
 
     def _put(self, data: bytes) -> int:
-        """Append bytes to the file and return their offset."""
         try:
             offset = self._file.tell()
             self._file.write(data)

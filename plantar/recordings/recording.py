@@ -1,4 +1,4 @@
-"""A recording as tables: what `Recorder` wrote, read back, and exported to NPZ or CSV."""
+"""Recordings of `Recorder` as tables, and their export to NPZ or CSV."""
 
 from __future__ import annotations
 
@@ -24,8 +24,7 @@ __all__ = ["Recording", "Table", "read_mcap", "take_mcap"]
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """The messages of one topic: `time` (n,) in s, and the values (n, k) of each of its `fields`, in the message type's
-    order."""
+    """The messages of one topic: `time` (n,) in s, and the values (n, k) of each of its `fields`, in order."""
 
     time: NDArray[np.float64]
     fields: Mapping[str, NDArray[np.float64]]
@@ -36,10 +35,10 @@ class Table:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """What a recording file holds.
+    """Content of a recording file.
 
     Attributes:
-        metadata: What was stored with the data.
+        metadata: Values stored with the data.
         layouts: Sole layout of each side that has one.
         topics: Table of each topic.
         warnings: What was missing, damaged or skipped, one line each.
@@ -100,11 +99,8 @@ class Recording:
 def read_mcap(path: str | os.PathLike[str]) -> Recording:
     """Read an MCAP recording whose topics are made of float64 fields.
 
-    A file that was cut short is read up to its last whole chunk and a damaged chunk is left out, as are topics of other
-    message types; `warnings` lists both.
-
-    Raises:
-        FormatError: If the file cannot be read, is not MCAP, or holds no readable part.
+    Damaged chunks and topics of other types are left out, and listed in `warnings`. A FormatError if the file cannot be
+    read, is not MCAP, or holds no readable part.
 
     Example:
         >>> read_mcap("none.mcap")
