@@ -95,6 +95,7 @@ class _Foot:
     support: NDArray[np.float64] | None = None
     alone: NDArray[np.float64] | None = None
     step: int | None = None
+    seen_partial: bool = False
 
 
 class FootContacts:
@@ -142,7 +143,7 @@ class FootContacts:
 
     def partial(self, side: Side) -> bool:
         """Whether a foot is known to stand on a part of its sole."""
-        return not self._feet[side].contact.whole
+        return not self._feet[side].contact.whole or self._feet[side].seen_partial
 
     def firm(self, step: int) -> bool:
         """Whether the footholds of the last few steps before one were found, and seen ahead, to carry the whole
@@ -161,7 +162,15 @@ class FootContacts:
         foot.contact.lift()
         foot.support = foot.alone = None
         foot.center, foot.borne = self._middle[side], self._borne[side]
-        foot.step = step
+        foot.step, foot.seen_partial = step, False
+
+    def touchdown(self, side: Side) -> None:
+        """A foot has landed: until loads show more, it stands on the part of its sole under which it saw ground."""
+        foot = self._feet[side]
+        ground = foot.contact.foresee(np.zeros(2))
+        if ground is not None:
+            foot.center, foot.borne = self._center(side, ground), borne_part(ground, self._reach)
+        foot.seen_partial = ground is not None
 
     def bear_inside(self, side: Side, distance: float) -> None:
         """Let a foot that has just landed carry nearer to the robot's middle.
@@ -170,7 +179,7 @@ class FootContacts:
             side: Which foot.
             distance: Distance along the sole's y axis in m.
         """
-        self._feet[side].center = self._middle[side] + np.array([0.0, distance])
+        self._feet[side].center = self._feet[side].center + np.array([0.0, distance])
 
     def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
         """Sides, left first, of feet that take the weight over, or have landed and wait for it.
@@ -268,7 +277,8 @@ class FootContacts:
         # Where less was seen ahead, the plan uses that; what is found now has to correct it.
         if not contact.whole:
             self._part = foot.step
-        as_planned = contact.whole and not known and self._foreseen != foot.step
+        as_planned = contact.whole and not known and self._foreseen != foot.step and not foot.seen_partial
+        foot.seen_partial = False
         if not as_planned:
             foot.center, foot.borne = center, borne_part(contact.polygon_in_sole, self._reach)
             every = foot.borne is contact.polygon_in_sole

@@ -3,6 +3,7 @@
     w = k ((p - c) x e_z),     [w_x, w_y] = k [p_y - c_y, -(p_x - c_x)]
 
 An incoming foot turns until its contacts enclose its middle c, the stance foot where the desired ZMP c is beyond them.
+On ground that carries a part of the sole, c is that part's middle, and a stance foot does not turn over its edge.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import math
 from collections import deque
 from collections.abc import Mapping
 from itertools import islice
+from types import MappingProxyType
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -189,6 +191,7 @@ class GroundConformity:
         state: BaseState,
         percepts: Mapping[Side, Percept],
         landed: bool,
+        parts: Mapping[Side, NDArray[np.float64]] = MappingProxyType({}),
     ) -> dict[Side, SoleTurn]:
         """Turns of the standing soles at one control tick.
 
@@ -199,6 +202,7 @@ class GroundConformity:
             state: Estimated state.
             percepts: What each sole senses.
             landed: Whether the swing foot has touched the ground.
+            parts: Middle (2,) in m, in the sole frame, of the part that carries of a sole that stands on a part.
 
         Returns:
             Turn of each sole that turns.
@@ -218,11 +222,13 @@ class GroundConformity:
             if phase.stance == side:
                 target = rotation[:2, :2].T @ (zmp_desired - position[:2])
                 # Once the other foot is down, the desired ZMP may lie beyond this sole: no turn brings the load there.
-                if self.turns_stance and not landed and not contacts.encloses(target):
+                if self.turns_stance and side not in parts and not landed and not contacts.encloses(target):
                     turned[side] = SoleTurn(turns.stance(load, cop, target), _ORIGIN)
                     continue
-            elif side == incoming and not contacts.encloses(self._middles[side]):
-                turned[side] = SoleTurn(turns.incoming(load, cop, self._middles[side]), cop)
-                continue
+            elif side == incoming:
+                middle = parts.get(side, self._middles[side])
+                if not contacts.encloses(middle):
+                    turned[side] = SoleTurn(turns.incoming(load, cop, middle), cop)
+                    continue
             turns.hold(cop)
         return turned

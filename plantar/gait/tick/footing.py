@@ -139,6 +139,8 @@ class Footing:
             self.damping[feet.side].reset()
         inward = 0.0
         if feet.touchdown and feet.side is not None and s.compliance is not None:
+            if s.footholds == "skin":
+                self.contacts.touchdown(feet.side)
             inward = inward_distance(feet.side, motion.outward_rise(feet.side), s.slope.ankle_reach, s.com_height)
             if inward:
                 self.contacts.bear_inside(feet.side, inward)
@@ -258,6 +260,7 @@ class Footing:
         plan, incoming = self._plan.view, None
         if 0 < phase.step < plan.count:  # not at the two ends of the walk
             incoming = phase.swing or other_side(plan.foothold(phase.step).side)
-        turned = self.conformity.update(phase, incoming, zmp, state, sensed.percepts, self.motion.landed)
+        parts = {side: self.contacts.center(side) for side in SIDES if self.contacts.partial(side)}
+        turned = self.conformity.update(phase, incoming, zmp, state, sensed.percepts, self.motion.landed, parts)
         for side, turn in turned.items():
             self.motion.turn_standing(side, *turn)

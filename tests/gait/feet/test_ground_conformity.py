@@ -10,7 +10,7 @@ from plantar.errors import InputError
 from plantar.gait.contact.ground_map import GroundMapSettings
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.gait.feet.foot_motion import FootMotion, Landing
-from plantar.gait.feet.ground_conformity import ConformityGains, FootTurn, GroundConformity
+from plantar.gait.feet.ground_conformity import ConformityGains, FootTurn, GroundConformity, SoleTurn
 from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.plan.footsteps import straight_plan
 from plantar.gait.plan.phases import Phase, PhaseKind
@@ -90,20 +90,38 @@ def test_a_gain_below_zero_is_refused() -> None:
         ConformityGains(firm=-1.0)
 
 
-@pytest.mark.parametrize(("landed", "turns"), [(False, True), (True, False)])
-def test_a_stance_foot_is_not_turned_after_a_zmp_beyond_it(landed: bool, turns: bool) -> None:
-    """A desired ZMP between both feet lies beyond the sole that carries: turning that would never end."""
+def _turned(
+    swing: Side | None, cop: tuple[float, float], zmp: tuple[float, float], landed: bool, parts: dict[Side, np.ndarray]
+) -> dict[Side, SoleTurn]:
+    """Turns of soles of which the right one carries 800 N around a place of it, with a ZMP wanted at another place."""
     feet, _ = straight_plan(2)
     layout = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])
     layouts: dict[Side, SoleLayout] = {"left": layout, "right": layout}
     conformity = GroundConformity(GAINS, layouts, {side: np.zeros(2) for side in SIDES}, PERIOD)
-    phase = Phase(PhaseKind.SINGLE_SUPPORT, 0, 1.0, 2.0, "left")
-    percept = Percept(layout, Reading(1.5, np.full(len(layout), 800.0 / len(layout))))
+    kind = PhaseKind.DOUBLE_SUPPORT if swing is None else PhaseKind.SINGLE_SUPPORT
+    force = np.exp(-((layout.positions[:, :2] - cop) ** 2).sum(axis=1) / 0.03**2)
+    percept = Percept(layout, Reading(1.5, 800.0 * force / force.sum()))
     places = {side: feet[side].position for side in SIDES}
     level = {side: np.eye(3) for side in SIDES}
-    state = BaseState(
-        np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3), None, {"left": 0.0, "right": 800.0}, places, level
-    )
-    zmp = places["right"][:2] + np.array([0.0, 0.12])
-    found = conformity.update(phase, None, zmp, state, dict.fromkeys(SIDES, percept), landed)
-    assert ("right" in found) == turns
+    loads = {"left": 0.0, "right": 800.0}
+    state = BaseState(np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3), None, loads, places, level)
+    incoming: Side | None = None if swing else "right"
+    phase = Phase(kind, 0, 1.0, 2.0, swing)
+    soles = dict.fromkeys(SIDES, percept)
+    return conformity.update(phase, incoming, places["right"][:2] + zmp, state, soles, landed, parts)
+
+
+@pytest.mark.parametrize(
+    ("landed", "part", "turns"), [(False, False, True), (True, False, False), (False, True, False)]
+)
+def test_a_stance_foot_is_turned_where_there_may_be_more_ground(landed: bool, part: bool, turns: bool) -> None:
+    """A desired ZMP between both feet lies beyond the sole that carries, and beyond a seen edge there is no ground."""
+    parts: dict[Side, np.ndarray] = {"right": np.zeros(2)} if part else {}
+    assert ("right" in _turned("left", (0.0, 0.0), (0.0, 0.12), landed, parts)) == turns
+
+
+def test_a_foot_that_takes_the_weight_over_turns_to_the_middle_of_the_part_that_carries() -> None:
+    """The whole sole's middle would turn a foot that only its heel carries over the edge."""
+    over = _turned(None, (-0.06, 0.0), (0.0, 0.0), True, {})
+    assert over["right"].turn[1] > 0.0  # the toes go down
+    assert not _turned(None, (-0.06, 0.0), (0.0, 0.0), True, {"right": np.array([-0.06, 0.0])})

@@ -1,0 +1,38 @@
+"""What both feet stand on."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from plantar import Percept, hex_layout
+from plantar.gait.contact.foot_contacts import FootContacts
+from plantar.gait.contact.stance_contact import ContactSettings
+from plantar.gait.plan.feet_view import FeetView
+from plantar.gait.plan.phases import Phase, PhaseKind
+from plantar.mechanics.base_state import BaseState
+from plantar.sensing.reading import Reading
+
+SOLE = hex_layout([[-0.125, -0.075], [0.125, -0.075], [0.125, 0.075], [-0.125, 0.075]], clip=False)
+
+
+@pytest.mark.parametrize("edge", [0.0, math.inf])
+def test_a_foot_that_lands_stands_on_the_part_of_its_sole_that_saw_ground(edge: float) -> None:
+    contacts = FootContacts(ContactSettings(), {"left": SOLE, "right": SOLE})
+    contacts.lift_off("left", 0)
+    phase, ahead = Phase(PhaseKind.SINGLE_SUPPORT, 0, 1.0, 2.0, "left"), np.array([0.1, 0.0])  # too far to plan with
+    nothing = np.zeros(3)
+    state = BaseState(np.eye(3), nothing, nothing, nothing, None, {}, {"left": nothing}, {"left": np.eye(3)})
+    for k in range(10):
+        distance = np.where(SOLE.positions[:, 0] < edge, 0.02, math.inf)
+        sole = Percept(SOLE, Reading(1.8 + 0.004 * k, np.zeros(len(SOLE)), distance))
+        feet = FeetView({}, "left", landed=False, ahead=ahead)
+        assert contacts.find_ahead(phase, 1.8, feet, state, {"left": sole}) is None
+    whole = contacts.center("left")
+    contacts.touchdown("left")
+    assert contacts.partial("left") == (edge == 0.0)
+    assert contacts.center("left")[0] == pytest.approx(-0.0625 if edge == 0.0 else whole[0], abs=0.015)
+    contacts.lift_off("left", 2)
+    assert not contacts.partial("left")
