@@ -59,9 +59,9 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("safety", "controller_settings", "tick", "controller", "controller_tables"),
     ),
     "plantar.gait.analysis": (
-        *("measures", "options", "subject", "spread", "prints", "steps", "health", "body_weight", "activity"),
-        *("mirrored_feet", "parameters", "measure_errors", "pages", "metrics", "results", "analyse_one"),
-        *("study", "compare", "custom", "ground_reactions", "exports", "analyse"),
+        *("measures", "options", "subject", "prints", "steps", "health", "activity", "summary"),
+        *("parameters", "measure_errors", "pages", "metrics", "results", "analyse_one"),
+        *("study", "compare", "custom", "exports", "analyse"),
     ),
     "plantar.wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "plantar.robots": (

@@ -224,7 +224,7 @@ def _compare(pair: tuple[Path, Path], file: FileOrder, order: AnalysisOrder, out
 
 def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
     """Print what was found of each recording, then what had to be assumed."""
-    from plantar.gait.analysis.pages.analysis_text import analysis_text
+    from plantar.gait.analysis.pages.report import analysis_text
 
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())
     end_command(result, as_json, text + file_lines(result["files"]))

@@ -18,7 +18,6 @@ _KINDS = (
     (stat.S_ISBLK, "it is a device"),
 )
 _NO_WAITING = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0) | getattr(os, "O_CLOEXEC", 0)
-
 Name = str | os.PathLike[str]
 
 

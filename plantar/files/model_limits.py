@@ -14,6 +14,7 @@ MOST_PARTS = 2000
 """Most shapes, and most bodies: MuJoCo's reader takes a time that grows with their square."""
 
 _KINDS = dict.fromkeys(("geom", "visual", "collision", "site"), "shapes") | dict.fromkeys(("body", "link"), "bodies")
+# Largest number in an attribute of an element; other attributes named n... of "size" may be as large as _MOST_USER.
 _MOST_OF = {
     ("hfield", "nrow"): 2000,
     ("hfield", "ncol"): 2000,
@@ -29,7 +30,6 @@ _MOST_OF = {
     ("flexcomp", "count"): 100,
     ("flexcomp", "cellcount"): 100,
 }
-"""Largest number in an attribute of an element; other attributes named n... of "size" may be as large as _MOST_USER."""
 _MOST_USER = 1000
 _MOST_MEMORY = 1e9
 _UNITS = {"": 1.0, "K": 2.0**10, "M": 2.0**20, "G": 2.0**30}

@@ -23,8 +23,8 @@ JSON_MOST = 16_000_000
 """Largest JSON file in bytes: a layout of some 25,000 taxels."""
 
 _PART = r"""(?:(?<![A-Za-z0-9_-])[A-Za-z0-9_-]++|"[^"\n]*+"|'[^'\n]*+')"""
+# A dotted key of more than ten parts: reading one takes memory by the square of its parts.
 _DEEP_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{10}}")
-"""A dotted key of more than ten parts: reading one takes memory by the square of its parts."""
 
 
 def parse_toml(text: str) -> dict[str, Any]:

@@ -17,19 +17,17 @@ from plantar.console.ending import one_line
 from plantar.errors import FormatError, InputError, PlantarError
 from plantar.files.input_file import check_input, is_file, open_input
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.marks import without_marks
-from plantar.formats.plausibility import doubts
+from plantar.formats.plausibility import checked
 from plantar.formats.units import find_unit
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import RATES, PressureRecording
 
 __all__ = ["Format", "ReadOptions", "detect_format", "formats", "is_study_folder", "named_format", "read_recording"]
 
-_GROUP = "plantar.formats"
-"""Entry points under which other packages name a `Format`."""
+_GROUP = "plantar.formats"  # Entry points under which other packages name a `Format`
+# How many bytes of a file are looked at, and how many where those do not decide: a platform's table has a row of
+# names of a hundred kilobytes.
 _HEADS = (1 << 16, 1 << 22)
-"""How many bytes of a file are looked at, and how many where those do not decide: a platform's table has a row of names
-of a hundred kilobytes."""
 
 
 def formats() -> dict[str, Format]:
@@ -130,7 +128,7 @@ def read_recording(
         check_input(path, FormatError)
         raise FormatError(f"{path}: a footprint image is no recording over time")
     try:
-        recording = without_marks(chosen.read(Path(path), known))
+        return checked(chosen.read(Path(path), known))
     except FormatError as error:
         text = str(error)
         raise FormatError(text if text.startswith(str(path)) else f"{path}: {text}") from None
@@ -143,7 +141,6 @@ def read_recording(
         raise FormatError(
             f"{path}: not a file that can be read as {chosen.name} ({type(error).__name__}: {text})"
         ) from error
-    return replace(recording, warnings=tuple(dict.fromkeys([*recording.warnings, *doubts(recording)])))
 
 
 def _insole_size(size: str, format: str) -> str:

@@ -54,8 +54,7 @@ _BROKEN: tuple[type[Exception], ...] = (
     zipfile.BadZipFile,
     zlib.error,
 )
-_LARGEST = 4e9
-"""Largest size of all arrays in bytes."""
+_LARGEST = 4e9  # Largest size of all arrays in bytes
 _SHOWN = 20  # arrays in a message
 
 

@@ -26,16 +26,12 @@ from plantar.sides import SIDES, Side
 __all__ = ["FORMAT"]
 
 _LARGEST, _HEAD = 256e6, 1 << 16  # bytes
-_TILT = 0.97
-"""Least cosine of the angle between a plate's normal and the laboratory's vertical: 14 degrees, a ramp."""
-_LONGEST_PLATE = 2.0
-"""Largest distance in m of a CoP from where a plate's moments are about."""
-_KILONEWTONS = (0.15, 5.0)
-"""Largest forces of a person in kN."""
-_LARGEST_TURN = 0.1
-"""Largest free moment in N m for each N of vertical force."""
+_TILT = 0.97  # Least cosine of the angle between a plate's normal and the laboratory's vertical: 14 degrees, a ramp
+_LONGEST_PLATE = 2.0  # Largest distance in m of a CoP from where a plate's moments are about
+_KILONEWTONS = (0.15, 5.0)  # Largest forces of a person in kN
+_LARGEST_TURN = 0.1  # Largest free moment in N m for each N of vertical force
+# The laboratory's axes in the order that makes its vertical one the third, right-handed.
 _TO_Z_UP = {0: [1, 2, 0], 1: [2, 0, 1], 2: [0, 1, 2]}
-"""The laboratory's axes in the order that makes its vertical one the third, right-handed."""
 
 
 def _recognises(head: bytes) -> bool:

@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.formats.format import ReadOptions
-from plantar.formats.polygon_layout import subset
+from plantar.formats.recorded_layouts import subset
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import Side, SoleLayout
-from plantar.recordings.let_go import scale_frames
+from plantar.recordings.frame_table import scale_frames
 from plantar.recordings.pressure_recording import FootRecording, layout_for
 
+# Share of its high readings below which a foot is in the air; share of the time in which one of two is alone.
 _IN_AIR, _ALONE = 0.05, 0.15
-"""Share of its high readings below which a foot is in the air; share of the time in which one of two is alone."""
 
 __all__ = ["cells_of_foot", "halves", "scale_to_force", "unit_of_values"]
 

@@ -17,12 +17,17 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.formats.column_names import heading_of
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.number_rows import number_rows
-from plantar.formats.side_column import is_side_column, with_numbers
+from plantar.formats.side import is_side_column, with_numbers
 from plantar.formats.table_columns import recording_of_columns
-from plantar.formats.table_head import head_of_table
-from plantar.formats.text import blocks_of_lines, head_text, open_text, row_of_numbers
-from plantar.formats.written_cells import has_quoted_commas, seconds_of_time, time_unit, with_seconds, without_quotes
+from plantar.formats.table_text import (
+    has_quoted_commas,
+    head_of_table,
+    seconds_of_time,
+    time_unit,
+    with_seconds,
+    without_quotes,
+)
+from plantar.formats.text import blocks_of_lines, head_text, number_rows, open_text, row_of_numbers
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import PressureRecording
 
@@ -31,8 +36,7 @@ __all__ = ["FORMAT"]
 _BLOCK, _BLOCK_VALUES = 2048, 4_000_000
 _FIRST = 32
 _MOST_COLUMNS, _HEAD = 100_000, 200
-_FEWEST = 3
-"""Numbers of a row from which lines are a table by themselves; a row of two needs names."""
+_FEWEST = 3  # Numbers of a row from which lines are a table by themselves; a row of two needs names
 
 
 def _recognises(head: bytes) -> bool:

@@ -22,13 +22,10 @@ from plantar.optional_library import optional_library
 __all__ = ["FORMAT", "FootprintImage", "Print", "decoded_image", "read_footprints"]
 
 _MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"II*\0", b"MM\0*", b"BM")
-_LARGEST = 250e6
-"""Most bytes of a file, and of an image once it is decoded: 83 million pixels in colour."""
+_LARGEST = 250e6  # Most bytes of a file, and of an image once it is decoded: 83 million pixels in colour
 _IMAGE = "not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)"
-_SCAN, _MOST_SCANNED = b"\xff\xda", 2e9
-"""What begins each scan of a JPEG, and how many pixels all of them may go over."""
-_WORKING = 1600
-"""Longer side in pixels that is enough to outline a foot; larger images are reduced."""
+_SCAN, _MOST_SCANNED = b"\xff\xda", 2e9  # What begins each scan of a JPEG, and how many pixels all of them may go over
+_WORKING = 1600  # Longer side in pixels that is enough to outline a foot; larger images are reduced
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from plantar.errors import FormatError
 from plantar.files.input_file import open_input
 from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.grid_cells import grid_cells
+from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import cells_of_row, head_text, number, open_text, row_of_numbers
 from plantar.formats.units import find_unit
@@ -33,12 +33,10 @@ from plantar.recordings.pressure_recording import (
 __all__ = ["FORMAT"]
 
 _FRAME = re.compile(r"\W*frame\s*(\d{1,9})\s*\(\s*([\d.,]{1,15})\s*ms\s*\)", re.IGNORECASE)
-_ACROSS, _ALONG = 5.08e-3, 7.62e-3
-"""Size of a cell in m across and along the plate."""
-_COLUMNS = 64
-"""Cells across every plate: 0.5, 1, 1.5 and 2 m long plates have 64, 128, 192 and 256 along."""
+_ACROSS, _ALONG = 5.08e-3, 7.62e-3  # Size of a cell in m across and along the plate
+_COLUMNS = 64  # Cells across every plate: 0.5, 1, 1.5 and 2 m long plates have 64, 128, 192 and 256 along
+# Pressure in Pa from which a cell counts as loaded, about 0.08 N: the least that the plate states is 0.1 N.
 _THRESHOLD = 2e3
-"""Pressure in Pa from which a cell counts as loaded, about 0.08 N: the least that the plate states is 0.1 N."""
 _LARGEST_HEADER, _LARGEST, _MOST_ROWS = 200, 200_000, 2000
 _EXCEL = b"\xd0\xcf\x11\xe0"
 

@@ -22,26 +22,24 @@ __all__ = ["LEAST", "Plate", "feet_of_plates"]
 LEAST = 20.0
 """Vertical force in N from which a plate counts as stepped on, and has a centre of pressure."""
 
+# An empty plate reads less than 0.15 of its peak, or 60 N; else the commonest level is its own, if it is an end.
 _WINDOW, _WINDOW_N = 0.15, 60.0
-"""An empty plate reads less than 0.15 of its peak, or 60 N; else the commonest level is its own, if it is an end."""
+# Share of frames on one side of a level that is an end; share of the range in which an empty plate drifts.
 _ONE_SIDE, _FAR = 0.98, 0.05
-"""Share of frames on one side of a level that is an end; share of the range in which an empty plate drifts."""
+# Largest scatter of an end's level, as a share of half the range: of a wave's turning point it is 0.1 and more.
 _FLAT = 0.05
-"""Largest scatter of an end's level, as a share of half the range: of a wave's turning point it is 0.1 and more."""
+# Time in s of a run of empty frames, and their least share, from which they show the plate's zero.
 _SHORTEST, _FEWEST = 0.1, 0.02
-"""Time in s of a run of empty frames, and their least share, from which they show the plate's zero."""
-_FOOT = (0.45, 0.16)
-"""Length and width in m that the CoP of one foot covers at most."""
+_FOOT = (0.45, 0.16)  # Length and width in m that the CoP of one foot covers at most
 _NOISES = 6.0
+# Horizontal over vertical force, median of loaded frames, above which what pushes is no foot: friction of shoes on
+# floors allows 0.5, walking has 0.1.
 _SHEAR = 0.6
-"""Horizontal over vertical force, median of loaded frames, above which what pushes is no foot: friction of shoes on
-floors allows 0.5, walking has 0.1."""
+# Share of loaded frames whose CoP is outside the plate by more than 0.05 m from which its geometry is doubted.
 _OUTSIDE, _EDGE = 0.3, 0.05
-"""Share of loaded frames whose CoP is outside the plate by more than 0.05 m from which its geometry is doubted."""
+# Time in s before and after a contact in which its plate is read: another plate's drift is no load of this foot.
 _BESIDE = 0.3
-"""Time in s before and after a contact in which its plate is read: another plate's drift is no load of this foot."""
-_STATED = 2.0
-"""Offset in N from which it is reported."""
+_STATED = 2.0  # Offset in N from which it is reported
 
 
 @dataclass(frozen=True, eq=False)

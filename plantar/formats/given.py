@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +12,7 @@ import numpy as np
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, read_recording
 from plantar.formats.array_file import recording_of_arrays
-from plantar.formats.marks import without_marks
-from plantar.formats.plausibility import doubts
+from plantar.formats.plausibility import checked
 from plantar.formats.table_columns import recording_of_columns
 from plantar.recordings.pressure_recording import PressureRecording
 
@@ -51,8 +49,7 @@ def recording_of(given: Any, format: str | None = None, options: ReadOptions | N
             f"a {type(given).__name__} is no recording; allowed: a path, a PressureRecording, an array of frames and "
             "cells, a mapping of arrays, a data frame"
         )
-    found = without_marks(found)
-    return replace(found, warnings=tuple(dict.fromkeys([*found.warnings, *doubts(found)])))
+    return checked(found)
 
 
 def _columns(frame: Any) -> tuple[np.ndarray[Any, Any], list[str]]:

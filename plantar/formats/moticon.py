@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.moticon_insole import LENGTH, WIDTH, moticon_insole
-from plantar.formats.number_rows import number_rows
-from plantar.formats.text import blocks_of_lines, head_text, number, open_text
+from plantar.formats.nominal_insole import MOTICON_LENGTH, MOTICON_WIDTH, moticon_insole
+from plantar.formats.text import blocks_of_lines, head_text, number, number_rows, open_text
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
@@ -212,15 +211,15 @@ def _unit(path: Path, options: ReadOptions, stated: list[str], warnings: list[st
 
 def _size(header: dict[str, str], warnings: list[str]) -> int | None:
     value = number(header.get("size", ""))
-    if value is not None and int(value) in LENGTH:
+    if value is not None and int(value) in MOTICON_LENGTH:
         warnings.append(
             f"the file holds no cell geometry: a nominal insole of size {int(value)}, "
-            f"{LENGTH[int(value)] * 1e3:.0f} mm long, is used; CoP and lengths rest on it (--layout overrides)"
+            f"{MOTICON_LENGTH[int(value)] * 1e3:.0f} mm long, is used; CoP and lengths rest on it (--layout overrides)"
         )
         return int(value)
     warnings.append(
-        f"the file names no known insole size: a nominal one of {LENGTH[7] * 1e3:.0f} mm (size 7) is assumed; CoP, "
-        "lengths and areas rest on it (--layout overrides)"
+        f"the file names no known insole size: a nominal one of {MOTICON_LENGTH[7] * 1e3:.0f} mm (size 7) is assumed; "
+        "CoP, lengths and areas rest on it (--layout overrides)"
     )
     return None
 
@@ -280,9 +279,9 @@ def _device_cop(
     if "center of pressure x" not in columns or "center of pressure y" not in columns:
         return None
     along, across = (table[:, columns[f"center of pressure {axis}"][0]] for axis in "xy")
-    length = LENGTH[size or 7]
+    length = MOTICON_LENGTH[size or 7]
     outward = 1.0 if side == "right" else -1.0
-    out = np.column_stack([(along + 0.5) * length, outward * across * WIDTH * length])
+    out = np.column_stack([(along + 0.5) * length, outward * across * MOTICON_WIDTH * length])
     out[(np.abs(along) > 0.75) | (np.abs(across) > 0.75) | ((along == 0.0) & (across == 0.0))] = np.nan
     out[np.isnan(out).any(axis=1)] = np.nan
     return out

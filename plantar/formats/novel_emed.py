@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.grid_cells import grid_cells
+from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import head_text, number, number_in, open_text
 from plantar.formats.units import LENGTHS, find_unit
@@ -29,8 +29,8 @@ __all__ = ["FORMAT"]
 
 _LARGEST = 1024
 _MOST_PAGES, _MOST_EMPTY = 200_000, 1000
+# Values of all frames' whole matrices that any file may mean, and for each of its bytes; usual is one a byte.
 _SMALL, _MOST_A_BYTE = 8_000_000, 8
-"""Values of all frames' whole matrices that any file may mean, and for each of its bytes; usual is one a byte."""
 _USUAL_SIZE, _USUAL_RATE = 0.005, 100.0
 _THRESHOLD = 1e3
 _PICTURE = re.compile(r"Pict-No\.?\s*:\s*(\d{1,9})")

@@ -20,10 +20,8 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import CELL_AREAS, DEFAULT_SIZE, nominal_insole
-from plantar.formats.number_rows import number_rows
-from plantar.formats.pliance_geometry import corner_table, layout_of_corners
-from plantar.formats.polygon_layout import subset
-from plantar.formats.text import blocks_of_lines, head_text, open_text
+from plantar.formats.recorded_layouts import corner_table, layout_of_corners, subset
+from plantar.formats.text import blocks_of_lines, head_text, number_rows, open_text
 from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
@@ -39,11 +37,9 @@ _LABELS = re.compile(r"\s*(?:M[VP]P|x\[|y\[|area|electrical|mechanical|corner|ti
 _CORNER = re.compile(r"\s*[xy]\[[0-3]\]\s")
 _MOST_CORNERS = 64
 _LARGEST_HEADER, _LONGEST_FACT = 400, 10_000
-_WRITTEN = ("kpa", "n/cm2", "psi", "mmhg", "kg/cm2", "mpa")
-"""Units that the exporting programs write."""
+_WRITTEN = ("kpa", "n/cm2", "psi", "mmhg", "kg/cm2", "mpa")  # Units that the exporting programs write
 _BLOCK, _BLOCK_VALUES = 2048, 4_000_000
-_LATEST = 1e9
-"""Time in s from which a line is damaged."""
+_LATEST = 1e9  # Time in s from which a line is damaged
 
 
 def _recognises(head: bytes) -> bool:

@@ -15,20 +15,14 @@ from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["PlateContact", "plate_contacts", "sides_of_contacts"]
 
-_LEAST, _SHARE = 20.0, 0.05
-"""Vertical force in N, and share of the plate's peak, above which a foot is on it."""
-_SHORTEST, _BRIDGED = 0.1, 0.1
-"""Contacts in s that are shorter are none; gaps in s that are shorter are bridged."""
-_NEARER = 0.1
-"""How much nearer in m one foot's markers are to the CoP than the other's, at least."""
-_REACH = 0.2
-"""Time in s between a contact's begin and a stated heel strike of its foot, at most."""
+_LEAST, _SHARE = 20.0, 0.05  # Vertical force in N, and share of the plate's peak, above which a foot is on it
+_SHORTEST, _BRIDGED = 0.1, 0.1  # Contacts in s that are shorter are none; gaps in s that are shorter are bridged
+_NEARER = 0.1  # How much nearer in m one foot's markers are to the CoP than the other's, at least
+_REACH = 0.2  # Time in s between a contact's begin and a stated heel strike of its foot, at most
+# Mean push to the middle in mid-stance, as a share of the peak, from which it shows the foot; walking has 0.03.
 _INWARD = 0.01
-"""Mean push to the middle in mid-stance, as a share of the peak, from which it shows the foot; walking has 0.03."""
-_ACROSS = 0.02
-"""Distance in m of plates or contacts across the direction of walking that shows which are the left ones."""
-_LONG = 1.4
-"""Contacts and gaps on a treadmill's belt of so many medians show that a foot was on the other belt."""
+_ACROSS = 0.02  # Distance in m of plates or contacts across the direction of walking that shows which are the left ones
+_LONG = 1.4  # Contacts and gaps on a treadmill's belt of so many medians show that a foot was on the other belt
 
 
 class _Plate(Protocol):

@@ -1,36 +1,42 @@
-"""Doubts about a recording that was read without an error: a wrong unit, rate or cell size shows in the figures."""
+"""Checks of a recording that was read: marks for missing values, and doubts about unit, rate or cell size."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.recordings.let_go import column_maxima, let_go
+from plantar.recordings.frame_table import blocks_of_frames, column_maxima, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
-__all__ = ["doubts"]
+__all__ = ["checked", "doubts", "without_marks"]
 
 _FORCE = (15.0, 6000.0)
 _PRESSURE = (5e3, 3e6)
 _CELL = (1e-6, 4e-3)
+# Rates in Hz between which events are found to half a frame's time; below, a contact has a dozen frames.
 _RATE = (20.0, 5000.0)
-"""Rates in Hz between which events are found to half a frame's time; below, a contact has a dozen frames."""
+# Share of loaded frames that repeat the one before from which the sensor is slower than the file; frames in a row at
+# a cell's largest reading, and cells that share that reading, from which it is the end of the sensor's range.
 _HELD, _FLAT, _CELLS = 0.4, 5, 3
-"""Share of loaded frames that repeat the one before from which the sensor is slower than the file; frames in a row at
-a cell's largest reading, and cells that share that reading, from which it is the end of the sensor's range."""
+# How many times higher than both frames next to it, and from which pressure in Pa, a single value is no foot's.
 _ALONE, _HIGH = 4.0, 50e3
-"""How many times higher than both frames next to it, and from which pressure in Pa, a single value is no foot's."""
-_QUICK = 50.0
-"""Rate in Hz from which that is so: at 30 Hz a heel strike may pass a cell within one frame."""
+_QUICK = 50.0  # Rate in Hz from which that is so: at 30 Hz a heel strike may pass a cell within one frame
+# Readings of cells that are looked at for this, from the beginning on: a minute of 99 cells at 80 Hz, 4 MB.
 _SEEN = 500_000
-"""Readings of cells that are looked at for this, from the beginning on: a minute of 99 cells at 80 Hz, 4 MB."""
+# A cell's smallest reading (0.1 % of the positive ones lie below), as a share of the readings' 98th percentile, from
+# which what a sensor leaves out at low load moves events by 20 ms; and the share of readings of 0 that separates such
+# a sensor from one with an offset.
 _SWITCH, _LOW, _ZEROS = 0.20, 0.1, 0.05
-"""A cell's smallest reading (0.1 % of the positive ones lie below), as a share of the readings' 98th percentile, from
-which what a sensor leaves out at low load moves events by 20 ms; and the share of readings of 0 that separates such a
-sensor from one with an offset."""
 _LONGEST_FOOT = 0.40
-_SLENDER = (1.8, 4.2)
-"""How many times longer than wide insoles are, with room; those of makers are 2.4 to 3.4."""
+_SLENDER = (1.8, 4.2)  # How many times longer than wide insoles are, with room; those of makers are 2.4 to 3.4
+
+
+def checked(recording: PressureRecording) -> PressureRecording:
+    """The recording with marks for missing values as NaN, and with warnings of these and of all doubts."""
+    found = without_marks(recording)
+    return replace(found, warnings=tuple(dict.fromkeys([*found.warnings, *doubts(found)])))
 
 
 def doubts(recording: PressureRecording) -> list[str]:
@@ -133,3 +139,95 @@ def _switched_on(side: str, value: NDArray[np.float64]) -> list[str]:
         "readings: what is lower is not in the file, so that steps seem to begin later and end sooner, and forces and "
         "areas to be smaller"
     ]
+
+
+_FEWEST = 3  # Readings of a mark from which they are no chance
+# How many times the next largest reading a mark is at least: what a sensor clips has readings right below it.
+_BEYOND = 3.0
+_LEVELS = 10  # Different readings that a sensor has below a mark: a switch has two, and its upper one is no mark
+# How far in Pa below zero a reading moves a result; and the same as a share of the largest reading, where no cell
+# areas make pressures of them.
+_BELOW, _SHARE = 4e3, 0.1
+# Share of the readings up to which the one value below zero is a mark: of more, it is where the sensor ends.
+_MOST = 0.5
+_SAMPLED = 500_000  # Readings that are looked at first, all over the recording
+_SAME = 1e-6  # Relative difference up to which readings are the same, after a conversion of units
+
+
+def without_marks(recording: PressureRecording) -> PressureRecording:
+    """The recording with marks as NaN, and a warning for each; those of robots and force plates are unchanged.
+
+    A mark is one value that is read several times and is three times as large as any other reading, or the only one
+    below zero.
+    """
+    if recording.kind in ("robot", "plate"):
+        return recording
+    feet, warnings = dict(recording.feet), list(recording.warnings)
+    for side, foot in recording.feet.items():
+        areas = None if foot.layout is None or recording.raw else foot.layout.areas
+        per = np.ones(foot.force.shape[1]) if areas is None else areas
+        force = foot.force
+        for mark in _marks(force, per, areas is not None):
+            force, count = _left_out(force, per, mark)
+            shown = f"{mark / 1e3:.4g} kPa" if areas is not None else f"{mark:.6g}{'' if recording.raw else ' N'}"
+            warnings.append(
+                f"{count} value(s) of the {side} foot are {shown}, far from all others: taken as a mark for what "
+                "was not measured"
+            )
+        if force is not foot.force:
+            feet[side] = replace(foot, force=force)
+    return recording if feet == recording.feet else replace(recording, feet=feet, warnings=tuple(warnings))
+
+
+def _marks(force: NDArray[np.float64], per: NDArray[np.float64], are_pressures: bool) -> list[float]:
+    """The marks among readings (n, k), each divided by one of (k,) numbers."""
+    if not force.size:
+        return []
+    sample = force[:: max(1, force.size // _SAMPLED)] / per
+    let_go(force)
+    sample = np.unique(sample[np.isfinite(sample)])
+    lowest, highest = _ends(force, per)
+    found = []
+    others = sample[(sample > 0.0) & ~_is(sample, highest)]
+    if len(others) >= _LEVELS and highest >= _BEYOND * others[-1]:  # as of all that were read, or more
+        count, next_one = 0, 0.0
+        for rows in blocks_of_frames(force):
+            value = force[rows] / per
+            marked = _is(value, highest)
+            count += int(marked.sum())
+            next_one = max(next_one, float(np.nanmax(value, initial=0.0, where=~marked & np.isfinite(value))))
+        if count >= _FEWEST and highest >= _BEYOND * next_one:
+            found.append(highest)
+            highest = next_one
+    if lowest < -(_BELOW if are_pressures else _SHARE * highest):
+        count = below = 0
+        for rows in blocks_of_frames(force):
+            value = force[rows] / per
+            count += int(_is(value, lowest).sum())
+            below += int((value < 0.0).sum())
+        if _FEWEST <= count == below <= _MOST * force.size:
+            found.append(lowest)
+    return found
+
+
+def _ends(force: NDArray[np.float64], per: NDArray[np.float64]) -> tuple[float, float]:
+    low, high = np.zeros(len(per)), np.zeros(len(per))
+    for rows in blocks_of_frames(force):
+        np.fmin(low, np.fmin.reduce(force[rows], axis=0, initial=0.0), out=low)
+        np.fmax(high, np.fmax.reduce(force[rows], axis=0, initial=0.0), out=high)
+    return float((low / per).min()), float((high / per).max())
+
+
+def _is(value: NDArray[np.float64], mark: float) -> NDArray[np.bool_]:
+    return np.abs(value - mark) <= _SAME * abs(mark)
+
+
+def _left_out(force: NDArray[np.float64], per: NDArray[np.float64], mark: float) -> tuple[NDArray[np.float64], int]:
+    """The readings with NaN in place of a mark, and their number."""
+    out, count = room(*force.shape), 0
+    for rows in blocks_of_frames(force):
+        marked = _is(force[rows] / per, mark)
+        out[rows] = np.where(marked, np.nan, force[rows])
+        count += int(marked.sum())
+        let_go(out)
+    return out, count

@@ -1,13 +1,17 @@
-"""The foot of a recording of one sensor."""
+"""The foot of a recording of one sensor, of each force plate, and of each row of a table."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 
-from plantar.errors import InputError
-from plantar.layouts.layout import Side
+import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["side_of", "sides_of_plates"]
+from plantar.errors import FormatError, InputError
+from plantar.sides import SIDES, Side, other_side
+
+__all__ = ["is_side_column", "on_one_time", "rows_of_sides", "side_of", "sides_of_plates", "with_numbers"]
 
 _MARKS: dict[Side, re.Pattern[str]] = {
     "left": re.compile(r"left|links|gauche|izquierd|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)", re.IGNORECASE),
@@ -43,3 +47,137 @@ def sides_of_plates(text: str | None) -> tuple[Side | None, ...]:
             raise InputError(f"--plates names {part.strip()!r}; allowed: L, R or -, one a plate, as in L,R")
         out.append(side)
     return tuple(out)
+
+
+_SIDE_COLUMN = re.compile(
+    r"\W*(?:side|foot|sole|insole|shoe|leg|limb|fu(?:ss|ß)|seite|pied|pie)(?:[ _-]?(?:side|id))?\W*", re.IGNORECASE
+)
+# Usual distances between a foot's rows over which its values are interpolated, whatever the unit of the times: more
+# was not measured, and is filled or not as in any recording.
+_GAP = 2.5
+# Usual distances by which one foot's rows may begin or end before the other's for no more than their shift.
+_SHIFT = 1.5
+_MARK: dict[Side, str] = {"left": "0", "right": "1"}
+
+
+def is_side_column(name: str) -> bool:
+    """Whether a column of this name gives the foot of a row.
+
+    Example:
+        >>> [is_side_column(name) for name in ("Side", "foot", "sole_id", "left 12", "footprint 3")]
+        [True, True, True, False, False]
+    """
+    return _SIDE_COLUMN.fullmatch(name) is not None
+
+
+def with_numbers(lines: Iterator[str], delimiter: str | None, column: int) -> Iterator[str]:
+    """Yields lines of cells between a delimiter (None: blanks) with 0 for the left and 1 for the right foot in a side
+    column.
+    """
+    known: dict[str, str] = {}
+    for line in lines:
+        cells = line.split(delimiter)
+        if column < len(cells):
+            text = cells[column]
+            if text not in known:
+                side = side_of(text.strip().strip('"'))
+                known[text] = text if side is None else _MARK[side]
+            cells[column] = known[text]
+        yield (delimiter or " ").join(cells)
+
+
+def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side, NDArray[np.int64]]:
+    """Returns the indices of the rows of each foot.
+
+    Args:
+        values: Numbers (n,) of the side column; FormatError for more than two.
+        warnings: List to which assumptions are added.
+    """
+    kinds = np.unique(values[np.isfinite(values)])
+    if len(kinds) > 2 or len(kinds) == 0:
+        raise FormatError(
+            f"the column of sides holds {len(kinds)} different values; allowed: two, such as left and right"
+        )
+    if not set(kinds.tolist()) <= {0.0, 1.0}:
+        warnings.append(
+            f"the column of sides holds {kinds[0]:g} and {kinds[-1]:g}: the smaller is taken as the left foot"
+        )
+    lost = int((~np.isfinite(values)).sum())
+    if lost:
+        warnings.append(f"{lost} row(s) name no foot: left out")
+    if len(kinds) == 1:
+        side: Side = "right" if kinds[0] == 1.0 else "left"
+        return {side: np.flatnonzero(values == kinds[0])}
+    return {side: np.flatnonzero(values == kind) for side, kind in zip(SIDES, kinds, strict=True)}
+
+
+def on_one_time(
+    time: NDArray[np.float64], rows: dict[Side, NDArray[np.int64]], columns: Sequence[NDArray[np.float64]]
+) -> tuple[NDArray[np.float64], dict[Side, NDArray[np.float64]], bool]:
+    """Returns rows of both feet on one time base: times (m,), values (m, k) of each foot, and whether the right's
+    moved.
+
+    Values are NaN where a foot has no rows for a while; where times differ, the right foot's are interpolated at the
+    left's.
+
+    Args:
+        time: Time (n,) of each row.
+        rows: Indices of the rows of each foot.
+        columns: Columns (n,) of values.
+
+    Raises:
+        FormatError: If a foot has no time.
+    """
+    if len(rows) == 1:
+        ((side, own),) = rows.items()
+        return time[own], {side: np.column_stack([c[own] for c in columns])}, False
+    left, right = rows["left"], rows["right"]
+    if len(left) == len(right) and np.array_equal(time[left], time[right], equal_nan=True):
+        return time[left], {side: np.column_stack([c[own] for c in columns]) for side, own in rows.items()}, False
+    timed: dict[Side, NDArray[np.int64]] = {}
+    for side in SIDES:
+        known = rows[side][np.isfinite(time[rows[side]])]
+        if len(known) == 0:
+            raise FormatError(f"no row of the {side} foot has a time")
+        timed[side] = known[np.argsort(time[known], kind="stable")]
+    times = {side: time[timed[side]] for side in SIDES}
+    # The left foot's times, and the right one's where the left foot has no rows; what one has more at the ends is left
+    # out where it is no more than the rows' shift.
+    alone = {side: times[side][~_covered(times[side], times[other_side(side)])] for side in SIDES}
+    mine, more = (_without_ends(times[s], alone[s], times[other_side(s)]) for s in SIDES)
+    base = np.union1d(mine, more[np.isin(more, alone["right"])])
+    feet = {side: _at_times(base, times[side], np.column_stack([c[timed[side]] for c in columns])) for side in SIDES}
+    return base, feet, True
+
+
+def _usual(time: NDArray[np.float64]) -> float:
+    """Usual distance between times (n,); 0 of a single one."""
+    return float(np.median(np.diff(time))) if len(time) > 1 else 0.0
+
+
+def _without_ends(
+    time: NDArray[np.float64], alone: NDArray[np.float64], others: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Times (n,) of a foot within a shift of the other foot's."""
+    most = _SHIFT * _usual(time)
+    low = others[0] if 0.0 < others[0] - time[0] <= most else -np.inf
+    high = others[-1] if 0.0 < time[-1] - others[-1] <= most else np.inf
+    return time[~np.isin(time, alone) | ((time >= low) & (time <= high))]
+
+
+def _covered(wanted: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether wanted times (m,) lie between two of some times (n,), in order, that are no gap apart."""
+    after = np.searchsorted(time, wanted, side="left")
+    covered = time[np.minimum(after, len(time) - 1)] == wanted
+    inside = (after > 0) & (after < len(time))
+    covered[inside] |= (time[after[inside]] - time[after[inside] - 1]) <= _GAP * _usual(time)
+    return np.asarray(covered)
+
+
+def _at_times(
+    wanted: NDArray[np.float64], time: NDArray[np.float64], values: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Values (m, k) at wanted times (m,) by straight lines between those (n, k) of times (n,); NaN in a gap."""
+    out = np.column_stack([np.interp(wanted, time, column) for column in values.T])
+    out[~_covered(wanted, time)] = np.nan
+    return out

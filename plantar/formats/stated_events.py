@@ -30,9 +30,8 @@ _ALLOWED = (
     "allowed: a Moticon report (.xlsx) with sheets of left and right steps, or a CSV table with the columns side, "
     "heel_strike_s and toe_off_s"
 )
-
+# Heel strike and toe off of each row in s, NaN where there is none, by side.
 Pairs = dict[Side, list[tuple[float, float]]]
-"""Heel strike and toe off of each row in s, NaN where there is none, by side."""
 
 
 def read_events(path: str | os.PathLike[str]) -> dict[Side, StatedEvents]:

@@ -14,24 +14,20 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.column_names import Heading, heading_of
 from plantar.formats.format import ReadOptions
-from plantar.formats.side import side_of
-from plantar.formats.side_column import is_side_column, on_one_time, rows_of_sides
+from plantar.formats.side import is_side_column, on_one_time, rows_of_sides, side_of
 from plantar.formats.table_forces import feet_of_forces, is_force_table
+from plantar.formats.table_text import time_unit
 from plantar.formats.text import number_in
 from plantar.formats.units import find_unit
-from plantar.formats.written_cells import time_unit
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
 from plantar.sides import SIDES, Side
 
 __all__ = ["recording_of_columns"]
 
 _USUAL_RATE = 100.0
-_MOST_NAMED = 10
-"""Columns that are left out by name in the warnings; of more their number is given."""
-_SUMS = 0.02
-"""How near a column is to the sum of others, relative to its largest value, where it is their total."""
-_CURVES = 40
-"""Numbered columns without a time from which rows that name trials are curves and no frames."""
+_MOST_NAMED = 10  # Columns that are left out by name in the warnings; of more their number is given
+_SUMS = 0.02  # How near a column is to the sum of others, relative to its largest value, where it is their total
+_CURVES = 40  # Numbered columns without a time from which rows that name trials are curves and no frames
 
 
 def recording_of_columns(

@@ -20,13 +20,11 @@ from plantar.sides import SIDES, Side
 __all__ = ["feet_of_forces", "is_force_table"]
 
 _Key = tuple[Side | None, int | None]
-
+# The two horizontal axes, right-handed with each vertical one.
 _UPRIGHT = {"z": ("x", "y"), "y": ("z", "x"), "x": ("y", "z")}
-"""The two horizontal axes, right-handed with each vertical one."""
-_WEIGHTS = (0.7, 4.0)
-"""Largest vertical forces without a unit that are body weights and no N."""
+_WEIGHTS = (0.7, 4.0)  # Largest vertical forces without a unit that are body weights and no N
+# Weight in N that forces in body weights are read with, so that levels in N hold; they are divided by it again.
 _NOMINAL = 700.0
-"""Weight in N that forces in body weights are read with, so that levels in N hold; they are divided by it again."""
 
 
 def is_force_table(headings: Sequence[Heading]) -> bool:

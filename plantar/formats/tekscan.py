@@ -17,13 +17,11 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.grid_cells import grid_cells
-from plantar.formats.number_rows import number_rows
+from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.side import side_of
-from plantar.formats.text import cells_of_row, head_text, number, number_in, open_text, row_of_numbers
+from plantar.formats.text import cells_of_row, head_text, number, number_in, number_rows, open_text, row_of_numbers
 from plantar.formats.units import LENGTHS, Unit, find_unit
-from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.let_go import blocks_of_frames
+from plantar.recordings.frame_table import FrameTable, blocks_of_frames
 from plantar.recordings.pressure_recording import (
     FootRecording,
     Kind,
@@ -37,14 +35,12 @@ __all__ = ["FORMAT"]
 
 _KEY = re.compile(r"\s*\"?([A-Z][A-Z0-9_]+)\"?[\s,;:]*(.*)$")
 _FRAME = re.compile(r"\s*\"?frame\s*[,;:]?\s*(\d+)", re.IGNORECASE)
+# The sign of a place without a cell where it is a part of something else.
 _NO_CELL_ALONE = re.compile(r"[^\s,;]B|B[^\s,;]")
-"""The sign of a place without a cell where it is a part of something else."""
 _LARGEST_HEADER = 500
-_LARGEST = 200_000
-"""Most cells of a matrix."""
+_LARGEST = 200_000  # Most cells of a matrix
 _MOST_EXTRA = 1000  # lines
-_FIRST = 32
-"""Frames by which the matrix is known where the header does not state it, and a file is given up."""
+_FIRST = 32  # Frames by which the matrix is known where the header does not state it, and a file is given up
 _USUAL_PITCH, _USUAL_RATE = 5.08e-3, 100.0
 _THRESHOLD = 1e3
 _WIDEST_FOOT = 0.16

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.grid_cells import grid_cells
+from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import head_text, number, number_in, open_text, seconds_of_clock
 from plantar.formats.units import LENGTHS, Unit, find_unit
@@ -30,13 +30,11 @@ from plantar.sides import SIDES
 __all__ = ["FORMAT"]
 
 _USUAL_SIZE, _USUAL_RATE = 0.0086, 100.0
-_LARGEST = 100_000
-"""Most cells of a matrix, and rows and columns that are believed."""
+_LARGEST = 100_000  # Most cells of a matrix, and rows and columns that are believed
 _MOST_SENSORS, _MOST_FACTS, _MOST_EMPTY, _LONGEST_NAME = 100, 1000, 1000, 200
 _THRESHOLD = 1e3
 _KEYWORDS = ("FRAME", "SENSOR", "GROUP", "SENSELS", "DATE", "TIME")
-_ENOUGH = 50.0
-"""Load in N from which the header's figures are taken to check the unit and the cells' area."""
+_ENOUGH = 50.0  # Load in N from which the header's figures are taken to check the unit and the cells' area
 
 
 def _recognises(head: bytes) -> bool:

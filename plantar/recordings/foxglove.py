@@ -1,48 +1,244 @@
-"""Messages of Foxglove's own schemas, which its 3D and log panels draw without settings.
+"""Messages of Foxglove's own schemas, which its 3D and log panels draw without settings, as protocol buffers.
 
-Encoded as protocol buffers (https://docs.foxglove.dev/docs/sdk/schemas) with the descriptors in `schemas/`, of the
-package foxglove-schemas-protobuf (`tools/foxglove_schemas.py`, MIT licence). Positions and sizes are in m, rotations
-quaternions (x, y, z, w), colours red, green, blue and opacity, 0 to 1; a `place` is made by `pose`.
+The descriptors in `schemas/` are of the package foxglove-schemas-protobuf (`tools/foxglove_schemas.py`, MIT licence).
+Positions and sizes are in m, rotations quaternions (x, y, z, w), colours red, green, blue and opacity, 0 to 1; a
+`place` is made by `pose`. Messages of one length are encoded once (https://protobuf.dev/programming-guides/encoding/),
+with places for numbers and time, whose two integers have leading zeros so that a message keeps its length. `field` is
+the field's number.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import struct
+from collections.abc import Iterator, Sequence
 from importlib.resources import files
+from typing import NamedTuple, NewType
 
 import numpy as np
-from numpy.typing import ArrayLike
-
-from plantar.recordings.protobuf import (
-    Part,
-    Slot,
-    Template,
-    double,
-    fixed32s,
-    integer,
-    nested,
-    numbers,
-    text,
-    timestamp,
-)
+from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "LEVELS",
     "SCHEMAS",
+    "Part",
+    "Slot",
+    "Template",
     "arrow",
     "cube",
     "cylinder",
     "delete_all",
     "descriptor",
+    "double",
     "entity",
+    "fixed32s",
     "frame_transform",
+    "integer",
+    "joined",
     "line_loop",
     "log_message",
+    "nested",
+    "numbers",
     "pose",
+    "raw",
+    "read_fields",
     "sphere",
+    "text",
+    "timestamp",
     "triangles",
     "words",
 ]
+
+Slot = NewType("Slot", int)
+"""Index of the value that a double is filled with later."""
+
+_VARINT, _EIGHT_BYTES, _BYTES, _FOUR_BYTES = 0, 1, 2, 5
+_LONG = 5  # bytes of a varint that always has the same length: 35 bits
+_SHIFTS = 7 * np.arange(_LONG, dtype=np.uint64)
+
+
+class Part(NamedTuple):
+    """Encoded fields `data` with places to fill: offset and value index of each double (`slots`), and the offset of the
+    seconds of each time (`times`).
+    """
+
+    data: bytes
+    slots: tuple[tuple[int, Slot], ...] = ()
+    times: tuple[int, ...] = ()
+
+
+def _varint(value: int) -> bytes:
+    out = bytearray()
+    while value > 0x7F:
+        out.append(value & 0x7F | 0x80)
+        value >>= 7
+    out.append(value)
+    return bytes(out)
+
+
+def _head(field: int, kind: int) -> bytes:
+    return _varint(field << 3 | kind)
+
+
+def joined(*parts: Part) -> Part:
+    """Fields one after the other."""
+    data, slots, times = bytearray(), [], []
+    for part in parts:
+        start = len(data)
+        slots += [(start + offset, slot) for offset, slot in part.slots]
+        times += [start + offset for offset in part.times]
+        data += part.data
+    return Part(bytes(data), tuple(slots), tuple(times))
+
+
+def nested(field: int, *parts: Part) -> Part:
+    """Returns a message, its fields `parts`, as a `field` of another one."""
+    inner = joined(*parts)
+    return joined(Part(_head(field, _BYTES) + _varint(len(inner.data))), inner)
+
+
+def double(field: int, value: float | Slot) -> Part:
+    """Returns a double `field`: its `value`, or the slot that fills it (an `int` is always a slot)."""
+    head = _head(field, _EIGHT_BYTES)
+    if isinstance(value, int):
+        return Part(head + bytes(8), ((len(head), value),))
+    return Part(head + struct.pack("<d", value))
+
+
+def numbers(field: int, values: Sequence[float | Slot]) -> Part:
+    """Returns a message `field` of doubles or slots `values` numbered from 1, such as a vector or a colour."""
+    return nested(field, *(double(i, value) for i, value in enumerate(values, 1)))
+
+
+def integer(field: int, value: int) -> Part:
+    """Returns a `field` of a whole number, truth value or enumeration member `value`, 0 or more."""
+    return Part(_head(field, _VARINT) + _varint(int(value)))
+
+
+def fixed32s(field: int, values: ArrayLike) -> Part:
+    """Returns whole numbers `values`, 0 to 2^32 - 1, packed into one `field` of four bytes each."""
+    return raw(field, np.asarray(values, dtype="<u4").tobytes())
+
+
+def raw(field: int, data: bytes) -> Part:
+    """Returns a `field` of bytes `data`."""
+    return Part(_head(field, _BYTES) + _varint(len(data)) + data)
+
+
+def text(field: int, value: str) -> Part:
+    """Returns a `field` of the text `value`."""
+    return raw(field, value.encode())
+
+
+def timestamp(field: int) -> Part:
+    """A time (google.protobuf.Timestamp), filled when the message is written."""
+    inside = _head(1, _VARINT) + bytes(_LONG) + _head(2, _VARINT) + bytes(_LONG)
+    return joined(Part(_head(field, _BYTES) + _varint(len(inside))), Part(inside, (), (1,)))
+
+
+class Template:
+    """A message, its fields `parts`, whose numbers and times are filled in.
+
+    Example:
+        >>> vector = Template(double(1, Slot(0)), double(2, Slot(1)), double(3, 0.5))
+        >>> [value for _, value in read_fields(vector.filled(0.0, [7.0, 8.0]))]
+        [7.0, 8.0, 0.5]
+    """
+
+    def __init__(self, *parts: Part) -> None:
+        whole = joined(*parts)
+        self._data = np.frombuffer(whole.data, dtype=np.uint8)
+        places = np.array(whole.slots, dtype=np.int64).reshape(-1, 2)
+        self._where = places[:, :1] + np.arange(8)
+        self._slots = places[:, 1]
+        times = np.array(whole.times, dtype=np.int64).reshape(-1, 1)
+        self._seconds = times + np.arange(_LONG)
+        self._nanoseconds = self._seconds + _LONG + 1
+        self._filled_in = np.zeros(len(self._data), dtype=bool)
+        for at in (self._where, self._seconds, self._nanoseconds):
+            self._filled_in[at] = True
+
+    def filled(self, time_s: float, values: ArrayLike = ()) -> bytes:
+        """Returns the encoded message at `time_s` in s, 0 or more, with the `values` of its slots."""
+        return self.filled_all([round(time_s * 1e9)], np.asarray(values, dtype=float).reshape(1, -1)).tobytes()
+
+    def filled_all(self, times: ArrayLike, values: NDArray[np.float64]) -> NDArray[np.uint8]:
+        """Returns the encodings (m, l) of messages at `times` (m,) in ns, with the slots' `values` (m, k),
+        vectorised.
+        """
+        seconds, nanoseconds = np.divmod(np.asarray(times, dtype=np.uint64), np.uint64(10**9))
+        out = np.tile(self._data, (len(seconds), 1))
+        if len(self._slots):
+            doubles = np.ascontiguousarray(values[:, self._slots], dtype="<f8")
+            out[:, self._where] = doubles.view(np.uint8).reshape(len(out), -1, 8)
+        out[:, self._seconds] = _long_varints(seconds)[:, None]
+        out[:, self._nanoseconds] = _long_varints(nanoseconds)[:, None]
+        return out
+
+    def matches(self, message: bytes) -> bool:
+        """Whether a message differs from this template only in what is filled in."""
+        if len(message) != len(self._data):
+            return False
+        same = np.frombuffer(message, dtype=np.uint8) == self._data
+        return bool((same | self._filled_in).all())
+
+    def values_of(self, messages: Sequence[bytes]) -> NDArray[np.float64]:
+        """The values (n, k) of the slots of `messages` that `filled` made; a ValueError if one is of another
+        template.
+        """
+        if not all(map(self.matches, messages)):
+            raise ValueError("a message is of another template")
+        data = np.frombuffer(b"".join(messages), dtype=np.uint8).reshape(len(messages), -1)
+        out = np.empty((len(messages), int(self._slots.max(initial=-1)) + 1))
+        out[:, self._slots] = np.ascontiguousarray(data[:, self._where]).view("<f8")[..., 0]
+        return out
+
+
+def _long_varints(values: NDArray[np.uint64]) -> NDArray[np.uint8]:
+    """Each value (m,) as a varint (m, 5) of full length."""
+    septets = (values[:, None] >> _SHIFTS) & np.uint64(0x7F)
+    septets[:, :-1] |= np.uint64(0x80)
+    return septets.astype(np.uint8)
+
+
+def read_fields(message: bytes) -> Iterator[tuple[int, int | float | bytes]]:
+    """Yields number and value of each field: `int` of a varint or four bytes, `float` of eight, `bytes` of the rest.
+
+    Raises ValueError if the message is cut short or of an unknown wire type.
+    """
+    position = 0
+    while position < len(message):
+        head, position = _read_varint(message, position)
+        field, kind = head >> 3, head & 7
+        value: int | float | bytes
+        if kind == _VARINT:
+            value, position = _read_varint(message, position)
+        elif kind in (_EIGHT_BYTES, _FOUR_BYTES):
+            form, length = ("<d", 8) if kind == _EIGHT_BYTES else ("<I", 4)
+            if position + length > len(message):
+                raise ValueError(f"field {field} is cut short")
+            (value,), position = struct.unpack_from(form, message, position), position + length
+        elif kind == _BYTES:
+            length, position = _read_varint(message, position)
+            value, position = message[position : position + length], position + length
+        else:
+            raise ValueError(f"wire type {kind} of field {field} is not known; allowed: 0, 1, 2, 5")
+        if position > len(message):
+            raise ValueError(f"field {field} is cut short")
+        yield field, value
+
+
+def _read_varint(message: bytes, position: int) -> tuple[int, int]:
+    value = 0
+    for shift in range(0, 70, 7):
+        if position >= len(message):
+            raise ValueError("a number is cut short")
+        byte = message[position]
+        position += 1
+        value |= (byte & 0x7F) << shift
+        if byte < 0x80:
+            return value, position
+    raise ValueError("a number has more than ten bytes")
+
 
 SCHEMAS = ("foxglove.FrameTransforms", "foxglove.SceneUpdate", "foxglove.Log")
 """The schemas whose messages are written."""
@@ -51,7 +247,6 @@ LEVELS = {"info": 2, "warning": 3, "error": 4}
 """Levels of a log message."""
 
 Numbers = Sequence[float | Slot]
-
 _ORIGIN = (0.0, 0.0, 0.0)
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 _LINE_LOOP = 1

@@ -37,8 +37,8 @@ _MOST_TOPICS = 4096
 _FIELD = re.compile(r"float64(?:\[(\d{1,7})\])?\s+([A-Za-z]\w*)")
 _OPCODES = {"schema": 0x03, "channel": 0x04, "message": 0x05, "chunk": 0x06, "attachment": 0x09, "metadata": 0x0C}
 _DATA_END = 0x0F
+# Largest record in bytes by its opcode; others are as large as a layout file at most.
 _LARGEST = {0x05: _LARGEST_CHUNK, 0x06: _LARGEST_CHUNK}
-"""Largest record in bytes by its opcode; others are as large as a layout file at most."""
 
 
 class _Topic:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.layouts.layout import Side, SoleLayout, mirrored
-from plantar.recordings.let_go import blocks_of_frames, let_go, room
+from plantar.recordings.frame_table import blocks_of_frames, let_go, room
 
 __all__ = [
     "RATES",
@@ -29,17 +29,12 @@ __all__ = [
 RATES = (0.1, 1e5)
 """Lowest and highest rate in frames a second that is believed."""
 
-_GAP = 2.5
-"""Steps in time of more than so many usual ones are gaps, and are not used for the rate."""
-
-_COUNTED = 5.0
-"""Stated rate in Hz from which times that rise by 1 are no seconds but the frames' numbers."""
-
+_GAP = 2.5  # Steps in time of more than so many usual ones are gaps, and are not used for the rate
+_COUNTED = 5.0  # Stated rate in Hz from which times that rise by 1 are no seconds but the frames' numbers
+# Frames that go on in order, on the average, where a recording has begun again and is not merely out of order.
 _BEGUN = 20
-"""Frames that go on in order, on the average, where a recording has begun again and is not merely out of order."""
-
+# Least time from one frame to the next, as a share of the usual one: with less every velocity would be infinite.
 _LEAST_STEP = 1e-3
-"""Least time from one frame to the next, as a share of the usual one: with less every velocity would be infinite."""
 
 
 Kind = Literal["insole", "platform", "robot", "plate"]

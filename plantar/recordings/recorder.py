@@ -25,9 +25,8 @@ from plantar.atomic import temporary_beside
 from plantar.errors import InputError, RecordingError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_to_dict
-from plantar.recordings.foxglove import SCHEMAS, descriptor
+from plantar.recordings.foxglove import SCHEMAS, Template, descriptor
 from plantar.recordings.mcap_content import MCAP_MAGIC
-from plantar.recordings.protobuf import Template
 
 __all__ = ["Channel", "Recorder"]
 
@@ -48,7 +47,6 @@ _MESSAGE_HEAD = np.dtype(
     ]
 )
 _MOST = 256  # messages of a topic that are gathered before they are written
-
 _Message = TypeVar("_Message")
 _Encode = Callable[[list[int], list[_Message]], "Sequence[bytes] | NDArray[np.uint8]"]
 

@@ -9,8 +9,7 @@ from itertools import count
 
 import numpy as np
 
-from plantar.recordings.foxglove import frame_transform
-from plantar.recordings.protobuf import Slot, Template, read_fields
+from plantar.recordings.foxglove import Slot, Template, frame_transform, read_fields
 
 __all__ = ["Entity", "Shape", "deleted_all", "entities", "transform_template", "transforms"]
 

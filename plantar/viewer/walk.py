@@ -21,9 +21,8 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
-from plantar.recordings.foxglove import LEVELS
+from plantar.recordings.foxglove import LEVELS, read_fields
 from plantar.recordings.mcap_content import McapContent, Sink, message_values
-from plantar.recordings.protobuf import read_fields
 from plantar.recordings.recording import take_mcap
 from plantar.sides import SIDES, Side
 from plantar.viewer.messages import Entity, deleted_all, entities, transforms

@@ -17,44 +17,31 @@ from plantar.sides import Side
 
 __all__ = ["Activity", "activity_of", "progression_doubts", "sway_measures"]
 
+# Median time in s with both feet off the ground from which steps are those of a run: above what events err.
 _FLIGHT = 0.01
-"""Median time in s with both feet off the ground from which steps are those of a run: above what events err."""
-
+# Stance in % of the stride under which one foot's steps are those of a run: walking has 58 to 65, a run below 45.
 _RUNNING_STANCE = 45.0
-"""Stance in % of the stride under which one foot's steps are those of a run: walking has 58 to 65, a run below 45."""
-
+# Stance in % of the stride of both feet above which they cannot both be in the air, with 2 % for what events err.
 _HALF = 52.0
-"""Stance in % of the stride of both feet above which they cannot both be in the air, with 2 % for what events err."""
-
-_STEADY = 0.5
-"""Share of the usual load that a standing body keeps on the ground."""
-
+_STEADY = 0.5  # Share of the usual load that a standing body keeps on the ground
+# Part of a contact that is its landing, or its lift-off; then shares of the sole's length: the CoP lands in front of
+# 0.6 on the forefoot (the heads of the metatarsals are at 0.7; a heel strike is below 0.33), stays in front of 0.55
+# where the heel never carries, and comes back by 0.15 where it does; from toes to heel it goes by 0.3 or more.
 _ENDS, _FOREFOOT, _NO_HEEL, _DOWN, _BACKWARD = 0.12, 0.6, 0.55, 0.15, 0.3
-"""Part of a contact that is its landing, or its lift-off; then shares of the sole's length: the CoP lands in front of
-0.6 on the forefoot (the heads of the metatarsals are at 0.7; a heel strike is below 0.33), stays in front of 0.55 where
-the heel never carries, and comes back by 0.15 where it does; from toes to heel it goes by 0.3 or more."""
-
+# Stairs up: the CoP lands in front of 0.45 of the sole (on the middle or front of the foot, as no heel strikes), the
+# last hump of the force is at least 1.1 times the first one, and stance takes 62 % of the stride or more (McFadyen &
+# Winter 1988, J. Biomech. 21:733; Riener et al. 2002, Gait Posture 15:32). One of these alone is also that of a slope
+# or of a forefoot gait.
 _UP_LANDING, _UP_HUMPS, _UP_STANCE = 0.45, 1.1, 62.0
-"""Stairs up: the CoP lands in front of 0.45 of the sole (on the middle or front of the foot, as no heel strikes), the
-last hump of the force is at least 1.1 times the first one, and stance takes 62 % of the stride or more (McFadyen &
-Winter 1988, J. Biomech. 21:733; Riener et al. 2002, Gait Posture 15:32). One of these alone is also that of a slope or
-of a forefoot gait."""
-
-_CHI2 = -2.0 * math.log(0.05)
-"""95 % quantile of the chi-squared distribution with two degrees of freedom."""
-
+_CHI2 = -2.0 * math.log(0.05)  # 95 % quantile of the chi-squared distribution with two degrees of freedom
+# Contact times in s of running (0.2 to 0.35) and of walking (0.5 and more), for single steps (Novacheck 1998).
 _RUN, _WALK = 0.35, 0.5
-"""Contact times in s of running (0.2 to 0.35) and of walking (0.5 and more), for single steps (Novacheck 1998)."""
-
+# How often a foot that does not stand is lifted at least: one that is put elsewhere once is lifted once or twice.
 _LIFTS = 3
-"""How often a foot that does not stand is lifted at least: one that is put elsewhere once is lifted once or twice."""
-
+# Shares of a foot's peak above which it is on the ground and below which it is off it, and the share of both feet's
+# usual load that its peak is above: of the foot in the air of somebody who stands on one leg it is noise.
 _LOADED, _FREE, _CARRIES = 0.3, 0.1, 0.3
-"""Shares of a foot's peak above which it is on the ground and below which it is off it, and the share of both feet's
-usual load that its peak is above: of the foot in the air of somebody who stands on one leg it is noise."""
-
-_SHORTEST = 5.0
-"""Time in s of standing under which sway means nothing: its slow part has periods of seconds."""
+_SHORTEST = 5.0  # Time in s of standing under which sway means nothing: its slow part has periods of seconds
 
 
 @dataclass(frozen=True)

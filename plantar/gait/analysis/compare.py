@@ -28,6 +28,7 @@ from plantar.sides import SIDES, Side
 
 __all__ = ["compare_recordings", "difference_of"]
 
+# Measures whose difference is drawn.
 _MAIN = (
     "contact_time_s",
     "stride_time_s",
@@ -41,7 +42,6 @@ _MAIN = (
     "cop_path_m",
     "cop_velocity_m_s",
 )
-"""Measures whose difference is drawn."""
 
 
 def compare_recordings(

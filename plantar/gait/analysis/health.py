@@ -1,4 +1,4 @@
-"""Doubts about sensors and clocks: silent cells, gain that creeps, feet out of time."""
+"""Doubts about a recording: silent cells, gain that creeps, feet out of time, mirrored feet, a weight of no person."""
 
 from __future__ import annotations
 
@@ -9,28 +9,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
-from plantar.recordings.let_go import column_maxima, let_go
+from plantar.recordings.frame_table import column_maxima, let_go
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["SilentCells", "creep_doubts", "silent_cell_doubts", "silent_cells", "unequal_strides"]
+__all__ = [
+    "SilentCells",
+    "creep_doubts",
+    "implied_weight",
+    "inward_of_toes",
+    "mirrored_doubts",
+    "silent_cell_doubts",
+    "silent_cells",
+    "unequal_strides",
+    "weight_doubts",
+]
 
-_BESIDE = 1.7
-"""Usual distances between cells up to which they are neighbours: the eight around a cell of a matrix."""
-_CARRIES = 0.15
-"""Largest reading of a cell that carries load, as a share of the high ones."""
+_BESIDE = 1.7  # Usual distances between cells up to which they are neighbours: the eight around a cell of a matrix
+_CARRIES = 0.15  # Largest reading of a cell that carries load, as a share of the high ones
+# Share of a cell's neighbours that carry, and largest angle in degrees without one, where an unloaded part of a sole
+# would not lie: at its edge the angle is 180.
 _AROUND, _GAP = 0.6, 170.0
-"""Share of a cell's neighbours that carry, and largest angle in degrees without one, where an unloaded part of a sole
-would not lie: at its edge the angle is 180."""
+# Share of cells that read 0 where the other foot's carry, from which all of these are silent: feet differ by less.
 _MANY = 0.08
-"""Share of cells that read 0 where the other foot's carry, from which all of these are silent: feet differ by less."""
-_MISSING = 0.01
-"""Share of the force that silent cells lack from which it is reported."""
+_MISSING = 0.01  # Share of the force that silent cells lack from which it is reported
+# Steps, change of a step's mean force from first to last, and standard errors of it, from which gain creeps.
 _FEWEST, _CREEP, _CLEAR = 8, 0.08, 5.0
-"""Steps, change of a step's mean force from first to last, and standard errors of it, from which gain creeps."""
+# Difference of the feet's strides, relative to their mean, which nobody walks with; strides that show it.
 _UNEQUAL, _STRIDES = 0.05, 4
-"""Difference of the feet's strides, relative to their mean, which nobody walks with; strides that show it."""
 
 
 class SilentCells(NamedTuple):
@@ -186,3 +194,107 @@ def unequal_strides(feet: Mapping[Side, FootGait]) -> float | None:
         middles.append(float(np.median(strides)))
     difference = 2.0 * (middles[0] - middles[1]) / (middles[0] + middles[1])
     return difference if abs(difference) > _UNEQUAL else None
+
+
+# Masses in kg of people whose feet are measured; a wrong unit of pressure is wrong by 6.9 times or more.
+MASSES = (20.0, 200.0)
+# Largest force of a step in walking in body weights, for recordings of single steps (Perry & Burnfield 2010).
+_STEPPING = 1.1
+_FULL = 1.05  # Share of its range that a taxel may read before it is more than its maker rated
+
+
+def implied_weight(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> float | None:
+    """Returns the weight in N of the body that makes a recording's forces on these feet; None of raw counts or if
+    unknown.
+
+    It is the impulses of a step of each foot over the stride time (of one foot twice its impulse); without strides the
+    largest force of its steps over 1.1; in standing the mean force of both feet.
+    """
+    if recording.raw:
+        return None
+    impulses = {side: _median(gait, "impulse_Ns") for side, gait in feet.items()}
+    strides = [v for gait in feet.values() if np.isfinite(v := _median(gait, "stride_time_s"))]
+    known = [v for v in impulses.values() if np.isfinite(v)]
+    if strides and known:
+        return 2.0 * float(np.mean(known)) / float(np.mean(strides))
+    peaks = [v for gait in feet.values() if np.isfinite(v := _median(gait, "peak_force_N"))]
+    if peaks:
+        return float(np.mean(peaks)) / _STEPPING
+    measured = [foot.vertical_force[np.isfinite(foot.vertical_force)] for foot in recording.feet.values()]
+    forces = [float(force.mean()) for force in measured if len(force)]
+    return sum(forces) if len(forces) == 2 and min(forces) > 0.0 else None
+
+
+def _median(gait: FootGait, key: str) -> float:
+    values = np.array([step[key] for step in gait.used])
+    known = values[np.isfinite(values)]
+    return float(np.median(known)) if len(known) else float("nan")
+
+
+def weight_doubts(recording: PressureRecording, weight: float | None) -> list[str]:
+    """Returns warnings where a recording implies a weight in N of no person, or a robot's taxels exceed their range."""
+    if recording.kind == "robot":
+        return [line for foot in recording.feet.values() if (line := _overload(recording, foot.side))]
+    if weight is None:
+        return []
+    mass = weight / GRAVITY
+    if MASSES[0] <= mass <= MASSES[1]:
+        return []
+    return [
+        f"the forces imply a person of {mass:.3g} kg; people of {MASSES[0]:g} to {MASSES[1]:g} kg are usual: check the "
+        "unit, the cell size and the insole's size (--unit, --layout, --insole-size override)"
+    ]
+
+
+def _overload(recording: PressureRecording, side: Side) -> str:
+    """Note on a robot's foot whose taxels exceed their range, or empty."""
+    foot = recording.feet[side]
+    if foot.layout is None or recording.raw or "force" not in foot.layout.ranges or not len(foot.force):
+        return ""
+    highest, rated = float(column_maxima(foot.force).max()), float(max(foot.layout.ranges["force"]))
+    if not rated > 0.0 or highest <= _FULL * rated:
+        return ""
+    return f"a taxel of the {side} sole reads {highest:.4g} N, its layout rates it for {rated:.4g} N: check the unit"
+
+
+_MIDFOOT, _TOES = (0.30, 0.55), (0.78, 1.01)  # Parts of the sole's length from the heel on
+# Mean of both feet from which they look mirrored; in the feet of three vendors' recordings it is 0.17 to 0.98.
+_MIRRORED = -0.1
+
+
+def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
+    """Returns a warning about a recording of two insoles whose feet are loaded as the other foot, where steps show
+    it.
+    """
+    if recording.kind != "insole" or len(feet) < 2 or not all(gait.steps for gait in feet.values()):
+        return []
+    inward = [inward_of_toes(gait) for gait in feet.values()]
+    if not all(value < 0.0 for value in inward) or float(np.mean(inward)) > _MIRRORED:
+        return []
+    return [
+        "both feet carry more inside at the midfoot and outside at the toes, as mirrored feet do: check which insole "
+        "is left and which right, and from which side the columns of cells are counted"
+    ]
+
+
+def inward_of_toes(gait: FootGait) -> float:
+    """Distance of the toes' load inside of the midfoot's, in half widths of the sole; NaN without load or geometry."""
+    layout, picture = gait.foot.layout, gait.picture
+    if layout is None or picture is None:
+        return float("nan")
+    x, y = layout.positions[:, 0], layout.positions[:, 1] * (1.0 if gait.foot.side == "right" else -1.0)
+    back, front = (float(v) for v in (layout.outline[:, 0].min(), layout.outline[:, 0].max()))
+    along = (x - back) / (front - back)
+    half = 0.5 * float(np.ptp(layout.outline[:, 1]))
+    toes, midfoot = (_inward(y, layout.areas, picture, (along >= a) & (along < b)) for a, b in (_TOES, _MIDFOOT))
+    return (toes - midfoot) / half
+
+
+def _inward(
+    y: NDArray[np.float64], areas: NDArray[np.float64], pressure: NDArray[np.float64], part: NDArray[np.bool_]
+) -> float:
+    """Distance in m of the load of some cells inside of their middle; NaN without load."""
+    load = pressure[part] * areas[part]
+    if not load.sum() > 0.0:
+        return float("nan")
+    return float((y[part] * load).sum() / load.sum() - (y[part] * areas[part]).sum() / areas[part].sum())

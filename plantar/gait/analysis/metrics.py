@@ -10,20 +10,23 @@ from typing import Any
 import numpy as np
 
 from plantar.gait.analysis.activity import activity_of, progression_doubts, sway_measures
-from plantar.gait.analysis.body_weight import implied_weight, weight_doubts
-from plantar.gait.analysis.health import creep_doubts, silent_cell_doubts
+from plantar.gait.analysis.health import (
+    creep_doubts,
+    implied_weight,
+    mirrored_doubts,
+    silent_cell_doubts,
+    weight_doubts,
+)
 from plantar.gait.analysis.measure_errors import errors_of_foot
 from plantar.gait.analysis.measures import raw_name
-from plantar.gait.analysis.mirrored_feet import mirrored_doubts
-from plantar.gait.analysis.pages.summary import gait_of_feet, regions_of_foot, summary_of_foot, symmetry
 from plantar.gait.analysis.pages.tables import EACH_STEP
-from plantar.gait.analysis.spread import spread
 from plantar.gait.analysis.steps.events import MINIMUM_STANCE, find_contacts
 from plantar.gait.analysis.steps.foot_gait import FootGait, Step
-from plantar.gait.analysis.steps.force_curve import landing_impact
 from plantar.gait.analysis.steps.segments import Segment, segments_of
 from plantar.gait.analysis.steps.stated import stated_beside_own
+from plantar.gait.analysis.steps.step_measures import landing_impact
 from plantar.gait.analysis.subject import Subject, device_of, mass_doubts
+from plantar.gait.analysis.summary import gait_of_feet, regions_of_foot, spread, summary_of_foot, symmetry
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 

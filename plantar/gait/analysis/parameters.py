@@ -32,17 +32,12 @@ from plantar.sides import Side, other_side
 
 __all__ = ["analyse_feet", "analyse_foot"]
 
+# Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length.
 COP_WINDOW = 0.05
-"""Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length."""
-
-_CARRIED = 0.2
-"""Share of a foot's peak that shoes and creases do not press in swing."""
-
+_CARRIED = 0.2  # Share of a foot's peak that shoes and creases do not press in swing
+# How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms.
 _RAISED = 1.4
-"""How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms."""
-
-BACKWARDS = -0.02
-"""Median travel of the CoP in m over a step under which it looks as if the sensor were turned round."""
+BACKWARDS = -0.02  # Median travel of the CoP in m over a step under which it looks as if the sensor were turned round
 
 
 def analyse_feet(
@@ -75,8 +70,8 @@ def analyse_feet(
     return in_one_window(feet) if known.steps == "steady" else feet
 
 
+# Measures that take both feet at one time.
 _CROSS = ("step_time_s", "double_support_percent", "single_support_percent", "flight_time_s")
-"""Measures that take both feet at one time."""
 
 
 def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:

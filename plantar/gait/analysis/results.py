@@ -24,8 +24,7 @@ from plantar.recordings.pressure_recording import PressureRecording
 __all__ = ["Analysis", "as_data_frame", "write_analysis"]
 
 
-_LONG = 500
-"""Steps from which metrics.json is one line."""
+_LONG = 500  # Steps from which metrics.json is one line
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,8 +112,7 @@ def write_analysis(
     (folder / "metrics.json").write_text(json.dumps(metrics, indent=lines, allow_nan=False) + "\n", encoding="utf-8")
     if not figures:
         return
-    from plantar.gait.analysis.pages.draw_analysis import draw_figures
-    from plantar.gait.analysis.pages.figure_files import write_figures
+    from plantar.gait.analysis.pages.figure_files import draw_figures, write_figures
     from plantar.gait.analysis.pages.one_page import figure_summary, one_page
     from plantar.gait.analysis.pages.player import player_data
     from plantar.gait.analysis.pages.report import report_page

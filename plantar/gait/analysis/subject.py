@@ -18,9 +18,9 @@ __all__ = ["BODY_MASSES", "FOOT_LENGTHS", "Subject", "device_of", "mass_doubts"]
 BODY_MASSES, FOOT_LENGTHS = (2.0, 400.0), (0.05, 0.45)
 """Masses in kg and lengths of a foot in m, smallest and largest, that are believed of people and robots."""
 
+# Share by which the weight that forces imply may differ from the stated one: more than an insole that fits badly
+# misses, less than any unit is off that is mistaken for another.
 _DISAGREE = 0.3
-"""Share by which the weight that forces imply may differ from the stated one: more than an insole that fits badly
-misses, less than any unit is off that is mistaken for another."""
 
 
 @dataclass(frozen=True)

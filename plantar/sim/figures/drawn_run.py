@@ -15,6 +15,9 @@ from plantar.gait.plan.plan_change import AppliedChange
 from plantar.gait.plan.walk_plan import PlanView
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.foxglove import (
+    Part,
+    Slot,
+    Template,
     arrow,
     cylinder,
     delete_all,
@@ -26,7 +29,6 @@ from plantar.recordings.foxglove import (
     sphere,
     words,
 )
-from plantar.recordings.protobuf import Part, Slot, Template
 from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side

@@ -8,8 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.recordings.foxglove import cube, cylinder, entity, pose, sphere, triangles
-from plantar.recordings.protobuf import Part
+from plantar.recordings.foxglove import Part, cube, cylinder, entity, pose, sphere, triangles
 
 __all__ = ["body_entity", "coarse_mesh", "drawn_bodies", "frame_name"]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from plantar.gait.analysis.body_weight import implied_weight, weight_doubts
+from plantar.gait.analysis.health import implied_weight, weight_doubts
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gravity import GRAVITY
 from plantar.recordings.pressure_recording import PressureRecording

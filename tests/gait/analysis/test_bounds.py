@@ -10,8 +10,8 @@ import pytest
 
 from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.gait.analysis.parameters import analyse_feet
-from plantar.gait.analysis.spread import spread
 from plantar.gait.analysis.study.statistics import student_quantile
+from plantar.gait.analysis.summary import spread
 
 from ...fuzz.made_tables import made_table
 from .walks import made_walk

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar.formats.grid_cells import grid_cells
+from plantar.formats.recorded_layouts import grid_cells
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_pixels
 from plantar.gait.analysis.prints.platform import told_apart
 from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
 from plantar.gait.analysis.steps.foot_gait import FootGait
-from plantar.gait.analysis.steps.force_curve import force_measures
+from plantar.gait.analysis.steps.step_measures import force_measures
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording
 

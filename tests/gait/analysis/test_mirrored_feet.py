@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from plantar.gait.analysis.health import inward_of_toes, mirrored_doubts
 from plantar.gait.analysis.metrics import metrics_of
-from plantar.gait.analysis.mirrored_feet import inward_of_toes, mirrored_doubts
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording

@@ -12,8 +12,8 @@ import pytest
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.gait.analysis.measures import MEASURES
 from plantar.gait.analysis.metrics import not_given
-from plantar.gait.analysis.pages.summary import gait_of_feet, summary_of_foot, symmetry
 from plantar.gait.analysis.parameters import analyse_feet, analyse_foot
+from plantar.gait.analysis.summary import gait_of_feet, summary_of_foot, symmetry
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 from .walks import made_walk

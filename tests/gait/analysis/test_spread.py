@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.gait.analysis.spread import spread
+from plantar.gait.analysis.summary import spread
 
 
 def test_spread_of_few_values() -> None:

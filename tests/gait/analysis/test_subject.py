@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from plantar import InputError
 from plantar.cli import app
 from plantar.formats.nominal_insole import nominal_insole
-from plantar.gait.analysis.body_weight import implied_weight
+from plantar.gait.analysis.health import implied_weight
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.pages.report import report_page, summary_text
 from plantar.gait.analysis.parameters import analyse_feet

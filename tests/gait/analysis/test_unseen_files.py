@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar.formats.moticon_insole import moticon_insole
+from plantar.formats.nominal_insole import moticon_insole
 from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.sides import SIDES
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.formats.grid_cells import grid_cells
+from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.units import PASCALS
 from plantar.layouts.layout import SoleLayout
 from plantar.sides import SIDES, Side

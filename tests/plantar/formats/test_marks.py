@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from plantar.formats.marks import without_marks
+from plantar.formats.plausibility import without_marks
 from plantar.recordings.pressure_recording import PressureRecording
 
 from .test_plausibility import steps, with_force

@@ -10,7 +10,7 @@ import pytest
 from plantar import FormatError
 from plantar.formats import detect_format, read_recording
 from plantar.formats.format import ReadOptions
-from plantar.formats.moticon_insole import moticon_insole
+from plantar.formats.nominal_insole import moticon_insole
 
 from .corruption import survive_corruption
 

@@ -10,7 +10,7 @@ import pytest
 from plantar import FormatError, InputError, PlantarError, write_layout
 from plantar.formats import ReadOptions, detect_format, read_recording
 from plantar.formats.nominal_insole import CELL_AREAS, nominal_insole
-from plantar.formats.polygon_layout import polygon_layout
+from plantar.formats.recorded_layouts import polygon_layout
 from plantar.sides import Side, other_side
 
 

@@ -11,7 +11,7 @@ import pytest
 from plantar import FormatError, InputError, SoleLayout, hex_layout, write_layout
 from plantar.formats import detect_format, read_recording
 from plantar.formats.format import ReadOptions
-from plantar.formats.written_cells import time_unit
+from plantar.formats.table_text import time_unit
 from plantar.layouts.layout_file import layout_to_dict
 
 from .corruption import survive_corruption

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from plantar.recordings import foxglove
-from plantar.recordings.protobuf import Slot, Template
+from plantar.recordings.foxglove import Slot, Template
 
 FrameTransforms = pytest.importorskip("foxglove_schemas_protobuf.FrameTransforms_pb2").FrameTransforms
 LinePrimitive = pytest.importorskip("foxglove_schemas_protobuf.LinePrimitive_pb2").LinePrimitive

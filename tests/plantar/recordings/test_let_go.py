@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from plantar.recordings import let_go as module
-from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.let_go import blocks_of_frames, column_maxima, let_go, room, scale_frames
+from plantar.recordings.frame_table import FrameTable, blocks_of_frames, column_maxima, let_go, room, scale_frames
 
 
 @pytest.mark.parametrize("large", [0, 10**9])

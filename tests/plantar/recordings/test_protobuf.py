@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar.recordings.protobuf import (
+from plantar.recordings.foxglove import (
     Slot,
     Template,
     double,

@@ -15,8 +15,8 @@ from mcap.reader import make_reader
 
 from plantar import RecordingError, hex_layout
 from plantar.recordings import foxglove
+from plantar.recordings.foxglove import Slot, Template
 from plantar.recordings.mcap_content import McapContent, message_values
-from plantar.recordings.protobuf import Slot, Template
 from plantar.recordings.recorder import Recorder
 from plantar.recordings.recording import read_mcap, take_mcap
 

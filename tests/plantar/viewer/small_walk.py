@@ -11,6 +11,7 @@ from plantar import grid_layout
 from plantar.layouts.layout import SoleLayout, mirrored
 from plantar.mechanics.rotation import level_rotation
 from plantar.recordings.foxglove import (
+    Template,
     cube,
     cylinder,
     delete_all,
@@ -22,7 +23,6 @@ from plantar.recordings.foxglove import (
     sphere,
     triangles,
 )
-from plantar.recordings.protobuf import Template
 from plantar.recordings.recorder import Recorder
 
 RED = (0.8, 0.1, 0.1, 1.0)

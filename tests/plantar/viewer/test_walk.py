@@ -15,8 +15,7 @@ from mcap.reader import make_reader
 
 from plantar import FormatError, grid_layout
 from plantar.layouts.layout import mirrored
-from plantar.recordings.foxglove import frame_transform
-from plantar.recordings.protobuf import Slot, Template, double, integer, raw, read_fields
+from plantar.recordings.foxglove import Slot, Template, double, frame_transform, integer, raw, read_fields
 from plantar.recordings.recorder import Recorder
 from plantar.viewer.page import page_of
 from plantar.viewer.walk import read_walk

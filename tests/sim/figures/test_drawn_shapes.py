@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
-from plantar.recordings.protobuf import Template
+from plantar.recordings.foxglove import Template
 from plantar.sim.figures.drawn_shapes import body_entity, coarse_mesh, drawn_bodies, frame_name
 
 MODEL = """

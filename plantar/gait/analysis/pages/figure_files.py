@@ -1,14 +1,20 @@
-"""The files that figures are written to."""
+"""The figures of a recording's report, and the files that figures are written to."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from plantar.gait.analysis.pages.force_figures import figure_force, figure_steps, figure_symmetry, figure_wrench
+from plantar.gait.analysis.pages.sole_figures import figure_pressure, figure_regions
+from plantar.gait.analysis.steps.foot_gait import FootGait
+from plantar.gait.analysis.summary import symmetry
 from plantar.plotting import save_figure
+from plantar.recordings.pressure_recording import PressureRecording
+from plantar.sides import Side
 
-__all__ = ["write_figures"]
+__all__ = ["draw_figures", "write_figures"]
 
 
 def write_figures(
@@ -33,3 +39,39 @@ def write_figures(
             save_figure(figure, folder / f"{name}.svg")
         tell((i + 1) / (len(figures) + 2), "drawing")
     return written
+
+
+def draw_figures(
+    recording: PressureRecording,
+    feet: Mapping[Side, FootGait],
+    folder: Path,
+    progress: Callable[[float, str], None] | None = None,
+) -> list[tuple[Path, str]]:
+    """Draw the figures of a recording as PNG and SVG.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+        folder: Existing folder to write to.
+        progress: Called with a fraction 0..1 and what is being done.
+
+    Returns:
+        The PNG files with their captions.
+    """
+    figures = (
+        (
+            "pressure",
+            figure_pressure(recording, feet),
+            "Maximum pressure picture of each foot and CoP path of each step",
+        ),
+        ("regions", figure_regions(recording, feet), "Regions of each foot, its axis, and the thirds of its print"),
+        ("force", figure_force(recording, feet), "Vertical force of each foot over time with its events"),
+        ("steps", figure_steps(recording, feet), "Vertical force over the stance of the steps, mean and ± 1 SD"),
+        (
+            "symmetry",
+            figure_symmetry(symmetry(feet)),
+            "Symmetry index of the main measures: the bars point to the foot whose value is larger",
+        ),
+        ("wrench", figure_wrench(recording, feet), "Wrench of the ground on each sole over time"),
+    )
+    return write_figures(figures, folder, progress)

@@ -1,9 +1,10 @@
-"""Analysis of a footprint image: contour, axis, length, width, area and arch index of one or two feet."""
+"""Analysis of a footprint image: contour, axis, length, width, area and arch index; its figure and page."""
 
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,17 +14,17 @@ from numpy.typing import NDArray
 from plantar.csv_table import csv_text
 from plantar.formats.footprint_image import FootprintImage, Print, read_footprints
 from plantar.gait.analysis.pages.figure_files import write_figures
-from plantar.gait.analysis.pages.footprint_figure import draw_footprints
-from plantar.gait.analysis.pages.footprint_page import footprint_page
+from plantar.gait.analysis.pages.report import facts_of_image
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_pixels
 from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
 from plantar.gait.analysis.subject import Subject
+from plantar.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
+from plantar.plotting import COLOURS, draw_raster, new_figure
 from plantar.sides import SIDES, Side
 
-__all__ = ["analyse_image", "footprint_in_image", "measures_of_footprint"]
+__all__ = ["analyse_image", "draw_footprints", "footprint_in_image", "footprint_page", "measures_of_footprint"]
 
-_MOST_PIXELS = 40_000
-"""Pixels a footprint is measured with; finer masks are thinned."""
+_MOST_PIXELS = 40_000  # Pixels a footprint is measured with; finer masks are thinned
 
 
 def analyse_image(
@@ -181,3 +182,103 @@ def _widest(print_: Footprint, low: float, high: float) -> float:
 def _csv(feet: dict[Side, dict[str, Any]]) -> str:
     names = [k for k in next(iter(feet.values())) if not isinstance(next(iter(feet.values()))[k], dict)]
     return csv_text(["side", *names], ([side, *(values[n] for n in names)] for side, values in feet.items()))
+
+
+@dataclass(frozen=True)
+class _Scale:
+    """Scale of lengths in the figure: mm where the image's is known, else pixels."""
+
+    name: str
+    of_pixel: float
+    of_length: float
+
+
+def draw_footprints(image: FootprintImage, prints: Mapping[Side, Footprint]) -> Any:
+    """Returns a figure of the prints of an image, in its order, drawn on it."""
+    scale = _Scale("pixels", 1.0, 1.0) if image.pixel is None else _Scale("mm", 1e3 * image.pixel, 1e3)
+    height, width = image.picture.shape[:2]
+    figure, axes = new_figure(min(9.0, 1.5 + 6.0 * width / height) if width < 1.6 * height else 9.0, 6.4)
+    draw_raster(axes, image.picture, scale.of_pixel)
+    for part, (side, print_) in zip(image.prints, prints.items(), strict=True):
+        _draw_contours(axes, part, side, height, scale)
+        _draw_lines(axes, print_, scale)
+        axes.plot([], [], color=COLOURS[side], label=f"{side} foot: contour")
+    axes.plot([], [], color=COLOURS["cop"], label="foot axis")
+    axes.plot([], [], ":", color="#111111", label="thirds without toes")
+    if any(p.toe_line is not None for p in prints.values()):
+        axes.plot([], [], "--", color=COLOURS["polygon"], label="toe line")
+    axes.set_xlabel(f"to the right ({scale.name})")
+    axes.set_ylabel(f"up ({scale.name})")
+    figure.legend(loc="outside right upper", fontsize=8)
+    return figure
+
+
+def _draw_contours(axes: Any, part: Print, side: Side, height: int, scale: _Scale) -> None:
+    for contour in part.contours:
+        ring = np.vstack([contour, contour[:1]]) + 0.5
+        axes.plot(
+            ring[:, 0] * scale.of_pixel, (height - ring[:, 1]) * scale.of_pixel, color=COLOURS[side], linewidth=1.4
+        )
+
+
+def _draw_lines(axes: Any, print_: Footprint, scale: _Scale) -> None:
+    """Draw the thirds without toes, the axis and the toe line of a footprint."""
+
+    def place(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(print_.from_foot(points)[:, ::-1] * (-scale.of_length, scale.of_length)).T
+
+    low, high = float(print_.rings[:, :, 1].min()), float(print_.rings[:, :, 1].max())
+    for k in range(4):
+        u = k * print_.toeless_length / 3.0
+        axes.plot(*place(np.array([[u, low], [u, high]])), color="#111111", linewidth=0.8, linestyle=":")
+    axes.plot(*place(np.array([[0.0, 0.0], [print_.length, 0.0]])), color=COLOURS["cop"], linewidth=1.4)
+    if print_.toe_line is not None:
+        v = np.linspace(low, high, 20)
+        line = np.column_stack([np.interp(v, *print_.toe_line.T), v])
+        axes.plot(*place(line), color=COLOURS["polygon"], linewidth=1.4, linestyle="--")
+
+
+_FOOTPRINT = (
+    ("length_m", "Length", "mm", 1e3),
+    ("width_m", "Width", "mm", 1e3),
+    ("toeless_length_m", "Length without toes", "mm", 1e3),
+    ("heel_width_m", "Width of the heel", "mm", 1e3),
+    ("forefoot_width_m", "Width of the forefoot", "mm", 1e3),
+    ("area_m2", "Area", "cm²", 1e4),
+    ("toeless_area_m2", "Area without toes", "cm²", 1e4),
+    ("arch_index", "Arch index", "", 1.0),
+    ("axis_angle_deg", "Angle of the axis to the vertical, to the left", "°", 1.0),
+)
+
+
+def footprint_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str) -> str:
+    """The page of a footprint image as text.
+
+    Args:
+        metrics: Result of `analyse_image`.
+        figures: PNG files to embed, with their captions.
+        title: Title of the page, for example the file's name.
+
+    Returns:
+        HTML that refers to no other file and no network.
+    """
+    sections = [Section("measures", "Measures", _table(metrics))]
+    if metrics["warnings"]:
+        sections.append(Section("assumed", "What was assumed", warning_list(metrics["warnings"])))
+    sections.append(figures_of(figures))
+    return page(f"Footprint: {title}", facts_of_image(metrics, title), sections)
+
+
+def _table(metrics: Mapping[str, Any]) -> str:
+    feet = {side: foot["footprint"] for side, foot in metrics["feet"].items()}
+    values = {
+        titled(name, unit): [scaled(foot[key], factor) for foot in feet.values()]
+        for key, name, unit, factor in _FOOTPRINT
+    }
+    values |= {
+        f"{name} (% of area)": [foot["region_area_percent"].get(region) for foot in feet.values()]
+        for region, name in REGIONS.items()
+    }
+    rows = [row(name, map(number, own)) for name, own in values.items() if any(v is not None for v in own)]
+    head = ["Measure", *(f"{side} foot" for side in feet)]
+    return table("Measures of the footprints", "Measures of the footprints.", head, rows)

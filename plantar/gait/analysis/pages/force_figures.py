@@ -29,9 +29,8 @@ __all__ = [
 STANCE = np.linspace(0.0, 100.0, 101)
 """Percent of stance at which force curves are given."""
 
-MOST_CURVES = 40
-"""Curves drawn a foot; of more steps every n-th."""
-
+MOST_CURVES = 40  # Curves drawn a foot; of more steps every n-th
+# Measures whose symmetry is drawn.
 _COMPARED = (
     "contact_time_s",
     "swing_time_s",
@@ -48,7 +47,6 @@ _COMPARED = (
     "arch_index",
     "step_length_m",
 )
-"""Measures whose symmetry is drawn."""
 
 
 def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any:

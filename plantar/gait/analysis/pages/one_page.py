@@ -11,8 +11,7 @@ import numpy as np
 
 from plantar.gait.analysis.measures import MEASURES
 from plantar.gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
-from plantar.gait.analysis.pages.heading import facts_of
-from plantar.gait.analysis.pages.report import summary_text
+from plantar.gait.analysis.pages.report import facts_of, summary_text
 from plantar.gait.analysis.pages.tables import shown_as
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.pages.page import Section, embedded, number, page, row, table, warning_list
@@ -22,21 +21,19 @@ from plantar.sides import Side
 
 __all__ = ["figure_summary", "one_page"]
 
+# 95 % ranges of women and men of 18 to 49 years who walk freely (Whittle 2007, Gait Analysis, 4th ed., table 2.1).
 NORMS: Mapping[str, tuple[float, float]] = {
     "stride_time_s": (0.87, 1.32),
     "cadence_steps_per_min": (91.0, 138.0),
     "stride_length_m": (1.06, 1.85),
     "stride_velocity_m_s": (0.94, 1.82),
 }
-"""95 % ranges of women and men of 18 to 49 years who walk freely (Whittle 2007, Gait Analysis, 4th ed., table 2.1)."""
-
 _ROWS = (
     *("contact_time_s", "stride_time_s", "stance_percent", "double_support_percent", "stride_length_m"),
     *("stride_velocity_m_s", "peak_force_N", "first_peak_N", "second_peak_N", "impulse_Ns", "peak_pressure_Pa"),
     *("contact_area_m2", "cop_velocity_m_s", "cpei_percent"),
 )
-_APART = 0.1
-"""Distance in m at which insoles are drawn, which measure no step width."""
+_APART = 0.1  # Distance in m at which insoles are drawn, which measure no step width
 _MOST_WARNINGS = 4
 _STYLE = """
 .band { width: 6rem; height: .8rem; } td:last-child, th:last-child { white-space: nowrap; }

@@ -10,27 +10,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gait.analysis.pages.stepped_on import stepped_on
+from plantar.gait.analysis.pages.sole_figures import stepped_on
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
 __all__ = ["player_data"]
 
-LONGEST = 60.0
-"""Time in s that the player shows; of a longer recording the first part that is loaded."""
-
-USUAL_RATE = 25.0
-"""Frames a second that the player shows of a long recording."""
-
+LONGEST = 60.0  # Time in s that the player shows; of a longer recording the first part that is loaded
+USUAL_RATE = 25.0  # Frames a second that the player shows of a long recording
+# Frames that are shown at most, and that a recording of many cells is not thinned below.
 MOST_FRAMES, FEWEST_FRAMES = 1500, 50
-"""Frames that are shown at most, and that a recording of many cells is not thinned below."""
-
-MOST_EVENTS = 2000
-"""Events that are listed."""
-
-MOST_BYTES = 900_000
-"""Largest size of the packed pressures; a mat of very many cells is shown with fewer frames."""
+MOST_EVENTS = 2000  # Events that are listed
+MOST_BYTES = 900_000  # Largest size of the packed pressures; a mat of very many cells is shown with fewer frames
 
 
 def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> dict[str, Any] | None:

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from plantar import __version__
 from plantar.gait.analysis.measures import MEASURES
-from plantar.gait.analysis.pages.heading import facts_of
 from plantar.gait.analysis.pages.tables import comparison_table, measures_table, regions_tables, steps_table
 from plantar.gravity import GRAVITY
 from plantar.pages.page import Section, embedded, figures_of, number, page, warning_list
 
-__all__ = ["comparison_page", "report_page", "summary_text"]
+__all__ = ["analysis_text", "comparison_page", "facts_of", "facts_of_image", "report_page", "summary_text"]
 
 _GAIT = (
     ("cadence_steps_per_min", "Cadence", "steps/min", 1.0),
@@ -183,3 +183,85 @@ def _player(data: Mapping[str, Any]) -> str:
         "Keys: arrows and space on the picture, arrows on the slider.</p>\n"
         f'</div>\n<script type="application/json" id="player-data">{text}</script>\n'
     )
+
+
+def facts_of(metrics: Mapping[str, Any], file: str) -> str:
+    """Returns the heading of a recording's report as HTML, from its metrics and the name of its file."""
+    robot = metrics["kind"] == "robot"
+    length = metrics["subject"]["foot_length_m"]
+    facts = [
+        ("Robot" if robot else "Participant", _participant(metrics)),
+        ("Body mass", _mass(metrics)),
+        ("Foot length", "" if length is None else f"{1e3 * length:.0f} mm"),
+        ("Device", _device(metrics["device"])),
+        ("Size", _size(metrics["device"]["feet"])),
+        ("Recorded", f"{metrics['duration_s']:.4g} s, {metrics['frames']} frames at {metrics['rate_hz']:.6g} Hz"),
+        ("Values", "raw counts: nothing says what force they are" if metrics.get("raw") else ""),
+        ("File", file),
+        ("Analysed by", f"Plantar {__version__}"),
+    ]
+    return _listed(facts)
+
+
+def facts_of_image(metrics: Mapping[str, Any], file: str) -> str:
+    """Returns the heading of a footprint image's report as HTML, from its metrics and the name of its file."""
+    width, height = metrics["size_px"]
+    scale = "" if metrics["mm_per_pixel"] is None else f", {metrics['mm_per_pixel']:.4g} mm a pixel"
+    facts = [
+        ("Participant", _participant(metrics)),
+        ("Image", f"{width} x {height} pixels{scale}"),
+        ("File", file),
+        ("Analysed by", f"Plantar {__version__}"),
+    ]
+    return _listed(facts)
+
+
+def _listed(facts: Iterable[tuple[str, str]]) -> str:
+    rows = "".join(f"<div><dt>{name}</dt><dd>{html.escape(text)}</dd></div>" for name, text in facts if text)
+    return f'<dl class="facts">{rows}</dl>'
+
+
+def _participant(metrics: Mapping[str, Any]) -> str:
+    return str(metrics["subject"]["name"]) or "not stated"
+
+
+def _mass(metrics: Mapping[str, Any]) -> str:
+    """The stated mass and that which the forces imply."""
+    stated, implied = metrics["subject"]["mass_kg"], metrics["gait"].get("implied_weight_N")
+    parts = [] if stated is None else [f"{number(stated)} kg"]
+    if implied is not None:
+        parts.append(f"the forces imply {number(implied / GRAVITY)} kg")
+    return "; ".join(parts) if stated is not None or not parts else f"not stated; {parts[0]}"
+
+
+def _device(device: Mapping[str, Any]) -> str:
+    return ", ".join(str(part) for part in (device["name"], device["sensor"]) if part)
+
+
+def _size(feet: Mapping[str, Mapping[str, Any]]) -> str:
+    """Extent, cells and layout of each foot's sole; listed once where both are the same."""
+    said = {
+        side: f"{1e3 * foot['length_m']:.0f} x {1e3 * foot['width_m']:.0f} mm, {foot['cells']} cells ({foot['layout']})"
+        for side, foot in feet.items()
+    }
+    if len(set(said.values())) <= 1:
+        return next(iter(said.values()), "")
+    return "; ".join(f"{side}: {text}" for side, text in said.items())
+
+
+def analysis_text(metrics: Mapping[str, Any], name: str = "") -> str:
+    """Returns the main figures of an analysis as lines, from its metrics; with a name for one of two."""
+    rate = "" if metrics["rate_hz"] is None else f" at {metrics['rate_hz']:.6g} Hz"
+    lines = [f"{name + ': ' if name else ''}{metrics['format']}: {metrics['frames']} frame(s){rate}"]
+    for side, foot in metrics["feet"].items():
+        if "footprint" in foot:
+            print_, arch = foot["footprint"], foot["footprint"]["arch_index"]
+            length = "" if print_["length_m"] is None else f"{1e3 * print_['length_m']:.0f} mm long, "
+            lines.append(f"  {side} footprint: {length}arch index {'-' if arch is None else f'{arch:.3f}'}")
+            continue
+        contact = foot["measures"]["contact_time_s"]["mean"]
+        lines.append(f"  {side}: {foot['steps']} complete steps" + (f", contact {contact:.3f} s" if contact else ""))
+    cadence = metrics["gait"].get("cadence_steps_per_min")
+    if cadence is not None:
+        lines.append(f"  cadence {cadence:.1f} steps/min")
+    return "\n".join(lines)

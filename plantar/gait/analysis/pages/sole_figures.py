@@ -9,8 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.formats.polygon_layout import subset
-from plantar.gait.analysis.pages.stepped_on import stepped_on
+from plantar.formats.recorded_layouts import subset
 from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.prints.regions import REGIONS
 from plantar.gait.analysis.steps.events import Contact
@@ -21,18 +20,14 @@ from plantar.plotting import COLOURS, draw_cells, draw_classes, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["axis_is_inside", "figure_pair", "figure_pressure", "figure_regions"]
+__all__ = ["axis_is_inside", "figure_pair", "figure_pressure", "figure_regions", "stepped_on"]
 
+# CoP paths drawn a foot, thin, next to the mean one; of more steps every n-th: the map below has to be seen.
 MOST_PATHS = 12
-"""CoP paths drawn a foot, thin, next to the mean one; of more steps every n-th: the map below has to be seen."""
-
 _FORWARD, _RIGHT = "forward (mm)", "to the right (mm)"
-
-_STANCE = np.linspace(0.0, 1.0, 51)
-"""Shares of the stance at which paths are averaged."""
-
+_STANCE = np.linspace(0.0, 1.0, 51)  # Shares of the stance at which paths are averaged
+# Colours of the regions: Tol's bright scheme, which colour-blind readers distinguish.
 REGION_COLOURS = ("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa3377", "#bbbbbb")
-"""Colours of the regions: Tol's bright scheme, which colour-blind readers distinguish."""
 
 
 class _Cells(NamedTuple):
@@ -227,3 +222,20 @@ def _list_regions(panel: Any, used: set[int]) -> None:
         if i in used:
             panel.plot([], [], "s", color=colour, label=title)
     panel.plot([], [], ":", color="#111111", label="thirds without toes")
+
+
+_MARGIN = 0.01  # Width in m of the frame around the cells
+
+
+def stepped_on(layout: SoleLayout, hit: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Returns the indices (m,) of stepped-on cells and their neighbours, and the corners (4, 2) in m around them.
+
+    Args:
+        layout: A platform, k cells.
+        hit: Which cells (k,) are stepped on; all are returned where none is.
+    """
+    beside = np.array([any(hit[j] for j in near) for near in layout.neighbours])
+    chosen = np.flatnonzero(hit | beside) if hit.any() else np.arange(len(layout))
+    points = np.vstack([layout.cell_polygon(int(c)) for c in chosen])
+    (x0, y0), (x1, y1) = points.min(axis=0) - _MARGIN, points.max(axis=0) + _MARGIN
+    return chosen, np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])

@@ -16,14 +16,11 @@ __all__ = ["EACH_STEP", "comparison_table", "measures_table", "regions_tables", 
 EACH_STEP = ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns", "peak_pressure_Pa", "contact_area_m2")
 """Measures that are shown of each step."""
 
+# Forces that are shown in percent of body weight, too.
 _OF_BODY_WEIGHT = ("peak_force_N", "first_peak_N", "valley_N", "second_peak_N", "landing_impact_N")
-"""Forces that are shown in percent of body weight, too."""
-
-_MOST_STEPS = 80
-"""Steps that the table shows."""
-
+_MOST_STEPS = 80  # Steps that the table shows
+# Unit of a measure of raw counts by the end of the key that it has in SI; counts for all others.
 _UNITS_OF_COUNTS = {"_Ns": "counts·s", "_Pas": "counts·s", "_N_s": "counts/s", "_Nm": "counts·m"}
-"""Unit of a measure of raw counts by the end of the key that it has in SI; counts for all others."""
 
 
 class _Shown(NamedTuple):

@@ -13,16 +13,21 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gait.analysis.prints.platform_parts import PlatformLoad, PrintCells, cells_of_prints
-from plantar.gait.analysis.prints.platform_walk import direction_of_walk, passes_over, sides_of_walk
+from plantar.gait.analysis.prints.platform_walk import (
+    PlatformLoad,
+    PrintCells,
+    cells_of_prints,
+    direction_of_walk,
+    passes_over,
+    sides_of_walk,
+)
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, Side
 
 __all__ = ["PlatformPrint", "told_apart"]
 
-_TRIGGER = 0.25
-"""Share of the peak up to which load in the first and last frame is the beginning and end of a contact."""
+_TRIGGER = 0.25  # Share of the peak up to which load in the first and last frame is the beginning and end of a contact
 
 
 @dataclass(frozen=True, eq=False)

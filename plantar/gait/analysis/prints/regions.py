@@ -30,17 +30,10 @@ REGIONS: Mapping[str, str] = {
 """Names of the regions, from heel to toes, with their titles."""
 
 _STRIPS = 4
-_DEPTH = 0.6
-"""A valley in front of the forefoot is no more than this share of the lower one of the peaks next to it."""
-
-_TOE_PEAK = 0.08
-"""Toes carry at least this share of the forefoot's peak pressure."""
-
-_HALLUX = 0.40
-"""Share of the width of the toes, from the medial side, that is the hallux."""
-
-_TOES_OF_SOLE = 0.82
-"""Share of an insole's length at which its toe region begins where the pressure shows no valley."""
+_DEPTH = 0.6  # A valley in front of the forefoot is no more than this share of the lower one of the peaks next to it
+_TOE_PEAK = 0.08  # Toes carry at least this share of the forefoot's peak pressure
+_HALLUX = 0.40  # Share of the width of the toes, from the medial side, that is the hallux
+_TOES_OF_SOLE = 0.82  # Share of an insole's length at which its toe region begins where the pressure shows no valley
 
 
 def with_toe_line(print_: Footprint) -> Footprint:

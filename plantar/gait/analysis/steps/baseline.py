@@ -15,51 +15,32 @@ from numpy.typing import NDArray
 
 from plantar.gait.analysis.steps.events import MINIMUM_SWING, smoothed, true_runs
 from plantar.gait.analysis.steps.swing_levels import SwingLevels, swing_levels
-from plantar.recordings.let_go import blocks_of_frames, let_go, room
+from plantar.recordings.frame_table import blocks_of_frames, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 __all__ = ["RestingLevel", "resting_level", "without_baselines"]
 
-OFFSET = 0.10
-"""A level in swing of more than so much of the walk's range of force is an offset; shoes press less."""
-
-_TOLD = 0.03
-"""A level in swing of more than so much of the range is told, though it is not taken off."""
-
+OFFSET = 0.10  # A level in swing of more than so much of the walk's range of force is an offset; shoes press less
+_TOLD = 0.03  # A level in swing of more than so much of the range is told, though it is not taken off
+# A level in swing of so much of the range below zero is an offset, too: no shoe pulls, and cells below zero take the
+# centre of pressure out of the sole.
 _PULL = 0.01
-"""A level in swing of so much of the range below zero is an offset, too: no shoe pulls, and cells below zero take the
-centre of pressure out of the sole."""
-
-HOT = 0.5
-"""A cell that reads more in swing than this share of what it reads under load does not measure the foot."""
-
-_WINDOWS = (12.0, 6.0)
-"""Lengths in s of the stretches in which the level in swing is looked for, ten strides or five."""
-
-_FLAT = 0.06
-"""Range of a level in swing, as a share of the range of force."""
-
-_LONGEST_SWING = 1.5
-"""Longest time in s at one level that is a swing and not standing on the other foot."""
-
-_SHARE = (0.15, 0.8)
-"""Share of a walk's time in which a foot is at its level in swing."""
-
+HOT = 0.5  # A cell that reads more in swing than this share of what it reads under load does not measure the foot
+_WINDOWS = (12.0, 6.0)  # Lengths in s of the stretches in which the level in swing is looked for, ten strides or five
+_FLAT = 0.06  # Range of a level in swing, as a share of the range of force
+_LONGEST_SWING = 1.5  # Longest time in s at one level that is a swing and not standing on the other foot
+_SHARE = (0.15, 0.8)  # Share of a walk's time in which a foot is at its level in swing
+# A foot lands and lifts quickly: it spends less than 0.7 of the time at its level between there and 0.3 of the range;
+# a sine, as when weight is shifted from foot to foot, 1.3 times as much.
 _ABOVE, _SPARSE = 0.30, 0.7
-"""A foot lands and lifts quickly: it spends less than 0.7 of the time at its level between there and 0.3 of the range;
-a sine, as when weight is shifted from foot to foot, 1.3 times as much."""
-
+# Of recordings of one or two strides: longest contact in s, longest time in s in which a foot that lands or lifts
+# passes the lower half of its force (0.03 to 0.15 s in walking, 0.3 s and more where weight is shifted), and largest
+# share of the time in swing.
 _LONGEST_CONTACT, _QUICK, _FEW_SHARE = 2.0, 0.2, 0.95
-"""Of recordings of one or two strides: longest contact in s, longest time in s in which a foot that lands or lifts
-passes the lower half of its force (0.03 to 0.15 s in walking, 0.3 s and more where weight is shifted), and largest
-share of the time in swing."""
-
+# Where the level of a single swing lies farther from the usual one, as a share of the range, each swing has a level
+# of its own: events lie at 5 % of the range.
 FOLLOWED = 0.025
-"""Where the level of a single swing lies farther from the usual one, as a share of the range, each swing has a level of
-its own: events lie at 5 % of the range."""
-
-_FRAMES = 4000
-"""Frames in swing from which a cell's reading is averaged: enough for 2 % of its noise."""
+_FRAMES = 4000  # Frames in swing from which a cell's reading is averaged: enough for 2 % of its noise
 
 
 @dataclass(frozen=True, eq=False)

@@ -65,37 +65,24 @@ MINIMUM_STANCE = 0.1
 MINIMUM_SWING = 0.15
 """Shortest time in s off the ground; over shorter ones the foot counts as in contact."""
 
-LONGEST_BRIDGE = 0.1
-"""Longest gap in s of frames that were not measured over which the force is interpolated."""
-
+LONGEST_BRIDGE = 0.1  # Longest gap in s of frames that were not measured over which the force is interpolated
+# Standard deviations of the noise that a foot's release, and its contact, lie above the level at rest.
 _NOISE_RELEASE, _NOISE_CONTACT = 4.0, 8.0
-"""Standard deviations of the noise that a foot's release, and its contact, lie above the level at rest."""
-
-_MEDIAN_OF_NORMAL = 0.6745
-"""Median of the magnitude of a normal variable, in standard deviations."""
-
+_MEDIAN_OF_NORMAL = 0.6745  # Median of the magnitude of a normal variable, in standard deviations
+# Shares of the range that part the fall of push-off, from its steepest piece on: a foot that leaves slowly goes on
+# falling at 0.4 of that or more; where the force hardly falls any more the shoe presses, and the piece before is
+# continued straight. Of shares and slopes tried, these have the least largest mean over the sets of
+# `benchmarks/gait_events.py`.
 _FALL, _SHELF = (0.60, 0.30, 0.15, 0.075), 0.4
-"""Shares of the range that part the fall of push-off, from its steepest piece on: a foot that leaves slowly goes on
-falling at 0.4 of that or more; where the force hardly falls any more the shoe presses, and the piece before is
-continued straight. Of shares and slopes tried, these have the least largest mean over the sets of
-`benchmarks/gait_events.py`."""
-
-_BESIDE = 0.5
-"""Time in s before a landing and after a push-off in which the force at rest is looked for."""
-
+_BESIDE = 0.5  # Time in s before a landing and after a push-off in which the force at rest is looked for
+# Shares of the range that part the rise of a landing, from the event level on: its steepest piece is continued back
+# straight. A shoe that touches lightly before the foot lands makes the first piece flat.
 _RISE = (0.20, 0.50)
-"""Shares of the range that part the rise of a landing, from the event level on: its steepest piece is continued back
-straight. A shoe that touches lightly before the foot lands makes the first piece flat."""
-
-_LIGHT = 0.7
-"""Share of the middle load that a contact has to reach for its peak to count."""
-
+_LIGHT = 0.7  # Share of the middle load that a contact has to reach for its peak to count
+# Contacts of more than 1.5 s are looked at for steps in them: force that rises by more than half of the foot's range
+# within 0.25 s, from 0.2 to 0.8 of what it ranges over there; weight is shifted more slowly.
 _LONGEST_STEP, _DEEP, _LANDING = 1.5, 0.5, 0.25
-"""Contacts of more than 1.5 s are looked at for steps in them: force that rises by more than half of the foot's range
-within 0.25 s, from 0.2 to 0.8 of what it ranges over there; weight is shifted more slowly."""
-
-_FEWEST_STEPS = 20
-"""Steps between swing samples from which their noise is judged."""
+_FEWEST_STEPS = 20  # Steps between swing samples from which their noise is judged
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.recordings.let_go import blocks_of_frames, let_go, room
+from plantar.recordings.frame_table import blocks_of_frames, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 __all__ = ["LONGEST_GAP", "filled", "without_gaps"]
@@ -15,8 +15,7 @@ __all__ = ["LONGEST_GAP", "filled", "without_gaps"]
 LONGEST_GAP = 0.1
 """Longest gap in s that is filled."""
 
-_TOLD = 0.01
-"""Share of missing values of the cells that measure from which a warning is given."""
+_TOLD = 0.01  # Share of missing values of the cells that measure from which a warning is given
 
 
 def without_gaps(recording: PressureRecording) -> PressureRecording:

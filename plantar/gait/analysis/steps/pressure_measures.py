@@ -14,8 +14,7 @@ from plantar.layouts.layout import SoleLayout
 
 __all__ = ["pressure_measures", "region_measures", "robot_measures"]
 
-_MOST_FRAMES = 200
-"""Frames of a contact in which support polygons are looked at; of more, every n-th."""
+_MOST_FRAMES = 200  # Frames of a contact in which support polygons are looked at; of more, every n-th
 
 
 def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[str, float]]:

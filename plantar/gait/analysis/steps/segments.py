@@ -15,23 +15,19 @@ from plantar.sides import SIDES, Side
 
 __all__ = ["Segment", "segments_of", "with_activities", "without_standing"]
 
+# A contact over twice the median of the three before and the three after it, and over 1.2 s, is standing.
 _LONG, _LEAST, _BESIDE = 2.0, 1.2, 3
-"""A contact over twice the median of the three before and the three after it, and over 1.2 s, is standing."""
+# A step of a run has a flight of more than 0.01 s and a stance below half of its stride; of one foot, below 45 %.
 _FLIGHT, _HALF, _RUN = 0.01, 50.0, 45.0
-"""A step of a run has a flight of more than 0.01 s and a stance below half of its stride; of one foot, below 45 %."""
-_SAME = 0.8
-"""Share of both feet's contacts that is common where both hop at once; walking has 0.2."""
+_SAME = 0.8  # Share of both feet's contacts that is common where both hop at once; walking has 0.2
+# Measures of the stride from a step to the next one of its foot.
 _OF_STRIDE = (
     *("stride_time_s", "swing_time_s", "stance_percent", "swing_percent", "double_support_percent"),
     *("single_support_percent", "stride_length_m", "stride_velocity_m_s"),
 )
-"""Measures of the stride from a step to the next one of its foot."""
-_IN_TURNS = ("step_time_s", "double_support_percent", "single_support_percent")
-"""Measures of feet that step in turns."""
-_SHORTEST = 4
-"""Steps of both feet from which they are a segment and no odd step."""
-_PAUSE = 3.0
-"""Usual strides without a step that part two segments."""
+_IN_TURNS = ("step_time_s", "double_support_percent", "single_support_percent")  # Measures of feet that step in turns
+_SHORTEST = 4  # Steps of both feet from which they are a segment and no odd step
+_PAUSE = 3.0  # Usual strides without a step that part two segments
 
 
 @dataclass(frozen=True)

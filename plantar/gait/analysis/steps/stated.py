@@ -13,8 +13,7 @@ from plantar.recordings.pressure_recording import StatedEvents
 
 __all__ = ["stated_beside_own", "stated_contacts"]
 
-_SAME = 0.25
-"""Longest time in s between a stated event and a found one that are the same: less than half of a swing."""
+_SAME = 0.25  # Longest time in s between a stated event and a found one that are the same: less than half of a swing
 
 
 def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Contact]:

@@ -17,15 +17,10 @@ __all__ = ["FEWEST_STEPS", "in_one_window", "with_used_steps"]
 FEWEST_STEPS = 12
 """Steps a foot that reliable means of in-shoe pressure take (Arts & Bus 2011, Clin. Biomech. 26:880)."""
 
-_FEWEST_TO_JUDGE = 5
-"""Steps of a foot from which a usual step differs from an odd one."""
-
-_ODD = 4.0
-"""Robust standard deviations from the median beyond which a step is odd: one of 16,000 of a normal variable."""
-
+_FEWEST_TO_JUDGE = 5  # Steps of a foot from which a usual step differs from an odd one
+_ODD = 4.0  # Robust standard deviations from the median beyond which a step is odd: one of 16,000 of a normal variable
+# Measures by which a step is judged, and the least standard deviation, as a share of the median.
 _JUDGED = {"contact_time_s": 0.03, "stride_time_s": 0.03, "peak_force_N": 0.04, "impulse_Ns": 0.05}
-"""Measures by which a step is judged, and the least standard deviation, as a share of the median."""
-
 _WORDS = {
     "contact_time_s": ("contact", "s"),
     "stride_time_s": ("stride", "s"),

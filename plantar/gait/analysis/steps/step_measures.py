@@ -1,4 +1,4 @@
-"""Measures of one step without the steps around it: force, pressure, path of the CoP, wrench, footprint."""
+"""Measures of one step without the steps around it: force curve, pressure, path of the CoP, wrench, footprint."""
 
 from __future__ import annotations
 
@@ -10,14 +10,13 @@ from numpy.typing import NDArray
 
 from plantar.gait.analysis.prints.footprint import Footprint
 from plantar.gait.analysis.steps.cop_path import cop_measures, excursion_index, margin_to_outline
-from plantar.gait.analysis.steps.events import Contact
+from plantar.gait.analysis.steps.events import LONGEST_BRIDGE, Contact
 from plantar.gait.analysis.steps.foot_gait import FootGait
-from plantar.gait.analysis.steps.force_curve import force_measures, landing_impact
 from plantar.gait.analysis.steps.pressure_measures import robot_measures
 from plantar.gait.analysis.steps.step_load import StepLoad
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["step_measures"]
+__all__ = ["force_measures", "landing_impact", "step_measures"]
 
 
 def step_measures(
@@ -86,3 +85,119 @@ def _wrench_measures(recording: PressureRecording, wrench: NDArray[np.float64]) 
     fx, fy, _, tx, ty, tz = np.abs(wrench).max(axis=0)
     out = {"fx_peak_N": fx, "fy_peak_N": fy, "tz_peak_Nm": tz}
     return out | ({"tx_peak_Nm": tx, "ty_peak_Nm": ty} if recording.kind == "robot" else {})
+
+
+IMPACT_WINDOW = 0.05  # Time in s after touchdown in which the landing impact is looked for
+_DEPTH = 0.02  # How deep a valley has to be, as a share of the lower peak, to separate two peaks
+# Share of the largest force of its half of the stance that a peak has; the transient of a heel strike has less.
+_HUMP = 0.75
+_UNKNOWN = dict.fromkeys(
+    (
+        "first_peak_N",
+        "valley_N",
+        "second_peak_N",
+        "first_peak_percent",
+        "valley_percent",
+        "second_peak_percent",
+        "loading_rate_N_s",
+        "loading_rate_max_N_s",
+    ),
+    float("nan"),
+)
+
+
+def force_measures(
+    time: NDArray[np.float64], force: NDArray[np.float64], strike: float, lift: float
+) -> dict[str, float]:
+    """Returns the measures of the force curve of one contact by key; NaN for peaks and valley without two peaks.
+
+    The impulse runs from strike to lift; the pieces before the first and after the last frame count as triangles.
+
+    Args:
+        time: Times (m,) in s of the measured frames in contact, 2 or more.
+        force: Vertical force (m,) in N.
+        strike: Time of the heel strike in s.
+        lift: Time of the toe off in s.
+
+    Example:
+        >>> t = np.linspace(0.0, 1.0, 201)
+        >>> two_humps = 800.0 * np.sin(np.pi * t) + 200.0 * np.sin(3.0 * np.pi * t)
+        >>> m = force_measures(t, two_humps, 0.0, 1.0)
+        >>> round(m["first_peak_percent"]), round(m["valley_N"]), round(m["impulse_Ns"], 1)
+        (28, 600, 551.7)
+    """
+    duration = lift - strike
+    impulse = float(np.trapezoid(force, time))
+    impulse += 0.5 * max(0.0, float(time[0]) - strike) * float(force[0])
+    impulse += 0.5 * max(0.0, lift - float(time[-1])) * float(force[-1])
+    top = int(np.argmax(force))
+    out = {
+        **_UNKNOWN,
+        "peak_force_N": float(force[top]),
+        "mean_force_N": impulse / duration if duration > 0.0 else np.nan,
+        "impulse_Ns": impulse,
+    }
+    share = (time - strike) / duration
+    early, late = np.flatnonzero(share <= 0.5), np.flatnonzero(share > 0.5)
+    rise = top
+    if len(early) >= 3 and len(late) >= 3:
+        first = _first_hump(force, _HUMP * float(force[early].max()))
+        second = len(force) - 1 - _first_hump(force[::-1], _HUMP * float(force[late].max()))
+        low = first + int(np.argmin(force[first : second + 1])) if first < second else first
+        if share[first] <= 0.5 < share[second] and first < low < second:
+            rise = first
+            for name, at in (("first_peak", first), ("valley", low), ("second_peak", second)):
+                out[f"{name}_N"] = float(force[at])
+                out[f"{name}_percent"] = 100.0 * float(share[at])
+    out |= _loading(time[: rise + 1], force[: rise + 1], strike)
+    return out
+
+
+def _first_hump(force: NDArray[np.float64], least: float) -> int:
+    """Index of the first hump of at least `least` from which a force falls by a share."""
+    width = max(1, 2 * (len(force) // 60) + 1)  # 3 % of the stance: noise makes no hump
+    half = width // 2
+    padded = np.concatenate([np.full(half, force[0]), force, np.full(half, force[-1])])
+    even = np.convolve(padded, np.full(width, 1.0 / width), mode="valid") if half else force
+    start = 0
+    while start < len(even):
+        most = np.maximum.accumulate(even[start:])  # below zero where a sensor's offset is
+        falls = np.flatnonzero(even[start:] < most * np.where(most > 0.0, 1.0 - _DEPTH, 1.0 + _DEPTH))
+        if len(falls) == 0:
+            break
+        top = start + int(np.argmax(even[start : start + falls[0]]))
+        if even[top] >= least:
+            begin = max(0, top - width)
+            return begin + int(np.argmax(force[begin : top + width + 1]))
+        start += int(falls[0])
+    return int(np.argmax(force))
+
+
+def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> dict[str, float]:
+    """Loading rates up to the first peak: mean slope between 20 and 80 % of the rise's time, and the largest one."""
+    if len(time) < 3 or time[-1] <= strike:
+        return {}
+    begin, end = strike + 0.2 * (time[-1] - strike), strike + 0.8 * (time[-1] - strike)
+    low, high = np.interp([begin, end], time, force)
+    return {
+        "loading_rate_N_s": float((high - low) / (end - begin)),
+        "loading_rate_max_N_s": float((np.diff(force) / np.diff(time)).max()),
+    }
+
+
+def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> float:
+    """Returns the largest vertical force in N within 50 ms of a heel strike, its interpolated end included; NaN if
+    unknown.
+
+    Args:
+        time: Times (n,) in s.
+        force: Vertical force (n,) in N.
+        strike: Time of the heel strike in s.
+    """
+    end = strike + IMPACT_WINDOW
+    after = int(np.searchsorted(time, end, side="right"))
+    window = force[np.searchsorted(time, strike) : after]
+    if 0 < after < len(time) and time[after] - time[after - 1] <= LONGEST_BRIDGE:
+        window = np.append(window, np.interp(end, time[after - 1 : after + 1], force[after - 1 : after + 1]))
+    window = window[np.isfinite(window)]
+    return float(window.max()) if len(window) else float("nan")

@@ -17,43 +17,29 @@ from plantar.gait.analysis.steps.events import MINIMUM_SWING, smoothed, true_run
 
 __all__ = ["SwingLevels", "swing_levels"]
 
+# Longest contacts in s that are tried: a window longer than a contact follows the level under it, one that is much
+# longer follows only slow changes.
 _CONTACTS = (1.6, 0.9, 2.6)
-"""Longest contacts in s that are tried: a window longer than a contact follows the level under it, one that is much
-longer follows only slow changes."""
-
-_WELL = 0.9
-"""Share of the gaps between contacts that are swings from which no other window is tried."""
-
+_WELL = 0.9  # Share of the gaps between contacts that are swings from which no other window is tried
+# In stretches of 4 s the force of a walk ranges over little more than from its level in swing to its peak; a window
+# that is shorter than the contacts sees less than 0.6 of that.
 _STRETCH, _WHOLE = 4.0, 0.6
-"""In stretches of 4 s the force of a walk ranges over little more than from its level in swing to its peak; a window
-that is shorter than the contacts sees less than 0.6 of that."""
-
-_NEAR = 0.10
-"""A swing's frames lie so close above the level, as a share of the range of force."""
-
+_NEAR = 0.10  # A swing's frames lie so close above the level, as a share of the range of force
+# Longest time in s off the ground that is a swing; of a longer one at an end of the recording what lies beside the
+# contact is taken.
 _LONGEST_SWING = 1.5
-"""Longest time in s off the ground that is a swing; of a longer one at an end of the recording what lies beside the
-contact is taken."""
-
+# Longest time in s, and as a share of the contact, in which a foot that lands or lifts passes the lower half.
 _QUICK, _QUICK_SHARE = 0.2, 0.12
-"""Longest time in s, and as a share of the contact, in which a foot that lands or lifts passes the lower half."""
-
+# A walking foot spends less than 0.4 of the time at its level between there and 0.3 of the range (0.03 to 0.2); the
+# sway of standing 0.7 and more, a sine 0.8.
 _ABOVE, _SPARSE = 0.30, 0.4
-"""A walking foot spends less than 0.4 of the time at its level between there and 0.3 of the range (0.03 to 0.2); the
-sway of standing 0.7 and more, a sine 0.8."""
-
-_OFTEN = 0.5
-"""Share of the gaps between contacts that are swings; of the dips of a standing foot a seventh or less."""
-
-_FEWEST = 3
-"""Swings between contacts from which they are those of a walk."""
-
+_OFTEN = 0.5  # Share of the gaps between contacts that are swings; of the dips of a standing foot a seventh or less
+_FEWEST = 3  # Swings between contacts from which they are those of a walk
+# A level that changes by more from one swing to the next, as a share of the range, may do so from one frame to the
+# next.
 _JUMP = 0.03
-"""A level that changes by more from one swing to the next, as a share of the range, may do so from one frame to the
-next."""
-
+# A swing whose level lies so far above both its neighbours', as a share of the range, is a moment of standing.
 _OUTLIER = 0.25
-"""A swing whose level lies so far above both its neighbours', as a share of the range, is a moment of standing."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -37,14 +37,10 @@ COMPARED = (
 )
 """Measures that are compared between conditions, with one allowance for all of them."""
 
-FEWEST = 3
-"""Participants a condition from which a difference can be tested at all."""
-
-MOST_PAIRS = 6
-"""Pairs of conditions that are compared: those of four conditions."""
-
+FEWEST = 3  # Participants a condition from which a difference can be tested at all
+MOST_PAIRS = 6  # Pairs of conditions that are compared: those of four conditions
+# Robust standard deviations from the median of a condition beyond which a participant is an outlier to look at.
 _FAR = 3.5
-"""Robust standard deviations from the median of a condition beyond which a participant is an outlier to look at."""
 
 
 class Outlier(NamedTuple):

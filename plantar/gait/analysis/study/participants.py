@@ -16,6 +16,7 @@ from plantar.sides import SIDES
 
 __all__ = ["Participation", "read_participants"]
 
+# Names that a column may have, by what it holds; other columns are carried through to the tables.
 _NAMES = {
     "file": ("file", "recording", "filename", "path"),
     "participant": ("participant", "participant_id", "subject", "subject_id", "id", "patient"),
@@ -28,7 +29,6 @@ _NAMES = {
     "rate_hz": ("rate_hz", "rate"),
     "layout": ("layout",),
 }
-"""Names that a column may have, by what it holds; other columns are carried through to the tables."""
 
 
 @dataclass(frozen=True)

@@ -33,14 +33,11 @@ from plantar.gait.analysis.study.one_recording import (
     write_result,
 )
 from plantar.gait.analysis.study.participants import Participation, read_participants
-from plantar.gait.analysis.study.study_figures import study_figures
-from plantar.gait.analysis.study.study_page import study_page
+from plantar.gait.analysis.study.study_page import study_figures, study_page
 
 __all__ = ["Study", "run_study"]
 
-_CACHE = "measured"
-"""Folder in the output folder that holds the result of each recording."""
-
+_CACHE = "measured"  # Folder in the output folder that holds the result of each recording
 _SKIPPED_FORMATS = ("image",)
 
 

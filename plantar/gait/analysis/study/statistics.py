@@ -18,13 +18,10 @@ from numpy.typing import NDArray
 
 __all__ = ["Effect", "PermutationTest", "effect_of", "permutation_test", "student_quantile"]
 
+# Permutations that are drawn where there are more: a p of 0.05 is then known to 0.005 (one standard deviation).
 PERMUTATIONS = 2000
-"""Permutations that are drawn where there are more: a p of 0.05 is then known to 0.005 (one standard deviation)."""
-
 _SEED = 1
-_SPREAD = 1e-6
-"""Standard deviation of participants, as a share of their mean, below which it is rounding and no spread."""
-
+_SPREAD = 1e-6  # Standard deviation of participants, as a share of their mean, below which it is rounding and no spread
 _CONFIDENCE = 0.95
 
 

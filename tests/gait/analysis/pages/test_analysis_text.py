@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plantar.gait.analysis.pages.analysis_text import analysis_text
+from plantar.gait.analysis.pages.report import analysis_text
 
 WALK = {
     "format": "mcap",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from plantar.formats.grid_cells import grid_cells
-from plantar.gait.analysis.pages.stepped_on import stepped_on
+from plantar.formats.recorded_layouts import grid_cells
+from plantar.gait.analysis.pages.sole_figures import stepped_on
 
 PLATFORM = grid_cells(np.ones((30, 20), dtype=bool), 0.01, 0.01, side="left", name="platform", threshold=1.0)
 

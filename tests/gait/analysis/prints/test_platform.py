@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from plantar.formats import detect_format
-from plantar.formats.grid_cells import grid_cells
+from plantar.formats.recorded_layouts import grid_cells
 from plantar.gait.analysis.analyse import Analysis, analyse
 from plantar.gait.analysis.exports import export_analysis
 from plantar.gait.analysis.metrics import metrics_of

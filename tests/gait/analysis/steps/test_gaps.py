@@ -10,7 +10,7 @@ import pytest
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.gaps import filled, without_gaps
-from plantar.recordings import let_go
+from plantar.recordings import frame_table as let_go
 
 from ..walks import made_walk
 

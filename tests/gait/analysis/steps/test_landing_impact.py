@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.gait.analysis.steps.force_curve import landing_impact
+from plantar.gait.analysis.steps.step_measures import landing_impact
 
 
 @pytest.mark.parametrize("rate", [25.0, 31.25, 50.0, 100.0, 333.0])

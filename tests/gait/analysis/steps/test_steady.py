@@ -7,8 +7,8 @@ import pytest
 
 from plantar import InputError
 from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
-from plantar.gait.analysis.pages.summary import summary_of_foot
 from plantar.gait.analysis.parameters import analyse_feet
+from plantar.gait.analysis.summary import summary_of_foot
 
 from ..walks import made_walk
 

@@ -1,0 +1,198 @@
+"""Layouts of cells that a recording describes: a matrix of rectangles, corners of each cell, and parts of layouts."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError, LayoutError
+from plantar.geometry.polygon import area, centroid, convex_hull
+from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
+from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout
+
+__all__ = ["corner_table", "grid_cells", "layout_of_corners", "polygon_layout", "subset"]
+
+
+def grid_cells(
+    present: NDArray[np.bool_], row_pitch: float, column_pitch: float, *, side: Side, name: str, threshold: float
+) -> SoleLayout:
+    """Returns a layout of the cells of a matrix that are there; the first row is the front, the first column the left.
+
+    Its origin is in the middle of the hind edge; ids count through the whole matrix.
+
+    Args:
+        present: Which cells (rows, columns) there are.
+        row_pitch: Distance of rows in m.
+        column_pitch: Distance of columns in m.
+        side: The foot.
+        name: Name of the layout.
+        threshold: Pressure in Pa from which a cell counts as loaded.
+
+    Raises:
+        FormatError: If there is no cell, or a pitch is not usable.
+
+    Example:
+        >>> layout = grid_cells(np.ones((3, 2), dtype=bool), 0.01, 0.005, side="left", name="mat", threshold=1e4)
+        >>> layout.positions[0].round(4).tolist(), layout.neighbours[0], len(layout)
+        ([0.025, 0.0025, 0.0], (1, 2), 6)
+    """
+    if not (np.isfinite([row_pitch, column_pitch]).all() and min(row_pitch, column_pitch) > 0.0):
+        raise FormatError(f"cells of {row_pitch} x {column_pitch} m are not possible; allowed: above 0")
+    rows, columns = present.shape
+    row, column = np.nonzero(present)
+    n = len(row)
+    if n == 0:
+        raise FormatError("the matrix has no cell that measures")
+    x = (rows - 1 - row + 0.5) * row_pitch
+    y = (0.5 * columns - column - 0.5) * column_pitch
+    corner_x = np.arange(rows, -1, -1) * row_pitch  # of the lines between rows
+    corner_y = (0.5 * columns - np.arange(columns + 1)) * column_pitch
+
+    # Counter-clockwise from the hind right corner; corners that meet are one vertex.
+    ends = [(row + 1, column + 1), (row, column + 1), (row, column), (row + 1, column)]
+    keys = np.array([i * (columns + 1) + j for i, j in ends]).T
+    used, index = np.unique(keys, return_inverse=True)
+    corners = index.reshape(n, 4)
+    vertices = np.column_stack([corner_x[used // (columns + 1)], corner_y[used % (columns + 1)], np.zeros(len(used))])
+
+    number = np.full((rows + 2, columns + 2), -1)
+    number[row + 1, column + 1] = np.arange(n)
+    around = np.array([number[row + 1 + i, column + 1 + j] for i, j in ((-1, 0), (0, -1), (0, 1), (1, 0))]).T
+    cell = row_pitch * column_pitch
+    try:
+        return SoleLayout(
+            name=name,
+            side=side,
+            positions=np.column_stack([x, y, np.zeros(n)]),
+            rotations=np.broadcast_to(np.eye(3), (n, 3, 3)),
+            vertices=vertices,
+            corners=tuple(map(tuple, corners.tolist())),
+            neighbours=tuple(tuple(sorted(j for j in near if j >= 0)) for near in around.tolist()),
+            areas=np.full(n, cell),
+            outline=convex_hull(vertices[:, :2]),
+            ids=row * columns + column + 1,
+            cell_shape="rectangle",
+            cell_area=cell,
+            modalities=("force",),
+            ranges={"force": DEFAULT_RANGES["force"]},
+            thresholds={"force": threshold * cell},
+        )
+    except LayoutError as error:
+        raise FormatError(f"the recording's own geometry is not valid: {error}") from None
+
+
+def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], side: Side, name: str) -> SoleLayout:
+    """Returns a layout from the corners of each cell.
+
+    Cells that share two corners are neighbours, the outline is the convex hull, and the activation threshold is 10 kPa.
+
+    Args:
+        rings: Corners (k, 2) of each cell in the sole frame in m, counter-clockwise.
+        ids: Their ids; FormatError if they are not unique, or a cell has no area.
+        side: The foot.
+        name: Name of the layout.
+
+    Example:
+        >>> square = np.array([[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]])
+        >>> layout = polygon_layout([square, square + [0.01, 0.0]], ids=[1, 2], side="left", name="two cells")
+        >>> layout.neighbours
+        ((1,), (0,))
+    """
+    sizes = np.array([area(ring) for ring in rings])
+    if not len(sizes) or not (sizes > 0.0).all():
+        raise FormatError("a cell of the recording's geometry has no area")
+    grain = 1e-3 * float(np.sqrt(np.median(sizes)))
+    vertices, corners = shared_vertices(rings, grain)
+    cell_area = float(np.median(sizes))
+    try:
+        return SoleLayout(
+            name=name,
+            side=side,
+            positions=np.column_stack([np.array([centroid(ring) for ring in rings]), np.zeros(len(rings))]),
+            rotations=np.broadcast_to(np.eye(3), (len(rings), 3, 3)),
+            vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
+            corners=tuple(corners),
+            neighbours=edge_neighbours(corners),
+            areas=sizes,
+            outline=convex_hull(vertices),
+            ids=np.array(ids),
+            cell_shape="polygon",
+            cell_area=cell_area,
+            modalities=("force",),
+            ranges={"force": DEFAULT_RANGES["force"]},
+            thresholds={"force": 10e3 * cell_area},
+        )
+    except LayoutError as error:
+        raise FormatError(f"the recording's own geometry is not valid: {error}") from None
+
+
+def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
+    """Returns the layout of the cells of some indices, each once, in the order given; vertices and outline stay.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
+        >>> subset(layout, [3, 1]).ids.tolist()
+        [3, 1]
+    """
+    keep = [int(c) for c in cells]
+    new = {old: i for i, old in enumerate(keep)}
+    return replace(
+        layout,
+        positions=layout.positions[keep],
+        rotations=layout.rotations[keep],
+        corners=tuple(layout.corners[c] for c in keep),
+        neighbours=tuple(tuple(sorted(new[j] for j in layout.neighbours[c] if j in new)) for c in keep),
+        areas=layout.areas[keep],
+        ids=layout.ids[keep],
+    )
+
+
+def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
+    """Returns corners (cells, 4, 2) in m in the file's axes, from the rows "x[0]" .. "y[3]" (in cm); None without a
+    whole table.
+
+    Args:
+        tail: The lines after the frames.
+        cells: Number of cells.
+        warnings: List to which an incomplete table is reported.
+    """
+    rows: dict[str, list[float]] = {}
+    for line in tail:
+        match = re.match(r"\s*([xy]\[[0-3]\])\s+(.*)", line)
+        if match:
+            try:
+                rows[match[1]] = [float(v.replace(",", ".")) for v in match[2].split()]
+            except ValueError:
+                rows[match[1]] = []
+    if not rows:
+        return None
+    names = [f"{axis}[{corner}]" for corner in range(4) for axis in "xy"]
+    if any(len(rows.get(name, [])) != cells for name in names):
+        warnings.append("the file's table of cell corners is not whole: not used")
+        return None
+    corners = np.array([rows[name] for name in names]).T.reshape(cells, 4, 2) * 1e-2
+    if not np.isfinite(corners).all():
+        warnings.append("the file's table of cell corners holds values that are not numbers: not used")
+        return None
+    return corners
+
+
+def layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
+    """Returns a layout of quadrilateral cells; the file's y becomes x (forward), its x becomes -y (to the right).
+
+    Args:
+        corners: Corners (n, 4, 2) in m in the file's axes, in any order.
+        cells: Ids of the cells.
+        side: "left" or "right".
+    """
+    import shapely  # only where a file brings its own geometry
+
+    turned = np.stack([corners[:, :, 1], -corners[:, :, 0]], axis=-1)
+    polygons = [shapely.geometry.polygon.orient(shapely.MultiPoint(c).convex_hull) for c in turned]
+    rings = [np.array(p.exterior.coords)[:-1] for p in polygons]
+    return polygon_layout(rings, ids=cells, side=side, name="pliance mat")
