@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar.recordings import let_go as module
+from plantar.recordings import frame_table as module
 from plantar.recordings.frame_table import FrameTable, blocks_of_frames, column_maxima, let_go, room, scale_frames
 
 
@@ -15,7 +15,6 @@ from plantar.recordings.frame_table import FrameTable, blocks_of_frames, column_
 def test_a_table_keeps_its_numbers_wherever_it_lies(monkeypatch: pytest.MonkeyPatch, large: int) -> None:
     """Growing, letting go, scaling and reading again; with a limit of 0 everything lies in a file."""
     monkeypatch.setattr(module, "LARGE", large)
-    monkeypatch.setattr("plantar.recordings.frame_table.LARGE", large)
     monkeypatch.setattr(module, "_BLOCK", 50)
     truth = np.random.default_rng(0).normal(0.0, 1.0, (101, 7))
     table = FrameTable(7, 3)

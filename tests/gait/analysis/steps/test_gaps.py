@@ -10,7 +10,7 @@ import pytest
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.steps.gaps import filled, without_gaps
-from plantar.recordings import frame_table as let_go
+from plantar.recordings import frame_table
 
 from ..walks import made_walk
 
@@ -51,7 +51,7 @@ def test_blocks_fill_as_the_whole_does(monkeypatch: pytest.MonkeyPatch) -> None:
     force = recording.feet["left"].force
     force[random.random(force.shape) < 0.3] = np.nan
     whole = filled(force, 10)
-    monkeypatch.setattr(let_go, "_BLOCK", 99 * 37)
+    monkeypatch.setattr(frame_table, "_BLOCK", 99 * 37)
     assert np.array_equal(without_gaps(recording).feet["left"].force, whole, equal_nan=True)
     one = replace(recording, feet={"left": recording.feet["right"]})
     assert without_gaps(one) is one
