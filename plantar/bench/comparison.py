@@ -127,8 +127,6 @@ def _runs(route: Route) -> bool:
 
 
 def _shielded(call: Callable[[Any], object]) -> Callable[[Any], object]:
-    """A route that may raise on a case and is timed all the same."""
-
     def run(case: Any) -> object:
         try:
             return call(case)

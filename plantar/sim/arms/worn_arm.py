@@ -126,7 +126,6 @@ class WornArm:
         return tuple(names[i] for i in sorted(held))
 
     def _hang_on(self, base: Any, spec: Any) -> None:
-        """Attach the machine's arm to a body in place of the machine's base."""
         arm = self._machine.spec()
         for motor in list(arm.actuators):
             arm.delete(motor)

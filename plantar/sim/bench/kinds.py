@@ -73,7 +73,6 @@ def measure(what: str, options: BenchOptions, output: Path) -> Measured:
 
 
 def _check(what: str, options: BenchOptions) -> None:
-    """Refuse options that would do nothing."""
     for option in fields(options):
         takers = _TAKEN_BY[option.name]
         if getattr(options, option.name) != option.default and what not in takers:
@@ -93,7 +92,6 @@ _TAKEN_BY: Mapping[str, tuple[str, ...]] = {
 
 
 def _scenes(output: Path, options: BenchOptions, progress: Progress) -> Measured:
-    """Walks over the settings that trade run time against error."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.scenes.scenes_report import measure_scenes, scenes_text
 
@@ -102,7 +100,6 @@ def _scenes(output: Path, options: BenchOptions, progress: Progress) -> Measured
 
 
 def _stress(output: Path, options: BenchOptions, progress: Progress) -> Measured:
-    """The whole loop in random scenarios."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
 
@@ -112,7 +109,6 @@ def _stress(output: Path, options: BenchOptions, progress: Progress) -> Measured
 
 
 def _footholds(output: Path, options: BenchOptions, progress: Progress) -> Measured:
-    """Any controller or policy on beams, stones, slopes, steps and under pushes."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.footholds.measure_footholds import footholds_text, measure_footholds
 
@@ -129,7 +125,6 @@ _TABLES: Mapping[str, Callable[[Path, BenchOptions, Progress], Measured]] = {
 
 
 def _kernels(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    """Kernels compared with libraries."""
     need_libraries("sim", "scipy", "cv2")
     from plantar.bench.report import kernel_text, measure_kernels
 
@@ -138,7 +133,6 @@ def _kernels(folder: Path, options: BenchOptions, progress: Progress) -> Measure
 
 
 def _contact(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    """Contact models compared with MuJoCo's exact wrench."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.contact_models.report import contact_text, measure_contact
 
@@ -148,7 +142,6 @@ def _contact(folder: Path, options: BenchOptions, progress: Progress) -> Measure
 
 
 def _skip(folder: Path, options: BenchOptions, progress: Progress) -> Measured:
-    """Walks with and without skipping."""
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.bench.skipping import SCENES, measure_skipping, skip_text
 

@@ -126,7 +126,6 @@ def compare_skipping(
 
 
 def _cpu_time(scene: Scene, seed: int, record: Path | None = None) -> float:
-    """CPU time in s of a run, without building its world."""
     simulation = Simulation(scene, seed)
     start = time.process_time()
     simulation.run(record=record)

@@ -265,7 +265,6 @@ def _body(model: Any, link: str) -> int:
 
 
 def _separate(model: Any, skinned: list[int], obstacles: list[int]) -> None:
-    """Switch off contacts between obstacles and links with skin alone."""
     touchable = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
     solid = [g for g in obstacles if touchable[g]]
     others = touchable & ~np.isin(model.geom_bodyid, skinned)

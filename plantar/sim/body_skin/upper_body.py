@@ -93,7 +93,6 @@ def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.floa
 
 
 def _corners(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
-    """Points (n, 3) in the world whose box is a shape's."""
     rotation, place = data.geom_xmat[geom].reshape(3, 3), data.geom_xpos[geom]
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
         mesh = int(model.geom_dataid[geom])

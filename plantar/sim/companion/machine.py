@@ -210,7 +210,6 @@ def _model_file(source: Mapping[str, Any], path: Path, where: str) -> Path:
 
 
 def _parsed(file: Path, where: str) -> Any:
-    """A model file as an `mujoco.MjSpec`."""
     if not is_file(file):
         raise RobotError(f"{where}: model file {file} does not exist")
     check_model(file, RobotError)  # MuJoCo would follow no matter what it names
@@ -223,7 +222,6 @@ def _parsed(file: Path, where: str) -> Any:
 
 
 def _compiled(machine: Machine, where: str) -> None:
-    """Compile a machine once, so that errors are reported when it is loaded."""
     try:
         machine.spec().compile()
     except ValueError as error:
@@ -231,7 +229,6 @@ def _compiled(machine: Machine, where: str) -> None:
 
 
 def _checked_base(base: BaseTable, spec: Any, where: str) -> BaseTable:
-    """Refuse a base that the model does not have."""
     where = f"{where}: [base]"
     bodies = [b.name for b in spec.bodies if b.name and b.name != "world"]
     if base.link and base.link not in bodies:
@@ -288,7 +285,6 @@ def _joints(source: Mapping[str, Any], spec: Any, where: str) -> dict[str, Joint
 
 
 def _patches(source: Mapping[str, Any], spec: Any, where: str) -> tuple[Mapping[str, Any], ...]:
-    """The patches' tables, with known links."""
     patches = source.get("patch", [])
     bodies = [b.name for b in spec.bodies if b.name and b.name != "world"]
     if not isinstance(patches, list) or not all(isinstance(p, Mapping) for p in patches):

@@ -141,7 +141,6 @@ class Companion(Run):
 
 
 def _misjudge(model: Any, share: float, seed: int) -> None:
-    """Change the masses of the controller's model, each by its own share."""
     if share:
         factors = 1.0 + np.clip(np.random.default_rng([seed, 0x3A55]).normal(0.0, share, model.nbody), -0.9, 0.9)
         model.body_mass[:] *= factors
@@ -150,7 +149,6 @@ def _misjudge(model: Any, share: float, seed: int) -> None:
 
 
 def _build(machine: Machine, alone: Any, add_to: Callable[[Any], None]) -> World:
-    """Compile the machine with the experiment's surroundings, and find its coordinates again."""
     spec = machine.spec()
     add_looks(spec, machine.base.link)
     add_to(spec)

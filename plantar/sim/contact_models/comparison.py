@@ -291,7 +291,6 @@ def _on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None)
 
 
 def _run_times(soles: Sequence[Sole], layout: SoleLayout, count: int = 300) -> list[dict[str, Any]]:
-    """Median times in us of a physics step and of a taxel reading in full-sole stance."""
     middle, half = _rectangle(layout)
     rigs = [Rig(sole, layout) for sole in soles]
     for rig in rigs:
@@ -313,7 +312,6 @@ def _run_times(soles: Sequence[Sole], layout: SoleLayout, count: int = 300) -> l
 
 
 def _rectangle(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Middle (2,) and half sizes (2,) in m of the outline's bounding rectangle."""
     low, high = layout.outline.min(axis=0), layout.outline.max(axis=0)
     return 0.5 * (low + high), 0.5 * (high - low)
 

@@ -94,7 +94,6 @@ def _reader(candidate: Candidate, model: Any, layout: SoleLayout, geoms: frozens
 
 
 def _tactile(candidate: Candidate, model: Any, layout: SoleLayout, geoms: frozenset[int]) -> Reader:
-    """The tactile sensor's depths, scaled to the normal force or to the whole wrench."""
     n, site = len(layout), model.site("left_sole").id
 
     def read(data: Any) -> NDArray[np.float64]:
@@ -126,7 +125,6 @@ def _fitted(depth: NDArray[np.float64], layout: SoleLayout, wrench: NDArray[np.f
 
 
 def _by_contact(candidate: Candidate, model: Any, layout: SoleLayout, geoms: frozenset[int]) -> Reader:
-    """The normal forces on each taxel's own geoms."""
     n, site = len(layout), model.site("left_sole").id
     owner = np.zeros(model.ngeom, dtype=np.int64)
     for i in geoms:

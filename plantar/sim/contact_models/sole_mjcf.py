@@ -49,7 +49,6 @@ def _box(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
 
 
 def _box_with_tactile_sensor(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
-    """One box, and MuJoCo's tactile sensor at the taxels."""
     points = _numbers(np.column_stack([layout.positions[:, :2], np.zeros(len(layout))]))
     faces = " ".join(str(int(v)) for v in _triangles(layout.positions[:, :2]).ravel())
     mesh = f'<mesh name="taxels" inertia="shell" vertex="{points}" face="{faces}"/>'

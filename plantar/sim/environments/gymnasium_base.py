@@ -10,8 +10,6 @@ __all__ = ["Env", "ObservationWrapper", "spaces"]
 
 
 class _Missing:
-    """Stands in for a class of Gymnasium; raises the line that installs it."""
-
     def __new__(cls, *_: Any, **__: Any) -> _Missing:
         need_libraries("gym", "gymnasium")
         return super().__new__(cls)

@@ -202,7 +202,6 @@ class DrawnRun:
         return out
 
     def _footsteps(self, plan: PlanView, step: int) -> Template:
-        """The planned footsteps from the current one on, with their numbers."""
         last = plan.first + len(plan.steps)
         chosen = range(max(plan.first, step - _BEHIND), min(last, step + _AHEAD + 1))
         wanted = [(k, plan.foothold(k)) for k in chosen]

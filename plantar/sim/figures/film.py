@@ -32,8 +32,6 @@ _LINES, _INK = 4, (40, 40, 40)  # patches whose force is written, and in which c
 
 
 class _Filmed:
-    """A camera that follows a body, and the file of its pictures; a context manager."""
-
     def __init__(self, path: str | os.PathLike[str], model: Any, body: int, **shown: Any) -> None:
         self._writer = VideoWriter(path)
         self._camera = Camera(model, body, _WIDTH, _HEIGHT, fast=True, **shown)
@@ -72,7 +70,6 @@ class Film(_Filmed):
         self._writer.add(picture)
 
     def _draw_forces(self, picture: NDArray[np.uint8], readings: Mapping[Side, Reading]) -> None:
-        """The force on each sole as an arrow from its CoP upwards, over the legs."""
         world, cv2 = self._world, opencv()
         for side, reading in readings.items():
             force = np.nan_to_num(reading.force)
@@ -120,7 +117,6 @@ class BodyFilm(_Filmed):
         self._writer.add(picture)
 
     def _write_loads(self, picture: NDArray[np.uint8]) -> None:
-        """The forces on the pressed patches, the largest first."""
         cv2, skin = opencv(), self._skin.skin
         loads = {p.name: float(self._skin.force[skin.slices[p.name]].sum()) / self._weight for p in skin.patches}
         most = sorted(loads.items(), key=lambda load: -load[1])[:_LINES]

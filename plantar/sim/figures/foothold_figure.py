@@ -86,7 +86,6 @@ def _draw_trajectories(plane: Any, run: Recording, view: _View) -> None:
 
 
 def _draw_time(axis: Any, run: Recording, view: _View) -> None:
-    """ZMP across the walk over time, with the range of each stance's support."""
     along = view.plane.turn[1]
     zmp, wanted = run.values("/truth/body", "zmp")[:, along], run.values("/reference", "zmp_desired")[:, along]
     clock = run.topics["/reference"].time

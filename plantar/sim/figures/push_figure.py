@@ -103,7 +103,6 @@ def draw_strides(run: Recording) -> Any:
 
 
 def _draw_body(axis: Any, run: Recording, i: int) -> None:
-    """DCM and CoM over time along an axis, and the standing feet."""
     time = run.topics["/truth/body"].time
     axis.plot(time, run.values("/estimate", "dcm")[:, i], color=COLOURS["active"], lw=1.0, label="DCM")
     axis.plot(time, run.values("/truth/body", "com")[:, i], color=COLOURS["polygon"], lw=1.4, label="CoM")
@@ -133,7 +132,6 @@ def _draw_footholds(axis: Any, run: Recording, side: Any, begin: float, end: flo
 
 
 def _draw_force(axis: Any, run: Recording, i: int) -> None:
-    """Measured and true skin force along an axis, on a separate scale."""
     touch = run.topics["/touch"]
     other = axis.twinx()
     other.fill_between(touch.time, touch.fields["felt"][:, i], color=COLOURS["active"], alpha=0.45, lw=0)

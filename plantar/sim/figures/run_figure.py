@@ -75,7 +75,6 @@ def _balance(run: Recording) -> Any:
 
 
 def _plane(run: Recording) -> Any:
-    """The walk from above, its longer direction to the right."""
     rings = [(side, ring) for side in SIDES for ring in _footholds(run, side)]
     lines = (
         ("/truth/body", "zmp", "truth", 0.7, "ZMP true"),

@@ -47,7 +47,6 @@ class SoleInset:
         self._past: deque[tuple[float, tuple[float, ...]]] = deque()
 
     def _pixels(self, side: Side, points: NDArray[np.float64]) -> NDArray[np.int32]:
-        """Pixels (m, 2) of points (m, 2) of a sole in m."""
         left, inner = self._left[side]
         x = left + self._scale * (inner - points[:, 1])
         y = self._margin + self._scale * (self._toe - points[:, 0])
@@ -86,7 +85,6 @@ class SoleInset:
         self._cv2.putText(inset, text, (x, y), font, size, colour, 1, self._cv2.LINE_AA)
 
     def _draw_forces(self, inset: NDArray[np.uint8], time: float, totals: tuple[float, ...]) -> None:
-        """The forces of the last seconds; the line across is the weight."""
         past = self._past
         past.append((time, totals))
         while past[0][0] < time - _SECONDS:

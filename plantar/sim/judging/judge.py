@@ -115,7 +115,6 @@ class Judge:
         )
 
     def _time_of(self, step: int) -> float:
-        """Time in s at which a physics step, counted from 1, began."""
         return self._start + (step - 1) * self.world.period
 
     @property

@@ -76,7 +76,6 @@ def _ways(
     steps: Sequence[Footstep],
     start: Callable[[Side], Side],
 ) -> Iterator[Stride]:
-    """The way of each step from where one of the feet stands, by the side of the step."""
     planned = dict(feet)
     true = {side: (foot.x, foot.y) for side, foot in feet.items()}
     for stand, step in zip(stands, steps, strict=False):

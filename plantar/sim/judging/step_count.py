@@ -162,7 +162,6 @@ class StepCount:
 
 
 def _turn(angle: float) -> float:
-    """An angle in rad from -pi to pi."""
     return math.remainder(angle, 2.0 * math.pi)
 
 

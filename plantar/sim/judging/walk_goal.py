@@ -80,7 +80,6 @@ class WalkGoal:
         self._way = self._ways()
 
     def _ways(self) -> list[float]:
-        """How far in m the middle between the feet is planned to have moved with each step."""
         standing, ways, way = dict(self._feet), [], 0.0
         for step in self.steps:
             before = standing[step.side]
@@ -131,7 +130,6 @@ class WalkGoal:
         return planned, _way(begin, self._place(step, time))
 
     def _before(self, step: int) -> Footstep:
-        """The foothold before a step, as planned at the start."""
         return self.steps[step - 1] if step else self._feet[other_side(self.steps[0].side)]
 
     def _last_move(self, step: int, time: float) -> _Move | None:

@@ -253,7 +253,6 @@ def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float, da
 
 
 def _servos_of(model: Any, robot: Robot, names: Sequence[str], ids: Sequence[int]) -> NDArray[np.int64]:
-    """The actuator of each joint; a RobotError for a joint without one."""
     servo_of = {int(model.actuator_trnid[a, 0]): a for a in range(model.nu)}
     missing = [n for n, i in zip(names, ids, strict=True) if i not in servo_of]
     if missing:

@@ -179,7 +179,6 @@ class HandPushes:
         return {"height_above_base_m": round(self.height, 4), "pushes": rows}
 
     def _follow(self, push: HandPush | None, time: float, period: float, skin: SkinSensor, frame: _Frame) -> None:
-        """Add up the skin's impulse, for the push that comes or else for the one before."""
         if push is None or time < push.when() - _APPROACH * self._body.beat:
             if not self._next:
                 return
@@ -202,15 +201,12 @@ class HandPushes:
         return all(self._force(push, face, time) is None for face in push.shares())
 
     def _target(self, frame: _Frame, face: str, distance: float, force: float | None = None) -> HandTarget:
-        """Wanted place of a hand: over the middle of its face, some distance in m away."""
         point, velocity = frame.point(np.array([*self._middles[face], self.height]))
         inward = frame.inward(face)
         return HandTarget(point - distance * inward, velocity, frame.yaw, inward, force)
 
 
 class _Frame:
-    """Place and motion of the base at an instant; `yaw` in rad."""
-
     def __init__(self, data: Any, base: int) -> None:
         self._data, self._base = data, base
         self._rotation = data.xmat[base].reshape(3, 3)

@@ -213,7 +213,6 @@ def drawn_plant(
 
 
 def _value(plant: Plant, name: str, seed: int) -> Any:
-    """One item: stated, or drawn."""
     stated = getattr(plant, name)
     if stated != RANDOM:
         return np.array(plant.vector(name)) if isinstance(stated, tuple) else stated

@@ -108,7 +108,6 @@ class Plant(Settings):
 
     @classmethod
     def _drawn_by(cls, draw: Any) -> tuple[str, ...]:
-        """Names of the items that a value of `draw` draws."""
         if draw == EVERYTHING:
             return cls.items()
         return cls.items()[: cls.items().index(_LAST_OF_CARE) + 1] if draw == RANDOM else ()

@@ -88,7 +88,6 @@ def hand_pushes(
 
 
 def _pushed_steps(push: Push, schedule: WalkSchedule, rng: np.random.Generator) -> list[tuple[int, float]]:
-    """Steps with pushes, each with its share of the impulse."""
     if push.count:
         raise SceneError("[push] count is for pushes by a force; allowed: 0 with push.by = 'hands'")
 

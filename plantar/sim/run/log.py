@@ -112,7 +112,6 @@ class RunLog:
             self._zmps.write(time, np.concatenate(row))
 
     def _footholds(self, time: float, command: Command) -> None:
-        """Record the found footholds; polygons end with NaN."""
         for found in command.footholds:
             row = np.full(5 + 2 * MOST_VERTICES, np.nan)
             row[:5] = found.step, SIDES.index(found.side), found.area_ratio, *found.vrp
@@ -181,7 +180,6 @@ class RunLog:
             self._guides.write(time, np.concatenate([guide.position(w), guide.held(w)[0], along]))
 
     def _record_touch(self, touch: Touch, sensors: Sensors, command: Command) -> None:
-        """Record true and measured force on the skin, world frame, the commanded feet, and the partner."""
         measured = np.full(3, np.nan)
         if sensors.skin is not None:
             skin, world = touch.sensor.skin, self._world

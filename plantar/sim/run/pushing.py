@@ -104,7 +104,6 @@ def direction_of(push: Push, seed: int) -> tuple[float, float]:
 
 
 def _refuse_unused(push: Push) -> None:
-    """Refuse settings of hands."""
     alone = {"direction": push.direction == "step", "cycle": push.cycle >= 0.0, "repeat": push.repeat > 1}
     alone |= {"with_swing": push.with_swing}
     alone |= {"small": push.small > 0.0, "place": push.place != "height", "verdict": push.verdict != "walk"}
@@ -114,7 +113,6 @@ def _refuse_unused(push: Push) -> None:
 
 
 def _while_standing(push: Push, schedule: WalkSchedule, rng: np.random.Generator) -> tuple[Shove, ...]:
-    """Pushes at equal intervals on a robot that takes no step."""
     if schedule.steps:
         raise SceneError(f"[push] count is {push.count}; allowed: 0 in a walk of {schedule.steps} steps")
     needed = _FIRST + push.count * push.interval

@@ -121,7 +121,6 @@ def _of_landings(run: FinishedRun) -> dict[str, list[Any]]:
 def _end(
     run: FinishedRun, result: Result, count: Count, balance: dict[str, Any]
 ) -> tuple[dict[str, float], list[dict[str, Any]]]:
-    """Where and how the run ended, and the criteria that failed."""
     world, judge = run.world, run.judge
     ends = [judge.goal.end(run.centers, at_start=at_start) for at_start in (False, True)]
     position, yaw = _final_error(run, ends if run.speeds is None else [run.speeds.course])
@@ -157,7 +156,6 @@ def _end(
 
 
 def _of_parts(run: FinishedRun, balance: dict[str, Any]) -> dict[str, Any]:
-    """Figures that only some scenes have."""
     found: dict[str, Any] = {}
     if run.plant is not None:
         found["plant"] = run.plant.summary()

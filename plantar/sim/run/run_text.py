@@ -69,7 +69,6 @@ def _outcome(summary: Summary) -> list[str]:
 
 
 def _figures(summary: Summary) -> list[str]:
-    """The figures of an experiment, with the units that their names end in."""
     return [f"  {_named(name, value)}" for name, value in summary.items() if name not in _COMMON]
 
 
@@ -88,7 +87,6 @@ def _value(value: Any) -> str:
 
 
 def _shares(summary: Summary) -> list[str]:
-    """The scene's shares of a body in numbers of this robot."""
     shares = {name: share for name, share in summary["shares"].items() if name.startswith(_SHOWN)}
     parts = [f"{name} {x['value']:.3g} {x['unit']} ({x['share']})" for name, x in shares.items()]
     body = summary["body"]
@@ -97,7 +95,6 @@ def _shares(summary: Summary) -> list[str]:
 
 
 def _plant(summary: Summary) -> list[str]:
-    """In what the true plant differed from the controller's model."""
     parts = []
     for key, value in summary.get("plant", {}).items():
         ending = next((e for e in _UNITS if key.endswith(e)), "")
@@ -161,7 +158,6 @@ def _joints(summary: Summary) -> list[str]:
 
 
 def _balance(summary: Summary) -> list[str]:
-    """Pushes that were recovered from, and the skin's ZMP against that of the ankles."""
     balance = summary.get("balance", {})
     lines = []
     if balance.get("pushes"):

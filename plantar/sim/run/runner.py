@@ -116,7 +116,6 @@ class Simulation(Run):
         self._add_judges()
 
     def _enter_world(self, skin: BodySkin | None) -> None:
-        """Build the world, and put the robot on its feet, with sensors, servos and partners."""
         scene, seed = self.scene, self.seed
         worn = () if self.worn is None else (self.worn,)
         self.touched: Touched | None = None
@@ -267,7 +266,6 @@ class Simulation(Run):
             self._log.zmps(reading.time, *self.zmps.latest)
 
     def _judge_tick(self, reading: Sensors, command: Command) -> None:
-        """Hand the tick's estimates and commands to all judges."""
         judge, time = self.judge, reading.time
         if command.footholds:
             self.foothold_truth.update(command.footholds)

@@ -149,7 +149,6 @@ class Touched:
         return found
 
     def _pushes(self) -> list[Pushed]:
-        """The pushes by hands that came, for the judge."""
         if self.hands is None:
             return []
         full = (1.0 - 1e-9) * self._scene.push.strength

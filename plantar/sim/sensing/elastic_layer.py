@@ -234,5 +234,4 @@ class LayerContact:
 
 
 def _solved(matrix: NDArray[np.float64], sides: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Solution (n, k) of a positive definite system."""
     return np.asarray(dposv(matrix, sides, lower=1)[1])

@@ -70,7 +70,6 @@ class _Patch:
         self._squares = self._taxels = np.empty((0, 3))  # what squares and taxels carry of a load (1, x, y)
 
     def forces(self, load: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Taxel forces of a load (1, x, y) within reach."""
         if self._on is not None and float((self._squares @ load).min()) >= -_STAYS:
             return np.asarray(self._taxels @ load)
         pressed = self.contact.press(load, start=self._on)
@@ -191,7 +190,6 @@ class ElasticPressure:
         return _Squares(CellCutter.of_polygons(rings), square, taxel[kept], side, centers, compliance)
 
     def _make_patch(self, points: NDArray[np.float64]) -> _Patch | None:
-        """The squares that a patch covers; None where it lies on the bare rim."""
         squares = self._squares
         polygon, lines = patch_polygon(points, self.rubber)
         measure = squares.cutter.cut(lines)[0]

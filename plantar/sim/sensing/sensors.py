@@ -156,7 +156,6 @@ def _dead_taxels(count: int, share: float, chance: np.random.Generator) -> list[
 
 
 def _skin(world: World, sensing: Sensing, side: Side, foam: float) -> SoleSkin:
-    """The noise-free skin of one sole under so much foam in m more than its rubber."""
     geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
     site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole + foam
     layer = sensing.layer + foam if sensing.taxels == "elastic" else None
@@ -173,7 +172,6 @@ def _skin(world: World, sensing: Sensing, side: Side, foam: float) -> SoleSkin:
 
 
 def _errors(world: World, plant: TruePlant | None, side: Side) -> TaxelErrors | None:
-    """What the taxels of one sole make of the forces on them."""
     if plant is None:
         return None
     return TaxelErrors(world.robot.layouts[side], plant, side)

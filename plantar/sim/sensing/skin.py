@@ -149,7 +149,6 @@ class SoleSkin:
         return read
 
     def _look_in(self, data: Any) -> None:
-        """Express contacts in the sole's frame."""
         self._data = data
         self._in_sole.look_from(data.site_xpos[self.site_id], data.site_xmat[self.site_id].reshape(3, 3))
 

@@ -146,7 +146,6 @@ class SolePressure:
         )
 
     def _within_cells(self, polygon: NDArray[np.float64]) -> float:
-        """Area in m^2 of a patch that the cells cover together."""
         if self._hull is None:
             return polygon_area(polygon)
         import shapely

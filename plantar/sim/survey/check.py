@@ -105,8 +105,6 @@ def check_robot(file: str | os.PathLike[str], scene: str) -> RobotCheck:
 
 
 class _Checked:
-    """A robot while it is checked."""
-
     def __init__(self, robot: Robot, scene: Scene) -> None:
         self.robot = robot
         self.legs: LegModel = build_leg_model(robot)
@@ -141,7 +139,6 @@ class _Checked:
         )
 
     def _planned(self, count: int, share: float) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
-        """So many footsteps of a share of the scene's length, and the feet before."""
         walk = self.scene.walk
         return straight_plan(
             count,
@@ -152,7 +149,6 @@ class _Checked:
         )
 
     def _reach(self, reach: PlanReach, stands: float) -> list[Finding]:
-        """Whether the legs reach the plan."""
         holds = max(reach.missed, stands) <= _MISSED and reach.knee >= _BENT
         bend = math.degrees(reach.knee)
         text = f"the straightest knee is bent by {bend:.0f} degrees {reach.straightest:.1f} s into the walk"
@@ -203,7 +199,6 @@ class _Checked:
         return None
 
     def _working_length(self) -> str:
-        """Length of steps that the legs reach at their height, in words."""
         walk = self.scene.walk
         for share in (0.8, 0.6, 0.4, 0.2):
             feet, plan = self._planned(len(self.walked.steps), share)
@@ -350,7 +345,6 @@ class _Checked:
 
 
 def _foot_parts(model: Any, name: str, site: str) -> set[int]:
-    """Ids of the bodies that move with a foot, without its shoe."""
     foot, shoe = model.body(name).id, int(model.site(site).bodyid[0])
     top = int(model.body_weldid[foot])
     return {b for b in range(model.nbody) if int(model.body_weldid[b]) == top and b != shoe}

@@ -248,7 +248,6 @@ def _balance(body: BodyScale) -> dict[str, Any]:
 
 
 def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
-    """Legs with their knees bent forward, from the model's own posture."""
     model = legs.model
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -286,7 +285,6 @@ def stance_width(robot: Robot, legs: LegModel) -> float:
 
 
 def _seed_height(robot: Robot, legs: LegModel) -> float:
-    """Height in m of the CoM above the soles in the robot's posture."""
     posture = legs.posture(np.array([*robot.posture["left"], *robot.posture["right"]]))
     return float(posture.com[2] - np.mean([posture.positions[s][2] for s in SIDES]))
 
@@ -348,8 +346,6 @@ def _other_paces(found: _Tried, legs: LegModel, heights: Array) -> _Tried:
 
 @dataclass(frozen=True)
 class _Tried:
-    """A walk that the legs reach, and its cost over the best possible."""
-
     cost: float
     paid: float
     robot: Robot
@@ -358,7 +354,6 @@ class _Tried:
 
 
 def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
-    """The robot at other stances and leans with their costs, cheapest first."""
     outline = robot.layouts["left"].outline[:, 1]
     least = -2.0 * float(outline.min()) + _GAP * float(np.ptp(outline))
     widths = [robot.stance_width]
@@ -394,7 +389,6 @@ def _least(
 
 
 def _tried(robot: Robot, legs: LegModel, body: BodyScale, height: float, paid: float) -> _Tried | None:
-    """A walk at a height in m of the CoM, or None where the legs do not reach it."""
     robot = replace(_paced(robot, height, robot.pace), com_height=math.floor(1e4 * height) / 1e4)
     reach = plan_reach(robot, legs, straight_walk(robot, body, robot.com_height, _QUICK_STEPS), _bears)
     if not _bears(reach.missed, reach.knee, reach.spare):
@@ -421,7 +415,6 @@ def _refined(best: _Tried, legs: LegModel) -> _Tried:
 
 
 def _nearest(robot: Robot, legs: LegModel, body: BodyScale, seed: float) -> str:
-    """The limit that is missed by least, and by how much."""
     short = replace(body, leg=_SHORTER[-1] * body.leg)
     found = []
     for height in seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -2.0 * _LOWER):
@@ -480,7 +473,6 @@ def _approach_support(robot: Robot, legs: LegModel, body: BodyScale) -> float:
 
 
 def _ankle(robot: Robot, legs: LegModel) -> int:
-    """Which joint of a leg pitches the foot."""
     pitching = pitching_joints(robot, "left", legs.model, stood(robot, legs.model))
     return [legs.model.joint(name).id for name in robot.legs["left"].joints].index(pitching[-1])
 

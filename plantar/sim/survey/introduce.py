@@ -181,7 +181,6 @@ def _fitted(draft: Robot, gains: Sequence[tuple[float, float]]) -> FittedGait:
 
 
 def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: str) -> Robot:
-    """The robot with its names, soles and limits, before its walk is found."""
     joints = {s: tuple(survey.joint_names(s)) for s in SIDES}
     thickness = shoes.thickness
     layouts = {s: read_layout(folder / f"layout_{s}.json") for s in SIDES}
@@ -235,7 +234,6 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
 
 
 def _copy_licences(model: Path, folder: Path) -> None:
-    """The model's licence goes with the copy."""
     for place in (model.parent, model.parent.parent):
         found = [p for pattern in _LICENCES for p in sorted(place.glob(pattern)) if p.is_file()]
         for licence in found:

@@ -95,7 +95,6 @@ class _Tree:
                 self.points[i] = np.concatenate([geom_triangles(model, data, g).reshape(-1, 3) for g in shapes])
 
     def chain(self, link: int) -> list[int]:
-        """A link and its ancestors, without the world."""
         found = []
         while link > 0:
             found.append(link)
@@ -103,7 +102,6 @@ class _Tree:
         return found
 
     def joints(self, link: int) -> list[int]:
-        """Joints between a link and its parent, without a free one."""
         first, count = int(self.model.body_jntadr[link]), int(self.model.body_jntnum[link])
         return [j for j in range(first, first + count) if self.model.jnt_type[j] != mujoco.mjtJoint.mjJNT_FREE]
 
@@ -114,7 +112,6 @@ class _Tree:
         return [i for i in self.links if link in self.chain(i)]
 
     def pelvis(self, pair: tuple[list[int], list[int]]) -> int:
-        """The body that both chains hang on, or the robot's first body."""
         top = self.above[pair[0][0]]
         if top > 0:
             return top
@@ -161,7 +158,6 @@ def _axis_name(axis: Array) -> str:
 
 
 def _pair(tree: _Tree, up: Array, where: str) -> tuple[list[int], list[int]]:
-    """Links of the two legs from hip to lowest end."""
     height = {i: float((p @ up).min()) for i, p in tree.points.items()}
     top = max(float((p @ up).max()) for p in tree.points.values())
     ends = sorted((i for i in height if len(tree.hinges(tree.chain(i))) >= LEAST_JOINTS), key=height.__getitem__)

@@ -85,7 +85,6 @@ class _Copy:
         self.positions, self.rotations = data.xpos, data.xmat.reshape(-1, 3, 3)
 
     def written(self, name: str, imu: tuple[str, str, str] | None) -> str:
-        """Write it; returns the name of the body that is kept upright."""
         model, legs = self.model, self.legs
         root = Element("mujoco", model=name)
         SubElement(root, "compiler", angle="radian", autolimits="true", meshdir=MESH_FOLDER, balanceinertia="true")
@@ -114,7 +113,6 @@ class _Copy:
         return str(upright)
 
     def _top(self) -> int:
-        """The first body of the robot: below the world, above both legs."""
         body = self.legs.pelvis
         while self.model.body_parentid[body] > 0:
             body = int(self.model.body_parentid[body])
@@ -194,7 +192,6 @@ class _Copy:
         SubElement(element, "geom", attributes)
 
     def _mesh(self, mesh: int, whole: bool) -> str:
-        """File of a mesh; one that is not of a foot is simplified."""
         if mesh not in self.meshes:
             model = self.model
             first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])

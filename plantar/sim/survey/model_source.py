@@ -74,8 +74,6 @@ class ModelSource:
 
 @dataclass
 class _Stated:
-    """Statements of a file, collected before they are removed from the model."""
-
     efforts: dict[str, float] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
     gains: dict[str, tuple[float, float]] = field(default_factory=dict)
@@ -197,7 +195,6 @@ def _number(text: str | None) -> float:
 
 
 def _name_all(spec: Any) -> None:
-    """Give every body and joint a name."""
     for kind, elements in (("body", spec.bodies), ("joint", spec.joints)):
         taken = {e.name for e in elements}
         for i, element in enumerate(elements):
@@ -224,7 +221,6 @@ def _joints_below(body: Any) -> list[Any]:
 
 
 def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> None:
-    """Take out textures, and meshes that cannot be read with their shapes."""
     for material in spec.materials:
         material.textures = [""] * len(material.textures)
     for part in ("textures", "skins", "hfields", "flexes"):
@@ -257,7 +253,6 @@ def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> N
 
 
 def _is_empty(geom: Any) -> bool:
-    """Whether a simple shape has a size of 0, which marks a place and MuJoCo refuses."""
     sizes = _SIZES.get(mujoco.mjtGeom(geom.type), 0)
     if sizes == 2 and math.isfinite(geom.fromto[0]):
         sizes = 1
@@ -270,7 +265,6 @@ def _first_keyframe(spec: Any) -> NDArray[np.float64] | None:
 
 
 def _angles_of(model: Any, qpos: NDArray[np.float64] | None) -> dict[str, float]:
-    """Angles of the hinges in a keyframe by name; empty where it is of another model."""
     if qpos is None or len(qpos) != model.nq or not np.isfinite(qpos).all():
         return {}
     hinges = [i for i in range(model.njnt) if model.jnt_type[i] == mujoco.mjtJoint.mjJNT_HINGE]

@@ -133,8 +133,6 @@ def plan_reach(
 
 
 class _Pass:
-    """The state of a pass through a walk."""
-
     def __init__(self, robot: Robot, legs: LegModel, walked: Walked) -> None:
         self.legs, self.walked = legs, walked
         self.middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
@@ -153,7 +151,6 @@ class _Pass:
         self.centre = 0.5 * (walked.feet["left"].y + walked.feet["right"].y)
 
     def look(self, time: float) -> None:
-        """Solve for the legs at an instant in s, and note their demands."""
         walked, legs, feet = self.walked, self.legs, self.feet
         phase, reference = self.plan.schedule.at(time), self.plan.at(time)
         for foot in walked.steps[: phase.step]:
@@ -201,7 +198,6 @@ class _Pass:
         )
 
     def broken_off(self) -> PlanReach:
-        """The demands so far of a walk that the legs do not bear."""
         never = np.full(len(self.spare), math.inf)
         spare = self.spare if self.missed < _HOPELESS else -never
         return PlanReach(self.missed, self.knee, self.straightest, spare, never, never, math.pi)
@@ -216,7 +212,6 @@ class _Pass:
 
 
 def _shares(vrp: Array, feet: Mapping[Side, Footstep], middles: Mapping[Side, Array]) -> dict[Side, float]:
-    """Share of the load of each foot for a VRP between them."""
     left, right = (vrp_of_step(feet[s], middles[s]) for s in SIDES)
     along = left - right
     part = float(np.clip((vrp - right) @ along / max(float(along @ along), 1e-12), 0.0, 1.0))

@@ -57,7 +57,6 @@ def draw_robot(robot: Robot, path: Path) -> Path:
 
 
 def _bones(robot: Robot, world: World) -> list[Line]:
-    """Lines from joint to joint of each leg, for a model without shapes."""
     model, data = world.model, world.data
     chains = {s: [data.xanchor[model.joint(n).id].copy() for n in robot.legs[s].joints] for s in SIDES}
     ends = [(chains["left"][0], chains["right"][0])]

@@ -81,12 +81,10 @@ def _comment(text: str) -> list[str]:
 
 
 def _numbers(values: Iterable[float], digits: int) -> str:
-    """A list of numbers of so many significant digits."""
     return "[" + ", ".join(f"{float(v) + 0.0:.{digits}g}" for v in values) + "]"
 
 
 def _places(values: Iterable[float], decimals: int) -> str:
-    """A list of numbers of so many decimals."""
     return "[" + ", ".join(f"{round(float(v), decimals) + 0.0:.10g}" for v in values) + "]"
 
 
@@ -197,7 +195,6 @@ def _gait(fitted: FittedGait) -> list[str]:
 
 
 def _approaching(robot: Robot) -> list[str]:
-    """The time of a swing that comes down slowly, where it is not the usual one."""
     if not robot.approach_support:
         return []
     lines = _comment(
@@ -208,7 +205,6 @@ def _approaching(robot: Robot) -> list[str]:
 
 
 def _loaded(robot: Robot) -> list[str]:
-    """Where soles are loaded, and whether the robot rocks, where unusual."""
     lines = []
     if robot.ankle_reach < 1.0:
         lines += _comment("The ankles cannot bear the weight on the toes; no farther from them is the sole loaded:")
@@ -280,7 +276,6 @@ def _balance(fitted: FittedGait) -> list[str]:
 
 
 def _rocking() -> list[str]:
-    """Attitude estimation of a robot that rocks; see `plantar.gait.estimate.estimator`."""
     return [
         "[estimator]",
         *_comment("Feet that come down on an edge turn, which only the gyro shows: they correct the heading slowly."),
@@ -295,7 +290,6 @@ def _rocking() -> list[str]:
 
 
 def _landing() -> list[str]:
-    """How a foot lands; see `plantar.gait.feet.foot_motion`."""
     return [
         "[landing]",
         *_comment(

@@ -195,7 +195,6 @@ def _covered(triangles: Array) -> float:
 
 
 def _hull_area(points: Array) -> float:
-    """Area of the convex hull of points (n, 2) in m^2; 0 on a line."""
     try:
         return float(ConvexHull(points).volume)
     except (QhullError, ValueError):

@@ -149,7 +149,6 @@ def _collada_matrix(node: Element) -> NDArray[np.float64]:
 
 
 def _collada_shape(geometry: Element) -> Triangles:
-    """Triangles of a <geometry>: its <triangles>, <polylist> and <polygons>."""
     mesh = geometry.find("mesh")
     if mesh is None:
         return np.zeros((0, 3, 3))

@@ -106,7 +106,6 @@ def _refuse_odd_legs(source: ModelSource, legs: Legs) -> None:
 
 
 def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
-    """Legs closed to loops, which walk here as the tree of their joints."""
     model = source.model
     moved = {int(model.jnt_bodyid[j]) for leg in legs.by_side.values() for j in leg.joints}
 
@@ -122,7 +121,6 @@ def _loop_notes(source: ModelSource, legs: Legs) -> list[str]:
 
 
 def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]:
-    """Angles of held joints: of the first keyframe, else as in the file."""
     model = source.model
     hinges = {j for leg in legs.by_side.values() for j in leg.joints}
     held, outside = {}, []
@@ -147,7 +145,6 @@ def _held(source: ModelSource, legs: Legs) -> tuple[dict[str, float], list[str]]
 
 
 def _on_body(model: Any, legs: Legs, imu: tuple[str, str]) -> bool:
-    """Whether an IMU moves against the pelvis by held joints only."""
     kind, name = imu
     body = model.body(name).id if kind == "body" else int(model.site(name).bodyid[0])
     moved = {int(model.jnt_bodyid[j]) for leg in legs.by_side.values() for j in leg.joints}
@@ -162,7 +159,6 @@ def _lesser(limits: Mapping[str, float], pair: tuple[str, str]) -> float | None:
 
 
 def _coupled_notes(source: ModelSource, names: Mapping[Side, list[str]]) -> list[str]:
-    """Joints of the legs that one motor drives together: here each has its own."""
     legs = {n for side in SIDES for n in names[side]}
     return [
         f"'{follower}' follows '{leader}' in the model; here each is driven by itself"

@@ -100,7 +100,6 @@ class ClusterWorkers:
             self._client.close(timeout=_ANSWER)
 
     def _outcome(self, future: Any) -> list[tuple[Task, Row]]:
-        """Row of a task that ended, or None."""
         task = self._tasks[future]
         try:
             row: Row = future.result(timeout=_ANSWER)
@@ -122,7 +121,6 @@ class ClusterWorkers:
         return [(task, row)]
 
     def _check(self) -> None:
-        """Raise where no more rows can come."""
         now = time.monotonic()
         if self._error is not None:
             raise self._error

@@ -71,7 +71,6 @@ def bars_of(points: Sequence[Mapping[str, Any]], scene: str) -> Any:
 
 
 def _limits(plan: LimitSearch, limits: Sequence[Mapping[str, Any]], rows: Rows) -> Any:
-    """Outcomes along the setting, the likely curve, and the limit's interval; a row a grid point."""
     figure, axes = new_figure(7.0, 0.8 + 2.9 * len(limits), len(limits), squeeze=False)
     for axis, point, found in zip(axes[:, 0], plan.sweep.points(), limits, strict=True):
         keys = [key for key in plan.tried(point, rows) if not rows[key]["error"]]
@@ -111,7 +110,6 @@ def _groups(axis: Any, values: Any, completed: Any) -> None:
 
 
 def _numbers(texts: Sequence[str]) -> list[float] | None:
-    """Numbers of a setting's values, without a unit, or None."""
     try:
         return [float(text.split()[0]) for text in texts]
     except (ValueError, IndexError):
@@ -119,7 +117,6 @@ def _numbers(texts: Sequence[str]) -> list[float] | None:
 
 
 def _map(plan: Plan, rows: Rows) -> Any:
-    """Completed runs over the first two numeric settings, with Wilson's intervals in words."""
     axes = plan.checked.axes
     columns = [(name, _numbers([key[0][i] for key in rows])) for i, name in enumerate(axes)]
     numeric = [(name, np.array(found)) for name, found in columns if found and len(set(found)) > 1]
@@ -162,7 +159,6 @@ def _cells(values: Any) -> tuple[Any, list[str]]:
 
 
 def _distributions(points: Sequence[Mapping[str, Any]], rows: Rows, scene: str) -> Any:
-    """Every run's figures at each grid point with their median."""
     if 1.05 * len(points) >= _WIDEST or not rows:
         return None
     columns = [name for name in _SHOWN if any(row.get(name) for row in rows.values())]

@@ -79,7 +79,6 @@ def canonical(text: str, *, word: bool = False) -> str:
 
 
 def _parsed(text: str) -> Any:
-    """A text's TOML value, or None for a bare word."""
     try:
         return parse_toml(f"v = {text}")["v"]
     except ValueError:

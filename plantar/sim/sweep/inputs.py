@@ -98,7 +98,6 @@ def _files_of_model(model: Path) -> Iterator[tuple[str, Path]]:
 
 
 def _named_by(model: Path) -> dict[str, Path]:
-    """Files that an MJCF or URDF names, and what these name."""
     found: dict[str, Path] = {}
     folders = [model.parent]
     waiting = [model]

@@ -107,7 +107,6 @@ class LimitSearch:
         return limit_curve(*self._outcomes(keys, rows), self.limit.low, self.limit.high)
 
     def _outcomes(self, keys: Sequence[Key], rows: Rows) -> tuple[list[float], list[bool]]:
-        """The setting's value and whether it was completed, of each possible run."""
         ran = [key for key in keys if not rows[key]["error"]]
         return [self.limit.value(key[0][-1]) for key in ran], [rows[key]["completed"] == "True" for key in ran]
 
@@ -165,6 +164,5 @@ class LimitSearch:
 
 
 def _width(curve: LimitCurve) -> float:
-    """Width of the limit's interval as a share of the limit."""
     low, high = curve.interval_of_search
     return (high - low) / max(abs(curve.limit), 1e-12 * (high - low))

@@ -133,7 +133,6 @@ def _workers(count: int, scheduler: str | None) -> Iterator[Workers]:
 
 
 def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Iterator[tuple[Task, Row]]:
-    """Run tasks in the available room until all have given their rows or a signal comes."""
     running, more = 0, True
     while not note.number:
         while more and pool.room > 0:
@@ -152,5 +151,4 @@ def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Ite
 
 
 def _anywhere(name: str) -> str:
-    """A scene's or robot's name or file, valid in another folder."""
     return str(Path(name).absolute()) if Path(name).suffix == ".toml" else name

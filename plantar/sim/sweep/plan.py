@@ -199,7 +199,6 @@ class Sweep:
         }
 
     def _check_points(self) -> None:
-        """Load every point's scene and robot, and refuse two names for one point."""
         files: dict[str, str] = {}
         given = [s.partition("=")[0] for s in self.settings]
         seen: dict[str, str] = {}

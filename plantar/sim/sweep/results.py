@@ -73,7 +73,6 @@ class Results:
         os.close(self._handle)
 
     def _read(self, data: bytes, head: bytes) -> int:
-        """Read the whole rows and return how many bytes they are."""
         end = data.rfind(b"\n", 0, data.find(b"\0") if b"\0" in data else len(data)) + 1
         lines = data[:end].decode("utf-8-sig").split("\n")[:-1]
         csv.field_size_limit(max(csv.field_size_limit(), end))  # a long walk has a long row
@@ -134,7 +133,6 @@ def open_results(
 def _known_inputs(
     plan: Path, identity: Mapping[str, Any], inputs: Mapping[str, Mapping[str, str]]
 ) -> dict[str, dict[str, str]]:
-    """Inputs of the existing rows; refuses a table whose rows do not match the new ones."""
     before = read_json(plan, InputError, str(plan))
     folder = plan.parent
     other = f"{folder} holds the results of another sweep"

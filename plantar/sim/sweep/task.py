@@ -94,7 +94,6 @@ def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -
 
 
 def _of_walk(summary: Mapping[str, Any]) -> Row:
-    """Columns from tables of a walk's summary."""
     impacts = sorted(summary["impacts_N"])
     return {
         "impact_median_N": impacts[len(impacts) // 2] if impacts else "",
@@ -138,7 +137,6 @@ def run_task(task: Task) -> Row:
 
 
 def _check_inputs(task: Task) -> None:
-    """Refuse to run on other files or versions."""
     if task.inputs and task.robot is not None:
         try:
             what = changes(dict(task.inputs), inputs_of(task.scene, task.robot))

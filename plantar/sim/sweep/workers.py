@@ -126,8 +126,6 @@ class LocalWorkers:
 
 
 class _Worker:
-    """A process and its pipe, with its present `task` or None, and whether it is `ready`."""
-
     def __init__(self, run: Callable[[Task], Row]) -> None:
         context = get_context("spawn")
         self.connection, theirs = context.Pipe()
@@ -146,7 +144,6 @@ class _Worker:
             self.connection.send(task)
 
     def end(self) -> str:
-        """Close a dead process, and return how it ended."""
         self.connection.close()
         self.process.join(5.0)
         code = self.process.exitcode
@@ -157,7 +154,6 @@ class _Worker:
 
 
 def _serve(pipe: Any, run: Callable[[Task], Row]) -> None:
-    """Run tasks until the sweep closes the pipe or ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes of a terminal; the sweep ends this one
     _end_with_parent()
     os.environ["MUJOCO_GL"] = "disable"  # no pictures here; looking for a display starts a process that outlives a kill

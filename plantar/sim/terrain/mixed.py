@@ -72,7 +72,6 @@ class Mixed(Terrain):
         return stone_under(foot, feet, self.height + rise, self.depth + rise)
 
     def _beam(self, stone: Solid, foot: Footprint, rng: np.random.Generator) -> Solid:
-        """The part of a stone that a beam across the foot leaves."""
         away = float(rng.uniform(-1.0, 1.0)) * self.beam_offset
         forward = rotation_from_angles(foot.yaw)[:, 0]
         middle = np.array([*foot.center, stone.position[2]])

@@ -193,7 +193,6 @@ def overlapping(foot: Footprint, other: Footprint) -> bool:
 
 
 def _distinct(feet: PlannedFeet) -> list[Footprint]:
-    """Standing and stepped footprints, each place once."""
     found: list[Footprint] = []
     for foot in [*feet.standing.values(), *feet.steps]:
         if not any(same_place(foot, other) for other in found):

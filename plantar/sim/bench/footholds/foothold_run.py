@@ -110,7 +110,6 @@ def run_trial(make_policy: Any, trial: Trial, robot: str = "h1", seed: int = 0) 
 
 
 def _called(function: Any, argument: Any) -> Any:
-    """Result of a user's function; an error that it raises is named after it."""
     try:
         return function(argument)
     except Exception as problem:  # whatever the policy raises

@@ -180,7 +180,6 @@ def _bar(share: float, kind: str) -> str:
 
 
 def _bars_row(name: str, cells: Sequence[str], bars: Sequence[tuple[float, str]]) -> str:
-    """A row whose last cell has bars."""
     drawn = "".join(_bar(share, kind) for share, kind in bars)
     return row(name, cells).replace("</tr>", f'<td class="bars">{drawn}</td></tr>')
 

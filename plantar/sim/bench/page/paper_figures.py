@@ -117,7 +117,6 @@ def measure_papers(
 
 
 def _figure(name: str, summary: Mapping[str, Any]) -> float | None:
-    """A figure of a run by its name in the papers, or None."""
     impacts = summary["impacts_N"]
     match name:
         case "mean impact":

@@ -41,11 +41,9 @@ class _SpheresBelow:
         self._robot, self._count = robot, count
 
     def names(self, side: Side) -> list[str]:
-        """Names of one sole's spheres."""
         return [f"{side}_point_{i}" for i in range(self._count * len(self._robot.layouts[side]))]
 
     def add_to(self, spec: Any) -> None:
-        """Put them under the boxes, which no longer touch."""
         for side in SIDES:
             box, layout = spec.geom(f"{side}_sole_box"), self._robot.layouts[side]
             site = spec.site(self._robot.legs[side].sole_site)
@@ -100,7 +98,6 @@ class ChangedRun(Simulation):
 
 
 def _layouts(robot: Robot, ratio: float) -> dict[Side, SoleLayout]:
-    """The robot's soles with taxels of another area."""
     found = {}
     for side in SIDES:
         own = robot.layouts[side]

@@ -99,7 +99,6 @@ class SceneRuns:
         }
 
     def _traced(self, case: SceneCase, setting: SceneSetting, seed: int) -> tuple[dict[str, Any], Trace]:
-        """Cost and trace of a run without noise; kept for several comparisons."""
         key = (case, setting.name, seed)
         if key not in self._traces:
             self._traces = {k: v for k, v in self._traces.items() if k[0] == case and k[2] == seed}
@@ -138,7 +137,6 @@ def _key(row: dict[str, str]) -> tuple[str, ...]:
 
 
 def _jobs(case: SceneCase, settings: Sequence[SceneSetting], seeds: Sequence[int], traced: int) -> Iterator[_Job]:
-    """All runs of a walk: first those without noise, seed by seed, then those with."""
     references = list(dict.fromkeys(s.against for s in settings))
     for seed in seeds[:traced]:
         for setting in _of_seed(settings, seed == seeds[0]):

@@ -81,8 +81,6 @@ def _share(side: str, share: float) -> Callable[[Any], Any]:
 
 
 def _for(seconds: float, made: Callable[[], Fault]) -> Callable[[], Fault]:
-    """A fault that ends."""
-
     def limited() -> Fault:
         fault = made()
         return lambda s, t: fault(s, t) if t < seconds else s

@@ -46,13 +46,10 @@ class Outcome(NamedTuple):
     time: float
 
 
-class _Faulty(Exception):
-    """A forbidden command."""
+class _Faulty(Exception): ...
 
 
 class _StressedRun(Simulation):
-    """A simulation at its scenario's place, with its faults, whose commands are checked."""
-
     def __init__(self, scenario: Scenario, longest: float) -> None:
         self._place, self._longest = scenario.place, longest
         super().__init__(load_scene(scenario.scene, scenario.settings, scenario.robot), scenario.number)
@@ -118,7 +115,6 @@ def run_scenario(scenario: Scenario, longest: float = LONGEST) -> Outcome:
 
 
 def _described(error: Exception) -> str:
-    """An error with the line of the program that raised it."""
     last = traceback.extract_tb(error.__traceback__)[-1]
     own = [f for f in traceback.extract_tb(error.__traceback__) if "site-packages" not in f.filename]
     last = own[-1] if own else last

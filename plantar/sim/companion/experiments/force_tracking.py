@@ -155,7 +155,6 @@ class ForceTracking(Experiment):
         return found
 
     def _visits(self) -> list[Visit]:
-        """The person comes from either side or obliquely from behind."""
         corners = np.array(self.machine.base.footprint, dtype=float)
         half = np.abs(corners).max(axis=0)
         found = []
@@ -269,7 +268,6 @@ class ForceTracking(Experiment):
         return bool(0.0 < self.settings.contact <= time)
 
     def _counts(self, time: float) -> bool:
-        """Whether the force counts: the hand has landed."""
         return bool(time >= self.settings.contact + self.control.sigmoid + _SETTLING)
 
     def _disturbed(self, time: float) -> bool:

@@ -74,7 +74,6 @@ class Lean(StandingExperiment):
         self._trace: list[tuple[float, ...]] = []
 
     def _first_posture(self) -> NDArray[np.float64]:
-        """The right forearm is raised above the table."""
         qpos = super()._first_posture()
         names = list(self.machine.joints)
         for joint, angle in (("right_shoulder_pitch", -20.0), ("right_elbow", 130.0)):

@@ -73,8 +73,6 @@ class NociceptionControl(StandingControl):
 
 @dataclass
 class _Probe:
-    """One probe, and the true force at which the reflex came."""
-
     pad: Pad
     taxels: int
     begin: float
@@ -126,7 +124,6 @@ class Nociception(StandingExperiment):
         return self._control
 
     def _before(self, robot: MujocoDynamics, measured: SkinReading) -> None:
-        """Let the reflex choose the tasks."""
         control = self._control
         assert control is not None
         strongest = [float(np.linalg.norm(w.wrench[:3])) for w in self._pressure.wrenches(measured)]

@@ -67,8 +67,6 @@ class PressureControl(StandingControl):
 
 @dataclass
 class _Push:
-    """One probe: time of its largest force, and result."""
-
     pad: Pad
     begin: float
     end: float

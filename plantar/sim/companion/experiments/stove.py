@@ -123,7 +123,6 @@ class Stove(StandingExperiment):
         return self._control
 
     def _before(self, robot: MujocoDynamics, measured: SkinReading) -> None:
-        """Move the hand's target, and change the tasks smoothly when heat begins or ends."""
         self._hand.target_position = self._target(robot.time)
         silent = not self.control.temperature or not self._heat.wrenches(measured)
         if silent != self._silent:

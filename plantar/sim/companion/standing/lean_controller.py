@@ -144,7 +144,6 @@ class LeanController:
     def _split(
         self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-        """Share the task among joints, feet and forearm."""
         torque, carried = self._planned(robot, force, self._all.demand(robot, None))
         assert self._planned.last is not None
         self.wanted = float(self._planned.last.wrenches[ARM][2])
@@ -186,7 +185,6 @@ class LeanController:
             self._start_leaning(robot)
 
     def _start_leaning(self, robot: Any) -> None:
-        """From now on the forearm is a fixed contact."""
         s = self.settings
         self._posture.target = robot.joint_positions.copy()  # nothing turns back now that the forearm's angle is free
         origin, rotation = robot.pose(ARM)

@@ -96,7 +96,6 @@ class PressedExperiment(StandingExperiment):
     def _press(
         self, name: str, patches: Sequence[str], begin: float, hold: float, swell: float = 0.3
     ) -> PlannedContact:
-        """Plan a contact on one of some patches, with a random force and taxel, not between trunk and arms."""
         free = [p for p in patches if p not in ("torso_left", "torso_right")]
         patch = self.skin.patch(str(self.rng.choice(free)))
         kind = next(k for k in _SHARES if k in patch.name)
