@@ -14,7 +14,7 @@ from pathlib import Path
 from resumable import write_table
 
 from plantar.sim.bench.stress.fault_run import run_with_fault
-from plantar.sim.bench.stress.named_faults import FAULTS
+from plantar.sim.bench.stress.faults import FAULTS
 
 CASES = (
     ("h1 walks", "h1", True, True),

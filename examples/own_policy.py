@@ -32,7 +32,6 @@ def make_policy(task):
 
 
 if __name__ == "__main__":
-    from plantar.sim.bench.footholds.foothold_run import run_trial
-    from plantar.sim.bench.footholds.trials import TRIALS
+    from plantar.sim.bench.footholds.foothold_run import TRIALS, run_trial
 
     print(run_trial(make_policy, TRIALS[-1], "h1", seed=0))

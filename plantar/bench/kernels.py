@@ -241,7 +241,6 @@ def _best_known_at_any_angle(outline: Outline) -> float:
 
 
 def _area_inside(outline: Outline, corners: Array) -> float:
-    """Area in m^2 of a rectangle that shapely finds inside an outline, else 0."""
     parts = [shapely.Polygon(i[0], i[1:]) for i in outline.islands]
     outside = shapely.area(shapely.difference(shapely.Polygon(corners), shapely.union_all(parts)))
     return _size(corners) if outside < 1e-9 * _size(corners) else 0.0

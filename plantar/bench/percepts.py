@@ -82,7 +82,6 @@ def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
 
 
 def _tick(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
-    """What a tick needs of one foot, in one call."""
     t = walking_tick(layout, force, _AIM, OFFSET)
     return t.active, t.position_cop, t.wrench, t.support_area, t.centroid, abs(polygon.area(t.safe_polygon)), t.clamped
 
@@ -103,8 +102,6 @@ def _tick_of_percept(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
 
 
 class _Assembled:
-    """The same of one foot from shapely and numpy, with constants prepared."""
-
     def __init__(self, layout: SoleLayout) -> None:
         self.threshold = layout.force_threshold
         self.map = layout.wrench_map
@@ -131,7 +128,6 @@ class _Assembled:
 
 
 def _flat(results: Any) -> Array:
-    """All results in one row, each over the size that it has on a foot."""
     return np.concatenate(
         [
             np.atleast_1d(np.asarray(v, dtype=float)) / size
@@ -172,13 +168,11 @@ def _ticks_exact(feet: tuple[SoleLayout, ...], pairs: list[tuple[Array, Array]])
 
 
 def _columns(layout: SoleLayout) -> Array:
-    """Returns the wrench (n, 6) of 1 N on each taxel."""
     normal = layout.rotations[:, :, 2]
     return np.hstack([normal, np.cross(layout.positions, normal)])
 
 
 def _wrenches(feet: tuple[SoleLayout, ...], force: Array) -> list[Array]:
-    """Wrenches of both feet through the sole's kernel, every taxel active."""
     every = _EVERY
     return [layout.kernel.loads(part, every)[:6] for layout, part in zip(feet, (force[:51], force[51:]), strict=True)]
 

@@ -218,7 +218,6 @@ _MARKERS = {"5": "o", "20": "s", "51": "^", "dense": "D"}
 
 
 def _draw(path: Path, results: Sequence[Result]) -> None:
-    """Run time against error, a panel a kernel; ours in one colour, approximations hollow."""
     figure, axes = new_figure(13.0, 12.0, 3, 3, squeeze=False)
     for axis, kernel in zip(axes.reshape(-1), _PANELS, strict=True):
         marks = [

@@ -107,7 +107,6 @@ _CELL = 1e-5  # m^2: area of a cell at random
 
 @lru_cache(maxsize=4)
 def _lattice(cells: int) -> SoleLayout:
-    """A lattice of about so many hexagons, twice as long as wide."""
     half = 0.5 * math.sqrt(0.5 * cells * _CELL)
     return hex_layout([[-2 * half, -half], [2 * half, -half], [2 * half, half], [-2 * half, half]], cell_area=_CELL)
 

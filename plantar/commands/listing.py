@@ -54,7 +54,7 @@ def list_(
         found = settings_of_robot(name, robot)
         end_command({what: setting_rows(found)}, as_json, setting_text(found))
         return
-    from plantar.sim.run.listing import listed
+    from plantar.sim.run.setting_list import listed
 
     _print_names(what, listed(what), as_json)
 

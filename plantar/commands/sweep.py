@@ -61,7 +61,7 @@ def sweep(
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here; MuJoCo would look for a display
     need_libraries("sim", *LIBRARIES)
     from plantar.sim.sweep import SweepStopped, plan_from_texts, run_sweep
-    from plantar.sim.sweep.scheduler_address import network_note
+    from plantar.sim.sweep.cluster import network_note
     from plantar.sim.sweep.sweep_text import sweep_errors, sweep_text
 
     wanted = plan_from_texts(

@@ -14,11 +14,11 @@ from typer.testing import CliRunner
 
 from plantar import InputError, SoleLayout, cli, hex_layout
 from plantar.layouts.hex_lattice import HexLattice
-from plantar.sim.contact_models.candidate import CANDIDATES, Candidate
 from plantar.sim.contact_models.comparison import PLANE, ContactRow, Rig, compare_contact_models, full_stance, tip_over
 from plantar.sim.contact_models.parameters import study_contact_parameters
 from plantar.sim.contact_models.report import holds, write_contact_report
 from plantar.sim.contact_models.sole import build_sole
+from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Candidate
 
 OUTLINE = [[-0.125, -0.0775], [0.125, -0.0775], [0.125, 0.0775], [-0.125, 0.0775]]
 LAYOUT = hex_layout(OUTLINE)

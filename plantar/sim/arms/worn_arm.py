@@ -146,7 +146,6 @@ class WornArm:
         return spec.compile()
 
     def _lighten(self, chest: Any, base: str) -> None:
-        """Take the arm in the machine's posture out of the chest's mass, centre and inertia."""
         data = mujoco.MjData(self.model)
         data.qpos[:] = self._resting
         mujoco.mj_kinematics(self.model, data)

@@ -101,7 +101,7 @@ def _scenes(output: Path, options: BenchOptions, progress: Progress) -> Measured
 
 def _stress(output: Path, options: BenchOptions, progress: Progress) -> Measured:
     need_libraries("sim", *LIBRARIES)
-    from plantar.sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
+    from plantar.sim.bench.stress.stress_run import measure_stress, stress_loop_text
 
     result = measure_stress(output, options.scenarios, options.first, progress)
     failures = [f"{len(result['failures'])} of {options.scenarios} scenarios failed"] if result["failures"] else []

@@ -49,8 +49,6 @@ class SkinSensing(SkinElectronicsSettings):
 
 
 class _Patch(NamedTuple):
-    """A patch ready to cast rays: its taxels, its link, and its rays in the link's frame."""
-
     taxels: slice
     link: int
     body: int
@@ -148,7 +146,6 @@ class SkinSensor:
         data.xfrc_applied[self._touched] = 0.0
 
     def _feel(self, data: Any, patch: _Patch, obstacles: list[int]) -> None:
-        """Cast the rays of a patch against some obstacles, and press where they have sunk in."""
         rotation = data.xmat[patch.body].reshape(3, 3)
         starts = patch.starts @ rotation.T + data.xpos[patch.body]
         ways = patch.ways @ rotation.T
@@ -218,7 +215,6 @@ class _BroadPhase:
         self._bounds = np.square(bounds)
 
     def near(self, data: Any) -> list[tuple[int, list[int]]]:
-        """Patches and, for each, the obstacles near to it, by their places in the lists."""
         if not len(self._geoms):
             return []
         turned = data.xmat[self._bodies].reshape(-1, 3, 3) @ self._middles

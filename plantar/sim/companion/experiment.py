@@ -33,7 +33,7 @@ __all__ = [
     "World",
     "experiment_class",
     "experiment_names",
-    "failed",
+    "unmet",
 ]
 
 
@@ -80,7 +80,7 @@ class Verdict(NamedTuple):
     """What an experiment came to.
 
     Attributes:
-        reasons: Every criterion that failed, of `failed`.
+        reasons: Every criterion that unmet, of `unmet`.
         figures: The experiment's own figures by name; JSON values.
     """
 
@@ -88,12 +88,21 @@ class Verdict(NamedTuple):
     figures: dict[str, Any]
 
 
-def failed(criterion: str, value: float, limit: float, text: str) -> dict[str, Any]:
-    """Returns a failed `criterion` for summaries: its name, words joined by underscores, the `value` that was found
-    (not finite becomes None), the `limit`, and a `text`.
+def unmet(*criteria: tuple[bool, str, float, float, str]) -> list[dict[str, Any]]:
+    """Those of the `criteria` that are not met, for summaries.
+
+    Each is whether it is met, its name, words joined by underscores, value (not finite becomes None), limit and text.
     """
-    found = round(float(value), 6) if math.isfinite(value) else None
-    return {"criterion": criterion, "value": found, "limit": limit, "text": text}
+    return [
+        {
+            "criterion": name,
+            "value": round(float(value), 6) if math.isfinite(value) else None,
+            "limit": limit,
+            "text": text,
+        }
+        for met, name, value, limit, text in criteria
+        if not met
+    ]
 
 
 @dataclass(frozen=True)

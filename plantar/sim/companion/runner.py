@@ -16,9 +16,8 @@ from plantar.errors import SceneError
 from plantar.recordings.recorder import Channel, Recorder
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import skin_from_tables
-from plantar.sim.companion.drives import Drives
+from plantar.sim.companion.drives import Drives, Encoders
 from plantar.sim.companion.dynamics import MujocoDynamics
-from plantar.sim.companion.encoders import Encoders
 from plantar.sim.companion.experiment import World
 from plantar.sim.companion.lidar import Lidar
 from plantar.sim.companion.machine import Machine, ServoTable, load_machine

@@ -19,8 +19,8 @@ from plantar.geometry.polygon import area, convex_hull
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.sensing.force import center_of_pressure
-from plantar.sim.contact_models.candidate import CANDIDATES, Candidate, Contact
 from plantar.sim.contact_models.sole import Sole, build_sole
+from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Candidate, Contact
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
 
 __all__ = ["ContactRow", "Rig", "compare_contact_models", "full_stance", "tip_over"]
@@ -255,7 +255,6 @@ def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tup
 
 
 def _on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) -> dict[str, Any]:
-    """What touches on beams of 12 and 6 cm across the sole, at several offsets, loaded over the beam's middle."""
     import shapely
 
     middle, half = _rectangle(layout)

@@ -13,9 +13,9 @@ import numpy as np
 
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.lip import GRAVITY
-from plantar.sim.contact_models.candidate import CANDIDATES, Contact
 from plantar.sim.contact_models.comparison import MASS, PLANE, Rig
 from plantar.sim.contact_models.sole import build_sole
+from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact
 from plantar.sim.model.contact_truth import contact_wrench_in_world, foot_contacts
 
 __all__ = ["PARAMETERS", "ParameterRow", "study_contact_parameters"]

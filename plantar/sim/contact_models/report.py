@@ -13,9 +13,9 @@ from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
 from plantar.layouts.tiling import hex_layout
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.sim.contact_models.candidate import CANDIDATES, Contact
 from plantar.sim.contact_models.comparison import INNER, MASS, ContactRow, compare_contact_models
 from plantar.sim.contact_models.parameters import ParameterRow, study_contact_parameters
+from plantar.sim.contact_models.sole_mjcf import CANDIDATES, Contact
 
 __all__ = ["contact_text", "holds", "measure_contact", "write_contact_report"]
 
@@ -192,7 +192,6 @@ def _cells(rows: Sequence[Any], names: Mapping[str, str]) -> list[list[Any]]:
 
 
 def _draw(path: Path, rows: Sequence[ContactRow]) -> None:
-    """Error against run time: CoP on the left, tip-over edge on the right; dashed: the requirement."""
     figure, axes = new_figure(11.0, 4.6, 1, 2)
     cop = [r.cop_max_mm for r in rows]
     edge = [max(abs(r.edge_x_mm), abs(r.edge_y_mm)) for r in rows]

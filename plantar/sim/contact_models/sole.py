@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.layouts.layout import SoleLayout
-from plantar.sim.contact_models.candidate import Candidate, Contact
-from plantar.sim.contact_models.sole_mjcf import sole_mjcf
+from plantar.sim.contact_models.sole_mjcf import Candidate, Contact, sole_mjcf
 from plantar.sim.model.contact_truth import contact_wrench_in_frame, foot_contacts
 from plantar.sim.sensing.skin import SoleSkin
 

@@ -57,7 +57,6 @@ def _colour(model: Any, geom: int) -> tuple[float, ...]:
 
 
 def _primitives(model: Any, geom: int) -> list[Part]:
-    """What is drawn of a geom; no height fields, nor what MuJoCo itself does not draw."""
     kind, colour = int(model.geom_type[geom]), _colour(model, geom)
     a, b, c = map(float, model.geom_size[geom])
     position = tuple(map(float, model.geom_pos[geom]))
@@ -98,7 +97,6 @@ def _rotation(quaternion: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Part:
-    """A mesh, coarser where the model's meshes together have too many faces."""
     mesh = int(model.geom_dataid[geom])
     first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
     start, number = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])

@@ -12,8 +12,7 @@ from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recordings.recording import Recording, read_mcap
 from plantar.sides import SIDES
 from plantar.sim.figures.foothold_figure import draw_footholds
-from plantar.sim.figures.guide_figure import draw_guide
-from plantar.sim.figures.push_figure import draw_partner, draw_pushes, draw_strides, draw_swing
+from plantar.sim.figures.push_figure import draw_guide, draw_partner, draw_pushes, draw_strides, draw_swing
 from plantar.sim.figures.walk_plane import AXES, WalkPlane
 from plantar.sim.figures.zmp_figure import draw_zmp_plane, draw_zmps
 
@@ -97,7 +96,6 @@ def _plane(run: Recording) -> Any:
 
 
 def _footholds(run: Recording, side: str) -> list[NDArray[np.float64]]:
-    """Outlines (k, 2) in m of a sole in the world, at the start of each of its stances."""
     position = run.values(f"/truth/{side}", "position")
     rotation = run.values(f"/truth/{side}", "rotation").reshape(-1, 3, 3)
     force = run.values(f"/truth/{side}", "normal_force")[:, 0]

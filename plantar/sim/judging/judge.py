@@ -6,7 +6,7 @@ After a physics step, contacts, forces and poses in MuJoCo's data belong to the 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -21,14 +21,40 @@ from plantar.layouts.layout import Side
 from plantar.sides import SIDES, other_side
 from plantar.sim.judging.joint_limits import JointLimits
 from plantar.sim.judging.leg_contact import LegContact
-from plantar.sim.judging.plain_ground import PlainGround
 from plantar.sim.judging.stance_ripple import StanceRipple
 from plantar.sim.judging.step_count import Stand, StepCount
 from plantar.sim.judging.walk_goal import WalkGoal, Way
 from plantar.sim.model.contact_truth import ContactReader, GroundTruth, foot_contacts
 from plantar.sim.model.world import DIVERGED, World
+from plantar.sim.terrain import Ground
 
-__all__ = ["Judge", "Landing", "is_ground"]
+__all__ = ["Judge", "Landing", "PlainGround", "is_ground"]
+
+_LEVEL = 0.9999  # cosine of the tilt up to which a face is level
+
+
+class PlainGround:
+    """The true geometry of a `ground` under soles with `outlines` (k, 2) in m and `around` them, in m."""
+
+    def __init__(self, ground: Ground, outlines: Mapping[Side, NDArray[np.float64]], around: float) -> None:
+        import shapely
+
+        self._outlines, self._around = outlines, around
+        self._faces = [
+            (shapely.Polygon(ring).convex_hull, s.shape == "box" and s.rotation[2, 2] > _LEVEL and not s.motions)
+            for s, ring in zip(ground.solids, ground.seen_from_above(), strict=True)
+        ]
+
+    def under(self, side: Side, x: float, y: float, yaw: float) -> bool:
+        """Returns whether the sole of a `side` at `x`, `y` in m and heading `yaw` in rad is on one level face."""
+        import shapely
+
+        c, s = math.cos(yaw), math.sin(yaw)
+        ring = self._outlines[side] @ np.array([[c, s], [-s, c]]) + (x, y)
+        area = shapely.Polygon(ring).buffer(self._around)
+        near = [(face, level) for face, level in self._faces if face.intersects(area)]
+        return not near or (len(near) == 1 and near[0][1] and near[0][0].contains(area))
+
 
 _TOUCH = 0.0237  # weight: less than this is no contact; 20 N for H1, the usual level of force plates in gait analysis
 _LEAST = 0.0012  # weight on both feet below which there is no ZMP: 1 N for H1

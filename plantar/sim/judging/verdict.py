@@ -10,7 +10,7 @@ from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sim.judging.joint_limits import JointLimits
 from plantar.sim.judging.leg_contact import LegContact
 
-__all__ = ["FASTER_FOR", "HEADING", "POSITION", "UPRIGHT", "Ending", "reasons"]
+__all__ = ["FASTER_FOR", "HEADING", "LED", "POSITION", "UPRIGHT", "Ending", "partner_reasons", "reasons"]
 
 POSITION = 1 / 6
 """Distance in leg lengths of the CoM from the walk's end that counts as there: 0.1 m for H1."""
@@ -103,3 +103,20 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
             words = f"{text.format(f'{off:.3g} {unit}')}; allowed: less than {limit:g} {unit}"
             add(criterion, round(off, 4), limit, words)
     return found
+
+
+LED = 0.5
+"""Share of its planned way that a robot which leads has to have moved its partner by: the rest is lost to the gap
+before they touch and to a partner that swings back towards where it rests."""
+
+
+def partner_reasons(role: str, way: float, moved: float) -> list[dict[str, Any]]:
+    """Returns the failed criteria, as `verdict.reasons`, of a planned `way` in m towards a partner that `moved` so far.
+
+    With a `role` "leader" only a completed walk is asked.
+    """
+    needed = LED * way
+    if role == "leader" or -moved >= needed:
+        return []
+    text = f"the partner was led {-moved:.3f} m; a walk of {way:.3f} m towards it needs {needed:.3f} m"
+    return [{"criterion": "led", "value": round(-moved, 4), "limit": round(needed, 4), "text": text}]

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from plantar.mechanics.easing import minimum_jerk
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.body_skin.sensing import SkinSensor
-from plantar.sim.model.body_point import body_point
 from plantar.sim.model.world import World
+from plantar.sim.partner.hand import body_point
 from plantar.sim.partner.settings import GuideSettings
 from plantar.sim.partner.touch import Partner
 

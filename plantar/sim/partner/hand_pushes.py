@@ -21,9 +21,8 @@ from plantar.sensing.link_skin import BodySkin
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.upper_body import FACES
-from plantar.sim.model.body_point import body_point
 from plantar.sim.model.world import World
-from plantar.sim.partner.hand import Hand, HandTarget
+from plantar.sim.partner.hand import Hand, HandTarget, body_point
 
 __all__ = ["HandPush", "HandPushes", "faces_of"]
 
@@ -152,7 +151,6 @@ class HandPushes:
             self._next += 1
 
     def _wanted(self, push: HandPush | None, face: str, time: float) -> tuple[float, float | None]:
-        """Distance from its face in leg lengths, and force in N of a hand."""
         if push is None or face not in push.shares():
             return _APART, None
         if push.start < math.inf:
@@ -213,7 +211,6 @@ class _Frame:
         self.yaw = math.atan2(float(self._rotation[1, 0]), float(self._rotation[0, 0]))
 
     def inward(self, face: str) -> NDArray[np.float64]:
-        """Unit vector (3,) in the world into the body at a face."""
         forward, left = FACES[face]
         return np.asarray(-forward * self._rotation[:, 0] - left * self._rotation[:, 1])
 

@@ -1,7 +1,7 @@
 """A mobile robot on the ground before the robot that walks, with its hand at the height of the CoM (K Fig. 9).
 
 Its wheels roll along the robot's heading at the start; its arm is a spring. It measures the force on its hand and
-follows its impedance controller with a limited force.
+follows its impedance controller (K 39-41) with a limited force.
 """
 
 from __future__ import annotations
@@ -16,11 +16,51 @@ from plantar.sensing.link_skin import BodySkin
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.model.world import World
-from plantar.sim.partner.impedance import Impedance
 from plantar.sim.partner.settings import PartnerSettings
 from plantar.sim.partner.touch import Partner
 
-__all__ = ["MobileRobot"]
+__all__ = ["Impedance", "MobileRobot"]
+
+
+class Impedance:
+    """Reference motion of a mobile robot along one axis.
+
+    M x'' + D x' + K x = f_ex + f_in + K x_r (K 39). The rest x_r moves by the stride S as soon as x is farther than
+    that from it, either way (K 41, whose second case has to read x < x_r - S).
+
+    Args:
+        settings: M, D, K, S and f_in; the force is a leader's alone.
+
+    Attributes:
+        position: x in m.
+        velocity: x' in m/s.
+        rest: x_r in m.
+
+    Example:
+        >>> law = Impedance(PartnerSettings(role="leader"))
+        >>> for _ in range(20000):
+        ...     law.update(0.0, 0.001)
+        >>> law.rest > 0.0
+        True
+    """
+
+    def __init__(self, settings: PartnerSettings) -> None:
+        self._law = settings
+        self._built_in = settings.built_in_force if settings.role == "leader" else 0.0
+        self.position = self.velocity = self.rest = 0.0
+
+    def update(self, force: float, period: float) -> None:
+        """Advance by a `period` in s under an external `force` f_ex in N, by semi-implicit Euler (K 40)."""
+        law = self._law
+        pull = law.virtual_stiffness * (self.position - self.rest)
+        acceleration = (force + self._built_in - law.virtual_damping * self.velocity - pull) / law.virtual_mass
+        self.velocity += acceleration * period
+        self.position += self.velocity * period
+        if self.position > self.rest + law.stride:
+            self.rest += law.stride
+        elif self.position < self.rest - law.stride:
+            self.rest -= law.stride
+
 
 _HAND = (0.02, 0.15, 0.1)  # leg: half edges of the hand: 18 x 12 cm for H1
 _BASE = (0.35, 0.35, 0.2)  # leg: half edges of the base

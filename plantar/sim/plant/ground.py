@@ -1,4 +1,4 @@
-"""The true ground in the simulator, and the foam under the soles: friction and softness by place."""
+"""The true ground in the simulator: friction, softness and colours by place, and the foam under the soles."""
 
 from __future__ import annotations
 
@@ -7,12 +7,35 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.plant.draw import TruePlant, stream
 from plantar.sim.terrain import GROUND_GROUP
 
-__all__ = ["FOAM_MODULUS", "foam_time", "make_ground_true"]
+__all__ = ["FOAM_MODULUS", "PATCH", "GroundColours", "foam_time", "make_ground_true"]
+
+PATCH = 0.05
+"""Size in m of a patch of one colour."""
+
+_TILES = 64  # patches after which the colours repeat: 3.2 m
+
+
+class GroundColours:
+    """Square patches of random reflectance on the world's plane.
+
+    An optical sensor calibrated at reflectance 1 measures d / sqrt(rho), its intensity being proportional to rho / d^2.
+    """
+
+    def __init__(self, plant: TruePlant) -> None:
+        lightness = 1.0 + plant.reflectance * stream(plant.seed, "colours").uniform(-1.0, 1.0, (_TILES, _TILES))
+        self._stretch = 1.0 / np.sqrt(lightness)
+
+    def stretch(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Measured distance over the true one (n,) at points (n, 3) of the ground in the world in m."""
+        tiles = np.floor(points[:, :2] / PATCH).astype(np.int64) % _TILES
+        return np.asarray(self._stretch[tiles[:, 0], tiles[:, 1]])
+
 
 FOAM_MODULUS = 3e5
 """Young's modulus in Pa of the foam under a sole: EVA of midsoles has 0.2 to 0.5 MPa."""

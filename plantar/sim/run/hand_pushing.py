@@ -116,8 +116,6 @@ def _with_swing(steps: Steps, k: int, direction: tuple[float, float]) -> int:
 
 
 class _When:
-    """When a push in a `step` begins, by the `schedule` as it is when asked."""
-
     def __init__(self, push: Push, schedule: Callable[[], WalkSchedule], step: int) -> None:
         self._push, self._schedule, self._step = push, schedule, step
         self._moment = math.inf  # by the last plan that had the step
@@ -148,7 +146,6 @@ def _single_support(schedule: WalkSchedule, step: int) -> Phase | None:
 
 
 def _along(steps: Steps, k: int) -> NDArray[np.float64]:
-    """Unit vector (2,) of the foot's way in step k; forward where it stays."""
     feet, plan = steps
     side = plan[k].side
     before = next((s for s in reversed(plan[:k]) if s.side == side), feet[side])

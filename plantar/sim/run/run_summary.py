@@ -30,7 +30,7 @@ from plantar.sim.run.motor_drives import MotorDrives
 from plantar.sim.run.pushing import Pusher
 from plantar.sim.run.scene import Scene
 from plantar.sim.run.servos import LegServos
-from plantar.sim.run.shares import body_told, shares_told
+from plantar.sim.run.setting_list import body_told, shares_told
 from plantar.sim.run.touched import Touched
 from plantar.sim.terrain import Ground
 

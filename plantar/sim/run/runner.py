@@ -37,8 +37,7 @@ from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.figures.film import Film
 from plantar.sim.figures.run_figure import plot_run
 from plantar.sim.judging.foothold_truth import FootholdTruth
-from plantar.sim.judging.judge import Judge
-from plantar.sim.judging.plain_ground import PlainGround
+from plantar.sim.judging.judge import Judge, PlainGround
 from plantar.sim.judging.recovery import Recovery
 from plantar.sim.judging.velocity_truth import VelocityTruth
 from plantar.sim.judging.walk_goal import WalkGoal

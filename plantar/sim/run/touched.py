@@ -16,9 +16,9 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from plantar.sim.arms.worn_arm import WornArm
 from plantar.sim.judging.guide_truth import GuideTruth
-from plantar.sim.judging.partner_truth import partner_reasons
 from plantar.sim.judging.push_truth import Pushed, PushTruth, step_changes, strides
 from plantar.sim.judging.step_count import Stand
+from plantar.sim.judging.verdict import partner_reasons
 from plantar.sim.model.world import World
 from plantar.sim.partner.guide import Grip, Guide
 from plantar.sim.partner.hand_pushes import HandPushes

@@ -37,8 +37,6 @@ _LEAST_SHARE = 0.02  # of a square: less cover than this carries nothing
 
 
 class _Squares(NamedTuple):
-    """The grid over a sole, and the n pieces of its m squares between the taxels' borders."""
-
     cutter: CellCutter
     square: NDArray[np.intp]  # (n,)
     taxel: NDArray[np.intp]  # (n,)
@@ -169,7 +167,6 @@ class ElasticPressure:
         return shape.contact.points, force * shape.contact.press(load).forces
 
     def _grid(self) -> _Squares:
-        """Squares over the whole sole, cut by the taxels' borders into pieces."""
         import shapely
 
         cells = np.array([shapely.Polygon(self.layout.cell_polygon(i)) for i in range(len(self.layout))])

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from plantar.errors import InputError, RobotError
 from plantar.kernels.sensors.sole_rays import SoleRays
 from plantar.layouts.layout import SoleLayout
-from plantar.sim.plant.colours import GroundColours
+from plantar.sim.plant.ground import GroundColours
 from plantar.sim.sensing.white_noise import white_noise
 from plantar.sim.terrain import GROUND_GROUP
 

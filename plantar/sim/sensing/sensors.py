@@ -15,9 +15,9 @@ from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 from plantar.sim.model.contact_truth import ContactReader, FootContacts
 from plantar.sim.model.world import World
-from plantar.sim.plant.colours import GroundColours
 from plantar.sim.plant.delay import Delay
 from plantar.sim.plant.draw import TruePlant
+from plantar.sim.plant.ground import GroundColours
 from plantar.sim.plant.taxels import TaxelErrors
 from plantar.sim.sensing.proximity import ProximitySensor, SoleProximity
 from plantar.sim.sensing.settings import Sensing

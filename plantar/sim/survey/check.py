@@ -23,10 +23,9 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from plantar.sim.run.scene import Scene, load_scene
 from plantar.sim.survey.fitted_gait import HELD, ROLL_MOST
-from plantar.sim.survey.joint_inertia import joint_inertia
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
 from plantar.sim.survey.robot_text import roll_pitch_yaw
-from plantar.sim.survey.servo_gains import LEAST_STIFFNESS, servo_gains
+from plantar.sim.survey.servo_gains import LEAST_STIFFNESS, joint_inertia, servo_gains
 from plantar.sim.survey.sole_frame import rested
 
 __all__ = ["Finding", "RobotCheck", "check_robot"]
@@ -122,7 +121,6 @@ class _Checked:
         return RobotCheck(self.robot.name, self.scene.name, tuple(found))
 
     def _walked(self) -> Walked:
-        """The scene's planned walk; one at a velocity by steps in place."""
         walk, robot = self.scene.walk, self.robot
         steps = walk.steps if walk.velocities(0) is None else _STEPS
         feet, plan = self._planned(min(steps, _STEPS), 1.0)
@@ -189,7 +187,6 @@ class _Checked:
         return math.atan(0.5 * (feet["left"].y - feet["right"].y) / self.walked.com_height)
 
     def _working_height(self) -> float | None:
-        """Greatest height in m at which the knees stay bent by twice what is needed, or None."""
         low = self.walked.com_height
         for _ in range(12):
             low -= 0.03 * self.body.leg
@@ -219,7 +216,6 @@ class _Checked:
         return Finding("stance", round(1e3 * gap, 1), round(1e3 * least, 1), "mm", gap >= least, text)
 
     def _gains(self, model: Any, configuration: Any) -> list[Finding]:
-        """Whether servos are soft enough for the swing leg and stiff enough for the robot's weight."""
         robot, body = self.robot, self.body
         inertia = joint_inertia(robot, model, configuration)
         stiffness, damping = np.array(robot.stiffness), np.array(robot.damping)
@@ -256,7 +252,6 @@ class _Checked:
         ]
 
     def _soles(self, model: Any) -> list[Finding]:
-        """Whether each sole lies flat under its foot, and no part of the foot is below the shoe's inner face."""
         if self.robot.kind == "biped":
             return []
         data = mujoco.MjData(model)
@@ -301,7 +296,6 @@ class _Checked:
         return found
 
     def _torques(self, reach: PlanReach) -> list[Finding]:
-        """Whether the motors hold the robot on one leg, and over the plan, with the trunk upright and leaning."""
         limits = np.array(self.robot.effort_limits or (self.robot.biped.effort_limits if self.robot.biped else ()))
         if not len(limits):
             text = "the robot's file gives no effort_limits: not checked"

@@ -21,10 +21,9 @@ from plantar.robots.robot import Robot
 from plantar.robots.walk import CONTROL_PERIOD, Walk, walk_timing
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
-from plantar.sim.survey.joint_inertia import JointInertia, joint_inertia
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, standing_feet
 from plantar.sim.survey.rocking_gait import ankle_reach, has_ankle_roll, rocking
-from plantar.sim.survey.servo_gains import servo_gains
+from plantar.sim.survey.servo_gains import JointInertia, joint_inertia, servo_gains
 from plantar.sim.survey.swing_yaw import least_single_support
 
 __all__ = [
@@ -215,7 +214,6 @@ def _gains(
     gains: Sequence[tuple[float, float]],
     notes: list[str],
 ) -> tuple[Array, Array]:
-    """Stiffness and damping of each joint of a leg: the model's own where they hold the robot, else fitted."""
     stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
     if gains:
         own, unit = _own_gains(inertia, gains), body.weight * height
@@ -304,7 +302,6 @@ def _paced(robot: Robot, height: float, slower: float) -> Robot:
 def _stepping(
     robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
 ) -> tuple[Robot, BodyScale, PlanReach]:
-    """The robot with the cheapest walk, and the leg length that scales its steps."""
     best: _Tried | None = None
     heights = seed + body.leg * np.arange(_HIGHEST, -_LOWEST, -_LOWER)
     for share in (_rocking_share(robot, body, seed),) if robot.rocks else _SHORTER:
@@ -373,7 +370,6 @@ def _others(robot: Robot, body: BodyScale) -> list[tuple[Robot, float]]:
 def _least(
     best: _Tried | None, robot: Robot, legs: LegModel, body: BodyScale, heights: Array, paid: float
 ) -> _Tried | None:
-    """The cheapest walk: the one found, or one at another height in m."""
     own, worse = math.inf, 0
     for height in heights.tolist():
         tried = _tried(robot, legs, body, height, paid)

@@ -170,7 +170,6 @@ def introduce(
 
 
 def _fitted(draft: Robot, gains: Sequence[tuple[float, float]]) -> FittedGait:
-    """The robot with its walk; joints too light for any servo get a rotor in the copy of the model."""
     fitted = fit_gait(draft, gains)
     assumed = rotor_inertia(fitted.inertia, fitted.body.mass, fitted.robot.com_height, CONTROL_PERIOD)
     if draft.model_file is None or not assumed.any():

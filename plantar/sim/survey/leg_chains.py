@@ -81,8 +81,6 @@ def find_legs(model: Any, data: Any, where: str) -> Legs:
 
 
 class _Tree:
-    """Links of a model that move against each other, each with its surface."""
-
     def __init__(self, model: Any, data: Any) -> None:
         self.model, self.data = model, data
         self.links = sorted({int(i) for i in model.body_weldid})
@@ -191,7 +189,6 @@ def _pair(tree: _Tree, up: Array, where: str) -> tuple[list[int], list[int]]:
 
 
 def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
-    """Links of two chains below their last common one, from the top."""
     one, two = tree.chain(a)[::-1], tree.chain(b)[::-1]
     shared = 0
     while shared < min(len(one), len(two)) and one[shared] == two[shared]:
@@ -245,7 +242,6 @@ def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:
 
 
 def _facing(tree: _Tree, up: Array, legs: list[Leg], where: str) -> tuple[Array, tuple[str, ...]]:
-    """Rotation from the model's world to x forward, y left, z up, and its reasons."""
     data = tree.data
     hips = [data.xanchor[leg.joints[0]] for leg in legs]
     apart = max((legs[0].ankle - legs[1].ankle, hips[0] - hips[1]), key=lambda d: float(np.linalg.norm(d)))

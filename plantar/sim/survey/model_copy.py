@@ -69,8 +69,6 @@ def add_rotors(file: Path, rotors: Mapping[str, float]) -> None:
 
 
 class _Copy:
-    """The copy while it is written: of a `model` with `legs`, in a `folder`, with angles of `held` joints in rad."""
-
     def __init__(self, model: Any, legs: Legs, folder: Path, held: Mapping[str, float]) -> None:
         self.model, self.legs, self.folder = model, legs, folder
         self.hinges = {j for leg in legs.by_side.values() for j in leg.joints}
@@ -119,7 +117,6 @@ class _Copy:
         return body
 
     def _height(self, top: int) -> float:
-        """Height in m at which the lowest ankle is a leg's length above the ground."""
         ankles = [float((self.legs.rotation @ leg.ankle)[2]) for leg in self.legs.by_side.values()]
         return 1.2 * (float((self.legs.rotation @ self.positions[top])[2]) - min(ankles))
 

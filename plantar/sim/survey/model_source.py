@@ -132,7 +132,6 @@ def read_model(file: Path, folder: Path) -> ModelSource:
 
 
 def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, stated: _Stated) -> str:
-    """A URDF for MuJoCo: meshes by their full names in kinds that it reads, its own settings."""
     for link in root.iter("link"):
         for shape in [*link.findall("visual"), *link.findall("collision")]:
             mesh = shape.find("geometry/mesh")
@@ -204,7 +203,6 @@ def _name_all(spec: Any) -> None:
 
 
 def _drop_other_things(spec: Any, notes: list[str]) -> None:
-    """Remove other things of a scene: the robot is the one with most hinges."""
     things = list(spec.worldbody.bodies)
     if len(things) < 2:
         return
@@ -272,7 +270,6 @@ def _angles_of(model: Any, qpos: NDArray[np.float64] | None) -> dict[str, float]
 
 
 def _collect_motors(spec: Any, stated: _Stated) -> None:
-    """Largest torque of each joint: of its motor by force or control range, or of the joint; gains of servos."""
     for joint in spec.joints:
         limited = joint.actfrclimited != mujoco.mjtLimited.mjLIMITED_FALSE
         if limited and joint.actfrcrange[0] < joint.actfrcrange[1]:

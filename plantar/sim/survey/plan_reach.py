@@ -21,7 +21,7 @@ from plantar.robots.kinematics.body import pitching_joints, stood
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.robot import Robot
 from plantar.sides import SIDES, Side
-from plantar.sim.survey.joint_inertia import floating_inertia
+from plantar.sim.survey.servo_gains import floating_inertia
 
 __all__ = ["PlanReach", "Walked", "plan_reach", "settled", "standing_feet"]
 
@@ -257,11 +257,9 @@ class _Probe:
         return min(bends, default=math.pi)
 
     def off(self, side: Side, position: Array) -> float:
-        """Distance in m of a sole from a position (3,), in the posture of the last `knees`."""
         return float(np.linalg.norm(self._data.site_xpos[self._soles[side]] - position))
 
     def com_off(self, com: Array) -> float:
-        """Distance in m of the CoM from a position (3,), likewise."""
         mujoco.mj_comPos(self._model, self._data)
         return float(np.linalg.norm(self._data.subtree_com[self._root] - com))
 
@@ -270,11 +268,9 @@ class _Probe:
         return math.acos(min(1.0, float(self._data.site_xmat[self._soles[side], 8])))
 
     def angles(self, legs: LegModel) -> Array:
-        """Angles (k,) in rad of the joints of both legs."""
         return np.asarray(legs.configuration[self._places])
 
     def spare(self, legs: LegModel, sides: Sequence[Side]) -> Array:
-        """Distance of each joint of some legs to its limits in rad, the lesser of both legs."""
         angles = legs.configuration[self._places]
         spare = np.minimum(angles - self._low, self._high - angles).reshape(2, -1)
         return np.asarray(spare[[SIDES.index(s) for s in sides]].min(axis=0))

@@ -11,8 +11,7 @@ import numpy as np
 from plantar.bench.intervals import wilson_interval
 from plantar.plotting import COLOURS, new_figure
 from plantar.sim.sweep.limit_search import LimitSearch
-from plantar.sim.sweep.plan import Plan
-from plantar.sim.sweep.runs import Rows, settings_of
+from plantar.sim.sweep.plan import Plan, Rows, settings_of
 
 __all__ = ["bars_of", "figures_of"]
 
@@ -99,7 +98,6 @@ def _limits(plan: LimitSearch, limits: Sequence[Mapping[str, Any]], rows: Rows) 
 
 
 def _groups(axis: Any, values: Any, completed: Any) -> None:
-    """Share and Wilson interval of equal groups of runs along a setting."""
     order = np.argsort(values, kind="stable")
     for group in np.array_split(order, min(_GROUPS, max(1, len(order) // 5))):
         if len(group):
@@ -148,7 +146,6 @@ def _map(plan: Plan, rows: Rows) -> Any:
 
 
 def _cells(values: Any) -> tuple[Any, list[str]]:
-    """Index of each value's cell and the cells' names: the values, or equal parts of the range of many."""
     distinct = np.unique(values)
     if len(distinct) <= 12:
         return np.searchsorted(distinct, values), [f"{v:g}" for v in distinct]

@@ -10,8 +10,7 @@ from typing import Any
 
 from plantar.errors import InputError
 from plantar.sim.sweep.limit_curve import LimitCurve, limit_curve
-from plantar.sim.sweep.plan import Sweep
-from plantar.sim.sweep.runs import Key, Rows, Run, key_of, settings_of
+from plantar.sim.sweep.plan import Key, Rows, Run, Sweep, key_of, settings_of
 from plantar.sim.sweep.value_range import ValueRange
 
 __all__ = ["LimitSearch"]
@@ -111,7 +110,6 @@ class LimitSearch:
         return [self.limit.value(key[0][-1]) for key in ran], [rows[key]["completed"] == "True" for key in ran]
 
     def _chain(self, point: Sequence[str], rows: Rows) -> Iterator[Run | None]:
-        """The runs of a grid point; None while outcomes are awaited."""
         keys: list[Key] = []
         for number, seed in enumerate(self.sweep.seed_range):
             if number < 2 * _ENDS:

@@ -1,4 +1,4 @@
-"""Many runs of a scene, on this machine's cores or on a Dask cluster.
+"""Many runs of a scene, on this machine's cores or on a Dask cluster, until all have ended or Ctrl-C or SIGTERM comes.
 
 Every finished run is appended to results.csv at once, so that a stopped sweep continues.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,17 +18,72 @@ from plantar.plotting import save_figure
 from plantar.sim.sweep.cluster import ClusterWorkers
 from plantar.sim.sweep.figures import figures_of
 from plantar.sim.sweep.inputs import inputs_of
-from plantar.sim.sweep.plan import Plan
+from plantar.sim.sweep.plan import Key, Plan, Rows, key_of
 from plantar.sim.sweep.results import open_results
-from plantar.sim.sweep.runs import Key, Rows, key_of
-from plantar.sim.sweep.stopping import StopNote, SweepStopped, stop_noted
 from plantar.sim.sweep.task import Row, Task, columns_of
 from plantar.sim.sweep.workers import LocalWorkers, Workers
 
-__all__ = ["run_sweep"]
+__all__ = ["StopNote", "SweepStopped", "run_sweep", "stop_noted"]
+
+_NAMES = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "SIGTERM"}
+
+
+class SweepStopped(KeyboardInterrupt):
+    """The signal `number` ended a sweep; `kept` names in words what is kept."""
+
+    def __init__(self, number: int, kept: str = "no run was begun") -> None:
+        super().__init__(f"stopped by {_NAMES.get(signal.Signals(number), number)}: {kept}")
+        self.number = number
+
+
+class StopNote:
+    """The first signal that asked for a stop, or 0."""
+
+    def __init__(self) -> None:
+        self.number = 0
+        self._held = False
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Only note a signal during this; it is raised at the end."""
+        self._held = True
+        try:
+            yield
+        finally:
+            self._held = False
+        self.check()
+
+    def check(self) -> None:
+        """Raise SweepStopped if a signal came."""
+        if self.number:
+            raise SweepStopped(self.number)
+
+    def take(self, number: int, frame: Any) -> None:
+        """Handle the signal `number`; the `frame` is not used."""
+        if not self.number:
+            self.number = number
+            if not self._held:
+                self.check()
+
+
+@contextmanager
+def stop_noted() -> Iterator[StopNote]:
+    """Handle both signals during this, in the main thread; others cannot."""
+    note = StopNote()
+    before = {}
+    if threading.current_thread() is threading.main_thread():
+        # Who ignores a signal (nohup, a shell's background) goes on ignoring it.
+        before = {n: signal.getsignal(n) for n in _NAMES if signal.getsignal(n) not in (signal.SIG_IGN, None)}
+    try:
+        for number in before:
+            signal.signal(number, note.take)
+        yield note
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
 
 Progress = Callable[[float, str], None]
-
 _PAUSE = 0.2  # s: how soon a signal is seen where no row comes
 _END = "end"
 

@@ -15,14 +15,43 @@ from plantar.errors import InputError, SceneError
 from plantar.sim.run.scene import Scene
 from plantar.sim.run.scene_kind import open_scene, robot_file_of
 from plantar.sim.sweep.grid import canonical, is_word, split_values
-from plantar.sim.sweep.runs import Rows, Run, key_of, settings_of
 from plantar.sim.sweep.task import criteria_of
 from plantar.sim.sweep.value_range import ValueRange
 
 if TYPE_CHECKING:
     from plantar.sim.companion.scene import CompanionScene
 
-__all__ = ["Plan", "Sweep", "point_result"]
+__all__ = ["Key", "Plan", "Rows", "Run", "Sweep", "key_of", "point_result", "settings_of"]
+
+Key = tuple[tuple[str, ...], int]
+"""Values of the axes, and the seed."""
+
+Run = tuple[tuple[str, ...], int]
+"""Settings "name=value" of the axes, and the seed."""
+
+Rows = Mapping[Key, Mapping[str, str]]
+"""Rows of the runs that ended."""
+
+
+def settings_of(point: Sequence[str]) -> dict[str, str]:
+    """Values of a point's settings "name=value" by name.
+
+    Example:
+        >>> settings_of(("friction=0.7", "lean=true"))
+        {'friction': '0.7', 'lean': 'true'}
+    """
+    return {name: value for name, _, value in (setting.partition("=") for setting in point)}
+
+
+def key_of(point: Sequence[str], seed: int) -> Key:
+    """Returns the key of a run of a `point`, settings "name=value", with a `seed`.
+
+    Example:
+        >>> key_of(("friction=0.7",), 3)
+        (('0.7',), 3)
+    """
+    return tuple(settings_of(point).values()), seed
+
 
 _MOST_SEEDS = 1_000_000
 _MOST_POINTS = 100_000

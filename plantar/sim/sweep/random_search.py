@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from plantar.errors import InputError
-from plantar.sim.sweep.plan import Sweep, point_result
-from plantar.sim.sweep.runs import Rows, Run, key_of
+from plantar.sim.sweep.plan import Rows, Run, Sweep, key_of, point_result
 from plantar.sim.sweep.value_range import ValueRange
 
 __all__ = ["RandomSearch"]

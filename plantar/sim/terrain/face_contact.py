@@ -70,7 +70,6 @@ def _offset(structure: Any, array: Any) -> int:
 
 
 def _stride() -> int:
-    """Bytes from one contact to the next in a collision function's output."""
     if hasattr(mujoco, "MjPreContact"):  # since MuJoCo 4: gap, position, normal and tangent alone
         return 10 * ctypes.sizeof(ctypes.c_double)
     return int(_spheres()[1].contact.dist.strides[0])

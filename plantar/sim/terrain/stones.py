@@ -163,7 +163,6 @@ class Pebbles(Terrain):
     def _bumps(
         self, stone: Solid, foot: Footprint, places: NDArray[np.float64], heights: NDArray[np.float64]
     ) -> Iterator[Solid]:
-        """Caps of spheres at places (n, 2) in m along and across the foot."""
         normal = stone.rotation[:, 2]
         face = stone.position + stone.size[2] * normal
         for (along, across), height in zip(places.tolist(), heights.tolist(), strict=True):

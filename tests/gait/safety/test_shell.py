@@ -12,7 +12,7 @@ from plantar.errors import InputError
 from plantar.gait.command import Sensors
 from plantar.kernels.safety.plausible import SoleCheck
 from plantar.sim.bench.stress.fault_run import run_with_fault
-from plantar.sim.bench.stress.named_faults import FAULTS, WALKED_THROUGH
+from plantar.sim.bench.stress.faults import FAULTS, WALKED_THROUGH
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 

@@ -7,7 +7,7 @@ from plantar.errors import SceneError
 from plantar.recordings.recording import read_mcap
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion import experiment as experiments
-from plantar.sim.companion.experiment import Experiment, Verdict, failed
+from plantar.sim.companion.experiment import Experiment, Verdict, unmet
 from plantar.sim.companion.runner import Companion
 from plantar.sim.companion.scene import companion_scene
 from plantar.sim.run.run_text import run_text
@@ -44,7 +44,7 @@ class Stand(Experiment):
         self.error = max(self.error, float(np.abs(joints - self.machine.posture).max()))
 
     def verdict(self):
-        why = [failed("posture", self.error, 0.01, "left its posture")] if self.error > 0.01 else []
+        why = unmet((self.error <= 0.01, "posture", self.error, 0.01, "left its posture"))
         return Verdict(why, {"error": self.error})
 
 

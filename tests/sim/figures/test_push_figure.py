@@ -11,7 +11,7 @@ from plantar.gait.plan.phases import PhaseKind
 from plantar.recordings.recording import Recording, Table
 from plantar.robots import load_robot
 from plantar.sides import SIDES
-from plantar.sim.figures.push_figure import draw_partner, draw_pushes, draw_strides, draw_swing
+from plantar.sim.figures.push_figure import draw_guide, draw_partner, draw_pushes, draw_strides, draw_swing
 
 PERIOD, STEP = 0.02, 1.0
 
@@ -78,3 +78,30 @@ def test_the_partner_has_its_way_and_supports_their_durations(run: Recording) ->
     single = next(line for line in figure.axes[2].lines if line.get_label() == "SSP")
     np.testing.assert_allclose(np.asarray(single.get_ydata())[:-1], 0.5 * STEP, atol=PERIOD)
     np.testing.assert_allclose(figure.axes[1].lines[0].get_ydata(), 0.01 * run.topics["/partner"].time)
+
+
+def test_it_shows_where_hand_and_feet_went_and_names_the_joints_that_turned() -> None:
+    time = np.arange(0.0, 8.0, 0.02)
+    ramp = 0.05 * time[:, None]
+    zeros = np.zeros((len(time), 3))
+    place = np.hstack([1.0 + ramp, zeros[:, :2]])
+    turned = np.radians([20.0, 0.2]) * ramp / ramp.max()
+    force = np.hstack([30.0 * ramp, -5.0 * ramp, 0.0 * ramp])
+    topics = {
+        "/guide": {"place": place, "held": place - [0.01, 0.0, 0.0]},
+        "/arm": {"position": 0.3 + turned, "posture": np.full_like(turned, 0.3)},
+        "/touch": {"force": force, "felt": 0.9 * force},
+        "/truth/body": {"com": place},
+    }
+    carries = (time[:, None] % 1.0) < 0.5
+    for side in SIDES:
+        topics[f"/truth/{side}"] = {"position": place, "normal_force": 800.0 * carries}
+    tables = {name: Table(time, dict(fields)) for name, fields in topics.items()}
+    figure = draw_guide(Recording(Path("run.mcap"), topics=tables))
+    ways, forces, joints = figure.axes
+    drawn = {line.get_label(): line.get_ydata() for line in ways.lines}
+    assert drawn["hand"][-1] == drawn["hand"].max() == place[-1, 0] - place[0, 0]
+    assert np.isnan(drawn["left foot"]).sum() == (~carries).sum()
+    assert max(line.get_ydata().max() for line in forces.lines) == force.max()
+    assert [line.get_label() for line in joints.lines] == ["joint 1"]
+    assert np.isclose(joints.lines[0].get_ydata().max(), 20.0)

@@ -11,8 +11,7 @@ import pytest
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sim.model.contact_truth import foot_contacts
 from plantar.sim.model.world import World
-from plantar.sim.plant.colours import PATCH
-from plantar.sim.plant.ground import FOAM_MODULUS, foam_time
+from plantar.sim.plant.ground import FOAM_MODULUS, PATCH, foam_time
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 

@@ -7,7 +7,7 @@ from plantar.gait.propose.velocity_command import Velocity
 from plantar.settings.body_scale import BodyScale
 from plantar.sim.run.scene import builtin_scenes, load_scene
 from plantar.sim.run.scene_kind import open_scene
-from plantar.sim.run.shares import shares_told
+from plantar.sim.run.setting_list import shares_told
 from plantar.sim.terrain import Beam
 
 

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from plantar.robots.walk import CONTROL_PERIOD
-from plantar.sim.survey.joint_inertia import JointInertia
 from plantar.sim.survey.model_copy import add_rotors
-from plantar.sim.survey.servo_gains import SAMPLED, rotor_inertia, servo_gains
+from plantar.sim.survey.servo_gains import SAMPLED, JointInertia, rotor_inertia, servo_gains
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -10,7 +10,7 @@ import pytest
 
 from plantar.errors import InputError, PlantarError
 from plantar.sim.sweep import LimitSearch, plan_from_texts
-from plantar.sim.sweep.runs import Key, Run, key_of
+from plantar.sim.sweep.plan import Key, Run, key_of
 from plantar.sim.sweep.sweep_text import sweep_text
 
 Rows = dict[Key, dict[str, str]]

@@ -10,9 +10,8 @@ from plantar.atomic import write_text
 from plantar.bench.intervals import wilson_interval
 from plantar.bench.tables import GrowingTable, markdown_table
 from plantar.errors import InputError, SceneError
-from plantar.sim.bench.footholds.foothold_run import run_trial
+from plantar.sim.bench.footholds.foothold_run import TRIALS, run_trial
 from plantar.sim.bench.footholds.policy import OwnController, load_policy
-from plantar.sim.bench.footholds.trials import TRIALS
 
 __all__ = ["footholds_text", "measure_footholds"]
 

@@ -1,11 +1,11 @@
-"""A scene with a `SceneSetting`, and the motion and ground forces in it."""
+"""A scene with a `SceneSetting`, its true motion and ground forces, and their difference from a reference."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -24,7 +24,7 @@ from plantar.sim.model.world import World
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
-__all__ = ["SAMPLE", "ChangedRun", "Trace", "TracedRun"]
+__all__ = ["PARTED", "SAMPLE", "ChangedRun", "Trace", "TraceError", "TracedRun", "trace_error"]
 
 SAMPLE = 0.01
 """Time in s that a sample of a trace is the mean of: a multiple of every physics step that is compared."""
@@ -35,8 +35,6 @@ _SILENT = ("force", "proximity", "encoder", "gyro", "accelerometer")
 
 
 class _SpheresBelow:
-    """Spheres instead of each sole's box; a visitor of the world."""
-
     def __init__(self, robot: Robot, count: int) -> None:
         self._robot, self._count = robot, count
 
@@ -180,3 +178,70 @@ class TracedRun(ChangedRun):
             np.column_stack([height * wrench[:, 0] - wrench[:, 4], height * wrench[:, 1] + wrench[:, 3]]) / fz[:, None]
         )
         return Trace(com, zmp, force, self._landings, self.body.leg, self.body.weight)
+
+
+PARTED = 1 / 60
+"""Of the leg: distance of two centres of mass from which on runs count as two walks; 10 mm on H1."""
+
+_SAME_LANDING = 0.05  # s between landings of two runs that are the same landing
+
+
+class TraceError(NamedTuple):
+    """Root mean square differences up to the time at which the runs part.
+
+    Attributes:
+        com_m: Of the centre of mass in m.
+        zmp_m: Of the zero moment point in m.
+        force: Of the vertical forces on both soles, over the body's weight.
+        impact: Of the landings' impacts until then, over the reference's; NaN for none.
+        together_s: Time in s until the runs part, or end.
+        whole_s: Time in s of the reference.
+    """
+
+    com_m: float
+    zmp_m: float
+    force: float
+    impact: float
+    together_s: float
+    whole_s: float
+
+
+def trace_error(trace: Trace, reference: Trace) -> TraceError:
+    """Returns how a run's `trace` differs from its `reference` of the same seed, without noise.
+
+    Runs that differ in the last digit may decide differently about a footstep, so differences count until the centers
+    of mass are `PARTED` of the leg apart.
+
+    Example:
+        >>> import numpy as np
+        >>> still = Trace(np.zeros((3, 3)), np.zeros((3, 2)), np.ones((3, 2)), (("left", 0.01, 200.0),), 0.6, 800.0)
+        >>> from dataclasses import replace
+        >>> drifted = replace(still, com=np.array([[0.0, 0, 0], [0.001, 0, 0], [0.02, 0, 0]]))
+        >>> round(trace_error(drifted, still).together_s, 3), round(1e3 * trace_error(drifted, still).com_m, 3)
+        (0.02, 0.707)
+    """
+    k = min(len(trace.com), len(reference.com))
+    apart = np.linalg.norm(trace.com[:k] - reference.com[:k], axis=1)
+    far = np.flatnonzero(apart > PARTED * reference.leg)
+    n = max(1, int(far[0]) if far.size else k)
+    zmp = np.linalg.norm(trace.zmp[:n] - reference.zmp[:n], axis=1)
+    force = (trace.force[:n] - reference.force[:n]) / reference.weight
+    until = n * SAMPLE
+    impacts = []
+    for (side, at, impact), (other_side, other_time, other) in zip(trace.landings, reference.landings, strict=False):
+        if side != other_side or abs(at - other_time) > _SAME_LANDING or other_time > until:
+            break
+        if other > 0.0:
+            impacts.append((impact - other) / other)
+    return TraceError(
+        com_m=_rms(apart[:n]),
+        zmp_m=_rms(zmp[np.isfinite(zmp)]),
+        force=_rms(force),
+        impact=_rms(np.array(impacts)) if impacts else float("nan"),
+        together_s=until,
+        whole_s=len(reference.com) * SAMPLE,
+    )
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(np.square(values)))) if values.size else 0.0

@@ -10,9 +10,8 @@ from typing import Any, NamedTuple
 
 from plantar.bench.tables import GrowingTable
 from plantar.errors import PlantarError
-from plantar.sim.bench.scenes.changed_run import ChangedRun, Trace, TracedRun
+from plantar.sim.bench.scenes.changed_run import ChangedRun, Trace, TracedRun, trace_error
 from plantar.sim.bench.scenes.scene_setting import OWN, SceneSetting, setting_named
-from plantar.sim.bench.scenes.trace_error import trace_error
 
 __all__ = ["COLUMNS", "SceneCase", "SceneRuns"]
 

@@ -148,7 +148,6 @@ _ERRORS = (("com_mm", "error of the CoM [mm]", 1.0), ("force", "error of the gro
 
 
 def _draw(path: Path, rows: Sequence[SceneRow]) -> None:
-    """Run time against error, a column a scene; hollow: another robot; crosses: falls or stops."""
     cases = list(dict.fromkeys((r.scene, r.robot) for r in rows))
     figure, axes = new_figure(5.2 * len(cases) + 0.4, 9.0, len(_ERRORS), len(cases), squeeze=False)
     for column, case in enumerate(cases):

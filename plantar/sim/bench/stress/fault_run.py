@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from plantar.record import Record
-from plantar.sim.bench.stress.named_faults import FAULTS
+from plantar.sim.bench.stress.faults import FAULTS
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
@@ -35,7 +35,7 @@ class FaultRun(Record, frozen=True):
 
 
 def run_with_fault(robot: str, walking: bool, fault: str, *, shell: bool = True) -> FaultRun:
-    """Returns the outcome of a `fault` of `named_faults.FAULTS` on a `robot` ("h1" or "hrp2kai"), `walking` or
+    """Returns the outcome of a `fault` of `faults.FAULTS` on a `robot` ("h1" or "hrp2kai"), `walking` or
     standing, with or without the safety `shell`.
     """
     settings = ["steps=6", "settle=0.5"] if walking else ["steps=1", "settle=4"]

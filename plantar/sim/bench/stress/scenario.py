@@ -125,7 +125,6 @@ def draw_scenario(number: int) -> Scenario:
 
 
 def _drawn(kind: type[Any], rng: np.random.Generator, chance: float) -> dict[str, str]:
-    """Some of a table's numbers, each in its range, now and then at an end."""
     found: dict[str, str] = {}
     for setting in fields(kind):
         low, high = (float(setting.metadata.get(end, math.nan)) for end in ("low", "high"))

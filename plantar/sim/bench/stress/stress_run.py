@@ -1,28 +1,78 @@
-"""One stress run, to its end, a fall, or a failure."""
+"""Stress runs: a scenario to its end, a fall, or a failure; a row each in a growing table."""
 
 from __future__ import annotations
 
 import traceback
 import warnings
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import PlantarError
+from plantar.bench.tables import GrowingTable
+from plantar.errors import InputError, PlantarError
 from plantar.gait.command import Command, Sensors
 from plantar.gait.controller import Start
 from plantar.gait.plan.footsteps import Footstep
+from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
-from plantar.sim.bench.stress.command_check import CommandCheck
 from plantar.sim.bench.stress.faults import FaultySensors
-from plantar.sim.bench.stress.scenario import Scenario
+from plantar.sim.bench.stress.scenario import Scenario, draw_scenario
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
-__all__ = ["FAILURES", "LONGEST", "Outcome", "run_scenario"]
+__all__ = ["FAILURES", "LONGEST", "CommandCheck", "Outcome", "measure_stress", "run_scenario", "stress_loop_text"]
+
+_FASTEST = 12.0  # leg/beat of a foot's or the CoM's target, a step a beat long ten times over: beyond it, it jumps
+_FARTHEST = 3.0  # leg from the middle between the feet to the CoM's target: it cannot be meant
+_LIFTED = 0.02  # leg that a target may jump by at once: where a foot touches down its target is where it is
+
+
+class CommandCheck:
+    """Checks each command of a run with a control `period` in s."""
+
+    def __init__(self, body: BodyScale, period: float) -> None:
+        self._body = body
+        self._step = _FASTEST * body.leg / body.beat * period + _LIFTED * body.leg
+        self._last: list[NDArray[np.float64]] | None = None
+
+    def fault(self, command: Command, joints: NDArray[np.float64]) -> str | None:
+        """Returns what is wrong with a `command` and the `joints` (k,) in rad that follow, in words, or None."""
+        feet = [command.feet[side] for side in SIDES]
+        every = {
+            "CoM": command.com,
+            "torso": command.rotation_torso,
+            "desired ZMP": command.zmp_desired,
+            "joints": joints,
+            **{f"{side} sole": foot.position for side, foot in zip(SIDES, feet, strict=True)},
+            **{f"{side} sole's rotation": foot.rotation for side, foot in zip(SIDES, feet, strict=True)},
+            **{f"{side} sole's force": foot.force for side, foot in zip(SIDES, feet, strict=True)},
+            **{f"{side} centre of pressure": foot.center_of_pressure for side, foot in zip(SIDES, feet, strict=True)},
+        }
+        if command.joint_offsets is not None:
+            every["joint offsets"] = command.joint_offsets
+        for name, values in every.items():
+            if not np.isfinite(values).all():
+                return f"not finite: {name}"
+        targets = [command.com, *(foot.position for foot in feet)]
+        last, self._last = self._last, targets
+        middle = 0.5 * (feet[0].position + feet[1].position)
+        if float(np.linalg.norm(command.com - middle)) > _FARTHEST * self._body.leg:
+            return "out of bounds: CoM is nowhere near the feet"
+        if last is not None:
+            for name, now, before in zip(("CoM", "left sole", "right sole"), targets, last, strict=True):
+                way = float(np.linalg.norm(now - before))
+                if way > self._step:
+                    return f"jump: {name} by {way:.3g} m in a tick"
+        for name, rotation in (("torso", command.rotation_torso), *zip(SIDES, (f.rotation for f in feet), strict=True)):
+            if float(np.abs(rotation @ rotation.T - np.eye(3)).max()) > 1e-6:
+                return f"out of bounds: {name} is turned by no rotation"
+        return None
+
 
 LONGEST = 4.0
 """Simulated time in s after which a run is over, whatever its scene has yet to come."""
@@ -120,3 +170,60 @@ def _described(error: Exception) -> str:
     last = own[-1] if own else last
     text = " ".join(str(error).split())
     return f"{type(error).__name__}: {text} ({'/'.join(last.filename.split('/')[-3:])}:{last.lineno})"
+
+
+_COLUMNS = ("number", "scene", "robot", "outcome", "detail", "time_s")
+_TABLE = "stress.csv"
+
+
+def measure_stress(
+    folder: Path, count: int, first: int = 0, progress: Callable[[float, str], None] | None = None
+) -> dict[str, Any]:
+    """Run the scenarios that are not in stress.csv yet.
+
+    Args:
+        folder: Of the table; made if needed.
+        count: Number of scenarios, 1 or more.
+        first: Number of the first one.
+        progress: Called with the fraction done and a text.
+
+    Returns:
+        Counts of each outcome, the failures, and the table's name.
+
+    Raises:
+        InputError: If there is not at least one scenario, or the file is no such table.
+    """
+    if count < 1:
+        raise InputError(f"stress run of {count} scenarios; allowed: 1 or more")
+    folder.mkdir(parents=True, exist_ok=True)
+    table = GrowingTable(folder / _TABLE, _COLUMNS, "stress runs")
+    rows = {int(row["number"]): row for row in table.rows}
+    wanted = range(first, first + count)
+    for done, number in enumerate(wanted):
+        if number in rows:
+            continue
+        scenario = draw_scenario(number)
+        found = run_scenario(scenario)
+        row = (number, scenario.scene, scenario.robot, found.kind, found.detail, round(found.time, 3))
+        table.add(dict(zip(_COLUMNS, row, strict=True)))
+        rows[number] = table.rows[-1]
+        if progress is not None:
+            failures = sum(r["outcome"] in FAILURES for r in rows.values())
+            progress((done + 1) / count, f"scenario {number}, {failures} failures")
+    own = [rows[number] for number in wanted]
+    return {
+        "scenarios": count,
+        "first": first,
+        "outcomes": dict(Counter(row["outcome"] for row in own).most_common()),
+        "simulated_s": round(sum(float(row["time_s"]) for row in own), 1),
+        "failures": [row for row in own if row["outcome"] in FAILURES],
+        "files": [_TABLE],
+    }
+
+
+def stress_loop_text(result: dict[str, Any]) -> str:
+    """The outcomes as text."""
+    lines = [f"{result['scenarios']} scenarios from number {result['first']} on, {result['simulated_s']} s simulated"]
+    lines += [f"{count:8} {outcome}" for outcome, count in result["outcomes"].items()]
+    lines += [f"FAILED {r['number']}, {r['scene']}, {r['robot']}: {r['detail']}" for r in result["failures"]]
+    return "\n".join(lines)

@@ -14,7 +14,7 @@ from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import skin_from_tables
-from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
 from plantar.sim.companion.standing.standing import StandingExperiment
@@ -135,18 +135,18 @@ class Feather(StandingExperiment):
         self._trace.append((time, nearest, moved))
 
     def verdict(self) -> Verdict:
-        reasons = self.balance_reasons()
         closest, s = min(self._closest.values()), self.settings
-        if closest <= 0.0 or self._measured > 0.0:
-            text = f"the hand was touched: nearest distance {1e3 * closest:.1f} mm, force {self._measured:.2f} N"
-            reasons.append(failed("touched", closest, 0.0, text))
-        for name, moved in self._moved.items():
-            if moved < s.moved:
-                text = f"{name} repelled the hand by {1e3 * moved:.0f} mm; wanted: {1e3 * s.moved:.0f}"
-                reasons.append(failed("repelled", moved, s.moved, text))
-        if self._early > s.early:
-            text = f"the hand moved by {1e3 * self._early:.1f} mm before anything was near"
-            reasons.append(failed("early", self._early, s.early, text))
+        touch = f"the hand was touched: nearest distance {1e3 * closest:.1f} mm, force {self._measured:.2f} N"
+        early = f"the hand moved by {1e3 * self._early:.1f} mm before anything was near"
+        repelled = "{} repelled the hand by {:.0f} mm; wanted: {:.0f}"
+        reasons = self.balance_reasons() + unmet(
+            (closest > 0.0 >= self._measured, "touched", closest, 0.0, touch),
+            *(
+                (moved >= s.moved, "repelled", moved, s.moved, repelled.format(name, 1e3 * moved, 1e3 * s.moved))
+                for name, moved in self._moved.items()
+            ),
+            (self._early <= s.early, "early", self._early, s.early, early),
+        )
         figures = {
             **self.balance_figures(),
             "distance_min_mm": round(1e3 * closest, 2),

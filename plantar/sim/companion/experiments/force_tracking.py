@@ -17,7 +17,7 @@ from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, tables
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
-from plantar.sim.companion.experiment import Experiment, Verdict, World, failed
+from plantar.sim.companion.experiment import Experiment, Verdict, World, unmet
 from plantar.sim.companion.handling.actors import Fist, Push, Visit, Visitor, come_and_go
 from plantar.sim.companion.handling.force_record import ForceRecord
 from plantar.sim.companion.handling.hand_controller import HandControl, HandController
@@ -214,7 +214,6 @@ class ForceTracking(Experiment):
         self._hand.posture.target, self._hand.posture.target_velocity = target, speed
 
     def _place_object(self, world: World, time: float) -> None:
-        """Turn the object about the vertical through its pivot, a point of its front."""
         turn = 0.0
         if self.settings.turn:
             begin, end = self.settings.turn
@@ -287,27 +286,22 @@ class ForceTracking(Experiment):
         s = self.settings
         rms = {name: _rms(errors) for name, errors in self._errors.items()}
         worst = max((abs(v) for v in self._errors["distance"]), default=0.0)
-        why = []
-        for name, limit in (("free", s.largest_free), ("disturbed", s.largest_disturbed)):
-            if name == "disturbed" and not any(s.windows().values()):
-                continue  # nothing disturbs
-            if limit and not rms[name] <= limit:
-                found = f"RMS error {rms[name]:.3f} N" if self._errors[name] else "there was no time to measure it"
-                why.append(failed(f"force_{name}", rms[name], limit, f"{found}; limit {limit:g} N"))
-        if self._lost:
-            why.append(failed("contact", self._lost, 0.0, f"contact was lost for {self._lost:.3f} s"))
-        if not s.contact and worst > s.tolerance:
-            why.append(
-                failed("distance", worst, s.tolerance, f"{1e3 * worst:.1f} mm off; limit {1e3 * s.tolerance:g} mm")
-            )
-        if self._nearest <= 0.0:
-            why.append(failed("person", self._nearest, 0.0, "the base was touched by the person"))
-        if self._bumped:
-            why.append(failed("collision", self._bumped, 0.0, f"base or arm hit the object for {self._bumped:.3f} s"))
-        if s.guided and self._guided < s.guided:
-            why.append(
-                failed("guidance", self._guided, s.guided, f"hand guided {self._guided:.3f} m; at least {s.guided:g} m")
-            )
+        forces = []
+        limits = {"free": s.largest_free, "disturbed": s.largest_disturbed if any(s.windows().values()) else 0.0}
+        for name, limit in limits.items():
+            found = f"RMS error {rms[name]:.3f} N" if self._errors[name] else "there was no time to measure it"
+            met = not limit or rms[name] <= limit
+            forces.append((met, f"force_{name}", rms[name], limit, f"{found}; limit {limit:g} N"))
+        off = f"{1e3 * worst:.1f} mm off; limit {1e3 * s.tolerance:g} mm"
+        guided = f"hand guided {self._guided:.3f} m; at least {s.guided:g} m"
+        why = unmet(
+            *forces,
+            (not self._lost, "contact", self._lost, 0.0, f"contact was lost for {self._lost:.3f} s"),
+            (bool(s.contact) or worst <= s.tolerance, "distance", worst, s.tolerance, off),
+            (self._nearest > 0.0, "person", self._nearest, 0.0, "the base was touched by the person"),
+            (not self._bumped, "collision", self._bumped, 0.0, f"base or arm hit the object for {self._bumped:.3f} s"),
+            (not s.guided or self._guided >= s.guided, "guidance", self._guided, s.guided, guided),
+        )
         figures = {
             "force_rms_free_N": _rounded(rms["free"]),
             "force_rms_disturbed_N": _rounded(rms["disturbed"]),

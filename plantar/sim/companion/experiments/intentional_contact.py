@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, choice, number, tables, text
 from plantar.sim.body_skin.sensing import SkinSensor
-from plantar.sim.companion.experiment import Experiment, Verdict, World, failed
+from plantar.sim.companion.experiment import Experiment, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.reaching.layout import KINDS, random_layout
 from plantar.sim.companion.reaching.reach_controller import ReachControl, ReachController
@@ -137,14 +137,14 @@ class IntentionalContactExperiment(Experiment):
         self.done = math.isfinite(self._reached)
 
     def verdict(self) -> Verdict:
-        s, why = self.settings, []
-        if math.isinf(self._reached):
-            why.append(failed("goal", self._error, s.tolerance, f"{1e3 * self._error:.0f} mm from the goal at the end"))
+        s = self.settings
         limit = _MARGIN * s.force_limit
-        if self._highest > limit:
-            why.append(
-                failed("force", self._highest, limit, f"{self._highest:.1f} N on an obstacle; limit {limit:g} N")
-            )
+        goal = f"{1e3 * self._error:.0f} mm from the goal at the end"
+        pressed = f"{self._highest:.1f} N on an obstacle; limit {limit:g} N"
+        why = unmet(
+            (math.isfinite(self._reached), "goal", self._error, s.tolerance, goal),
+            (self._highest <= limit, "force", self._highest, limit, pressed),
+        )
         changes = self.record.changes()
         figures = {
             "layout": self.layout.kind,

@@ -20,7 +20,7 @@ from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
-from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.lean_controller import HAND, PATCH, LeanControl, LeanController
 from plantar.sim.companion.standing.standing import StandingExperiment
@@ -105,7 +105,6 @@ class Lean(StandingExperiment):
         table.contype = table.conaffinity = 0
 
     def _ground(self) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        """Corners (2,) of the ground under each sole in the world."""
         found = {}
         for side in ("left", "right"):
             place = self.stance.places[f"{side}_foot"][:2]
@@ -148,7 +147,6 @@ class Lean(StandingExperiment):
         return np.asarray(self._middle() + self.settings.hand_target)
 
     def _loads(self, world: World) -> tuple[float, float]:
-        """True vertical force in N on the ground under the left and the right sole."""
         grounds = [{world.model.geom(name).id} for name in ("left_ground", "right_ground")]
         left, right = (-float(found.forces[:, 2].sum()) for found in feet_contacts(world.model, world.data, grounds))
         return left, right
@@ -160,13 +158,11 @@ class Lean(StandingExperiment):
         if not len(held):
             held = trace[-1:]
         beyond, force, error = held[:, 1].min(), held[:, 4].min(), held[:, 5].max()
-        wanted = _OUTSIDE
-        if not reasons and beyond < wanted:
-            reasons.append(failed("beyond", beyond, wanted, f"centre of mass {1e3 * beyond:.0f} mm beyond the feet"))
-        if not reasons and force <= 0.0:
-            reasons.append(failed("forearm", force, 0.0, "the forearm lost the table"))
-        if not reasons and error > 0.03:
-            reasons.append(failed("reach", error, 0.03, f"the hand stays {1e3 * error:.0f} mm off its target"))
+        goals = unmet(
+            (beyond >= _OUTSIDE, "beyond", beyond, _OUTSIDE, f"centre of mass {1e3 * beyond:.0f} mm beyond the feet"),
+            (force > 0.0, "forearm", force, 0.0, "the forearm lost the table"),
+            (error <= 0.03, "reach", error, 0.03, f"the hand stays {1e3 * error:.0f} mm off its target"),
+        )
         figures = {
             "tilt_max_deg": round(self.tilt_max, 2),
             "sole_part": self.part,
@@ -176,7 +172,7 @@ class Lean(StandingExperiment):
             "foot_loads_N": [round(float(v), 1) for v in held[:, 2:4].mean(axis=0)],
             "reach_error_mm": round(1e3 * float(error), 1),
         }
-        return Verdict(reasons, figures)
+        return Verdict(reasons or goals[:1], figures)
 
     def plot(self, folder: Path) -> Sequence[Path]:
         trace = np.array(self._trace)

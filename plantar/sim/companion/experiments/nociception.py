@@ -19,7 +19,7 @@ from plantar.settings.schema import Settings, number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.dynamics import MujocoDynamics
-from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
 from plantar.sim.companion.standing.pad import Pad
@@ -162,20 +162,19 @@ class Nociception(StandingExperiment):
             self._trace.append((time, force, self._virtual, 1e3 * moved, float(self.reflex.active)))
 
     def verdict(self) -> Verdict:
-        reasons, s = self.balance_reasons(), self.settings
+        s = self.settings
         one, seven = self.probes["one"], self.probes["seven"]
         ratio = seven.triggered / one.triggered
         off = abs(ratio / 7.0 - 1.0) if np.isfinite(ratio) else 1.0
-        if not off <= s.tolerance:
-            text = f"threshold forces differ by {ratio:.2f}, areas by 7; allowed: {s.tolerance:.0%} apart"
-            reasons.append(failed("threshold_ratio", off, s.tolerance, text))
-        if self._jump > s.jump:
-            text = f"a torque jumped by {self._jump:.1%} of its limit in one period; allowed: {s.jump:.1%}"
-            reasons.append(failed("torque_jump", self._jump, s.jump, text))
         moved = min(p.moved for p in self.probes.values())
-        if moved < s.retreat:
-            text = f"the hand gave way by {1e3 * moved:.0f} mm; wanted: {1e3 * s.retreat:.0f}"
-            reasons.append(failed("retreat", moved, s.retreat, text))
+        apart = f"threshold forces differ by {ratio:.2f}, areas by 7; allowed: {s.tolerance:.0%} apart"
+        jump = f"a torque jumped by {self._jump:.1%} of its limit in one period; allowed: {s.jump:.1%}"
+        retreat = f"the hand gave way by {1e3 * moved:.0f} mm; wanted: {1e3 * s.retreat:.0f}"
+        reasons = self.balance_reasons() + unmet(
+            (off <= s.tolerance, "threshold_ratio", off, s.tolerance, apart),
+            (self._jump <= s.jump, "torque_jump", self._jump, s.jump, jump),
+            (moved >= s.retreat, "retreat", moved, s.retreat, retreat),
+        )
         figures = {
             **self.balance_figures(),
             "threshold_ratio": round(ratio, 3) if np.isfinite(ratio) else None,

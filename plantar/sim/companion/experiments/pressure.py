@@ -15,7 +15,7 @@ from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import skin_from_tables
-from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
 from plantar.sim.companion.standing.pad import Pad
@@ -150,14 +150,13 @@ class Pressure(StandingExperiment):
 
     def verdict(self) -> Verdict:
         one, many = self._pushes["one"], self._pushes["hundred"]
-        reasons = self.balance_reasons()
         areas = float(np.mean(many.taxels or [0.0]) / np.mean(one.taxels or [np.nan]))
         forces = float(np.mean(one.forces or [np.nan]) / np.mean(many.forces or [np.nan]))
         ratio = one.speed / many.speed / forces
         off = abs(ratio / areas - 1.0) if areas > 0.0 and np.isfinite(ratio) else 1.0
-        if not off <= self.settings.tolerance:
-            text = f"speeds differ by {ratio:.1f}, areas by {areas:.1f}; allowed: {self.settings.tolerance:.0%} apart"
-            reasons.append(failed("area_law", off, self.settings.tolerance, text))
+        limit = self.settings.tolerance
+        text = f"speeds differ by {ratio:.1f}, areas by {areas:.1f}; allowed: {limit:.0%} apart"
+        reasons = self.balance_reasons() + unmet((off <= limit, "area_law", off, limit, text))
         figures = {
             **self.balance_figures(),
             "speed_ratio": round(ratio, 2) if np.isfinite(ratio) else None,

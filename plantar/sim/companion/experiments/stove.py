@@ -20,7 +20,7 @@ from plantar.settings.schema import number, switch
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
 from plantar.sim.companion.dynamics import MujocoDynamics
-from plantar.sim.companion.experiment import Controller, Verdict, World, failed
+from plantar.sim.companion.experiment import Controller, Verdict, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
 from plantar.sim.companion.standing.heat import HotPlate, PlateSettings
@@ -157,15 +157,14 @@ class Stove(StandingExperiment):
         self._trace.append((time, hottest, float(warmth.mean()), 1e3 * float(palm[2] - self.middle[2])))
 
     def verdict(self) -> Verdict:
-        reasons, s = self.balance_reasons(), self.settings
-        if not self._arrived:
-            reasons.append(failed("arrived", 0.0, 1.0, "the hand never came to its work over the plate"))
-        if self._hottest >= s.limit:
-            text = f"a taxel reached {self._hottest:.1f} degC; allowed: below {s.limit:g}"
-            reasons.append(failed("temperature", self._hottest, s.limit, text))
-        if self._retreat < s.retreat:
-            text = f"the hand drew back by {1e3 * self._retreat:.0f} mm; wanted: {1e3 * s.retreat:.0f}"
-            reasons.append(failed("retreat", self._retreat, s.retreat, text))
+        s = self.settings
+        hot = f"a taxel reached {self._hottest:.1f} degC; allowed: below {s.limit:g}"
+        retreat = f"the hand drew back by {1e3 * self._retreat:.0f} mm; wanted: {1e3 * s.retreat:.0f}"
+        reasons = self.balance_reasons() + unmet(
+            (self._arrived, "arrived", 0.0, 1.0, "the hand never came to its work over the plate"),
+            (self._hottest < s.limit, "temperature", self._hottest, s.limit, hot),
+            (self._retreat >= s.retreat, "retreat", self._retreat, s.retreat, retreat),
+        )
         figures = {
             **self.balance_figures(),
             "temperature_max": round(self._hottest, 2),

@@ -216,8 +216,6 @@ class _BentElbow(Task):
 
 
 class _Still(Task):
-    """A wrist that only keeps its orientation, for comparison."""
-
     def __init__(self, wrist: CompliantWrist) -> None:
         self._wrist = wrist
         self._pose = CartesianPose("hand", np.zeros(3), rows="orientation")

@@ -201,7 +201,6 @@ class LeanController:
         self._paths["hand"] = (origin + rotation @ HAND, self._middle + self.settings.hand_target)
 
     def _ground_seen(self) -> NDArray[np.float64]:
-        """Polygon (m, 2) in the world in m of the ground that the soles measure."""
         corners = []
         for link, area in self.areas.items():
             x, y = self.stance.places[link][:2]
@@ -209,7 +208,6 @@ class LeanController:
         return convex_hull(corners)
 
     def _between_feet(self) -> NDArray[np.float64]:
-        """Point (2,) at which the feet share the weight by `SHARES`."""
         places, total = np.zeros(2), 0.0
         for link, area in self.areas.items():
             places += SHARES[link] * (self.stance.places[link][:2] + area.center)
@@ -242,5 +240,4 @@ def _foremost(polygon: NDArray[np.float64], y: float) -> float:
 
 
 def _along(start: NDArray[np.float64], end: NDArray[np.float64], share: float) -> NDArray[np.float64]:
-    """A place on the way from one to another, at rest at both ends."""
     return start + minimum_jerk(share)[0] * (end - start)

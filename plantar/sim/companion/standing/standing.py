@@ -14,7 +14,7 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.companion.dynamics import MujocoDynamics
-from plantar.sim.companion.experiment import Experiment, World, failed
+from plantar.sim.companion.experiment import Experiment, World, unmet
 from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl
 from plantar.sim.companion.standing.joint_range import JointRange
@@ -210,14 +210,10 @@ class StandingExperiment(Experiment):
     def balance_reasons(self) -> list[dict[str, Any]]:
         """Failed criteria of the balance."""
         if self.fell:
-            return [failed("balance", self.tilt_max, 35.0, f"it fell: tilted by {self.tilt_max:.0f} degrees")]
-        margin = 1e3 * self.cop_margin_min
-        if margin < self.cop_margin_least:
-            text = (
-                f"the centre of pressure was {margin:.1f} mm inside the soles' edge; wanted: {self.cop_margin_least:g}"
-            )
-            return [failed("cop_margin_mm", margin, self.cop_margin_least, text)]
-        return []
+            return unmet((False, "balance", self.tilt_max, 35.0, f"it fell: tilted by {self.tilt_max:.0f} degrees"))
+        margin, least = 1e3 * self.cop_margin_min, self.cop_margin_least
+        text = f"the centre of pressure was {margin:.1f} mm inside the soles' edge; wanted: {least:g}"
+        return unmet((margin >= least, "cop_margin_mm", margin, least, text))
 
     def balance_figures(self) -> dict[str, Any]:
         """Figures of the balance."""

@@ -10,10 +10,9 @@ import pytest
 
 from plantar import InputError
 from plantar.sim.bench.footholds import measure_footholds as module
-from plantar.sim.bench.footholds.foothold_run import FootholdResult, run_trial
+from plantar.sim.bench.footholds.foothold_run import TRIALS, FootholdResult, run_trial, scene_of_trial
 from plantar.sim.bench.footholds.measure_footholds import footholds_text, measure_footholds
 from plantar.sim.bench.footholds.policy import Action, OwnController, load_policy
-from plantar.sim.bench.footholds.trials import TRIALS, scene_of_trial
 
 EXAMPLE = Path(__file__).resolve().parents[4] / "examples" / "own_policy.py"
 SHORT = TRIALS[0]._replace(tables={"terrain": {"kind": "flat"}, "walk": {"steps": 2, "settle": 0.2}})

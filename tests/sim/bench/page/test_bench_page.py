@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from plantar.sim.bench.page.bench_page import bench_page
-from plantar.sim.bench.page.paper_figures import EXPERIMENTS
+from plantar.sim.bench.page.measure_page import EXPERIMENTS
 from plantar.sim.run.scene import load_scene
 
 from ....gait.analysis.browser import visit

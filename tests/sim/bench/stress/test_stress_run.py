@@ -14,11 +14,10 @@ from plantar.errors import InputError
 from plantar.gait.command import Sensors
 from plantar.gait.controller import WalkingController
 from plantar.sensing.reading import Reading
-from plantar.sim.bench.stress import stress_sweep
+from plantar.sim.bench.stress import stress_run
 from plantar.sim.bench.stress.faults import Faults, FaultySensors
 from plantar.sim.bench.stress.scenario import SCENES, Scenario, draw_scenario
-from plantar.sim.bench.stress.stress_run import FAILURES, Outcome, run_scenario
-from plantar.sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
+from plantar.sim.bench.stress.stress_run import FAILURES, Outcome, measure_stress, run_scenario, stress_loop_text
 from plantar.sim.run.scene import load_scene
 
 CASES = json.loads((Path(__file__).parent / "cases.json").read_text())
@@ -109,7 +108,7 @@ def test_a_table_goes_on_where_it_was_left(tmp_path: Path, monkeypatch: pytest.M
         ran.append(scenario.number)
         return Outcome(FAILURES[0] if scenario.number == 2 else "ended", "a, text", 1.0)
 
-    monkeypatch.setattr(stress_sweep, "run_scenario", run)
+    monkeypatch.setattr(stress_run, "run_scenario", run)
     measure_stress(tmp_path, 2)
     with (tmp_path / "stress.csv").open("a") as table:
         table.write("2,fl")  # a run that was killed

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import InputError
-from plantar.sim.sweep.cluster import ClusterWorkers
-from plantar.sim.sweep.scheduler_address import check_address, network_note, tls_files
+from plantar.sim.sweep.cluster import ClusterWorkers, check_address, network_note, tls_files
 
 _VARIABLES = [f"DASK_DISTRIBUTED__COMM__TLS__{name}" for name in ("CA_FILE", "CLIENT__CERT", "CLIENT__KEY")]
 
