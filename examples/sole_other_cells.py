@@ -14,7 +14,7 @@ import numpy as np
 from plantar import Percept, Reading, read_layout
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.shoes import build_shoe, export_shoe, foot_from_dimensions
-from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.cells.cell import read_cell
 from plantar.sim.sensing.sole_pressure import SolePressure
 
 foot = foot_from_dimensions("robot", length=0.2, width=0.09, corner_radius=0.03)

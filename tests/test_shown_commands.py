@@ -23,7 +23,7 @@ from plantar.errors import PlantarError
 from plantar.formats import read_recording
 from plantar.robots import load_robot
 from plantar.shoes import ShoeParameters
-from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.cells.cell import read_cell
 from plantar.sim.companion.machine import load_machine
 from plantar.sim.run.scene_kind import open_scene
 from plantar.sim.run.setting_list import listed, settings_of_robot

@@ -63,7 +63,7 @@ def shoe(
     from plantar.shoes import ShoeParameters, export_shoe, read_parameters
     from plantar.shoes.foot.source import read_foot
     from plantar.shoes.ordered import build_ordered, coupons_text, write_ordered_coupons
-    from plantar.shoes.papers.shoe_text import failed_checks, shoe_text
+    from plantar.shoes.papers.export import failed_checks, shoe_text
 
     if order.side not in (*SIDES, "both"):
         raise InputError(f"--side is '{order.side}'; allowed: left, right, both")
@@ -71,7 +71,7 @@ def shoe(
     shape, taxels = read_foot(replace(source, file=foot), sole_band=used.sole_band)
     read = (foot, parameters)
     if preview:
-        from plantar.shoes.papers.preview import draw_preview
+        from plantar.shoes.papers.picture import draw_preview
 
         with output_folder(output, read) as folder:
             draw_preview(shape, folder / "preview.png")

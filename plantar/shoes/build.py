@@ -1,4 +1,4 @@
-"""From a foot to its pair of shoes: fit, plan and solid in one call."""
+"""From a foot to its pair of shoes or insoles: fit, plan and solid in one call."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from plantar.errors import FootError, InputError
 from plantar.gravity import GRAVITY
 from plantar.layouts.layout import Side, SoleLayout
-from plantar.shoes.cad_kernel import load_kernel
 from plantar.shoes.cells.cell import Cell
 from plantar.shoes.fit.cell_fit import fit_cells
 from plantar.shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim
@@ -21,44 +20,29 @@ from plantar.shoes.foot.foot import Foot
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step
 from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
+from plantar.shoes.plan.insole_plan import fit_insole, insole_foot, insole_parameters, plan_insole
 from plantar.shoes.plan.load_share import LoadShare, check_load_share, relieved
-from plantar.shoes.plan.observability import observability
 from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
 from plantar.shoes.plan.strength import load_case, strengthened
-from plantar.shoes.plan.touching import Touching, check_touching, softened
-from plantar.shoes.solid.body import bare_floor, mark_outline, mirrored_steps, shoe_steps
-from plantar.shoes.solid.kernel import build_solid
+from plantar.shoes.plan.touching import Touching, check_touching, observability, softened
+from plantar.shoes.solid.body import bare_floor, insole_steps, mark_outline, mirrored_steps, shoe_steps
+from plantar.shoes.solid.kernel import build_solid, load_kernel
 from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import Retention, choose_retention
 from plantar.sides import SIDES
 
-__all__ = [
-    "RIMS",
-    "Progress",
-    "Rim",
-    "Shoe",
-    "ShoeBuild",
-    "Sides",
-    "build_shoe",
-    "built_sides",
-    "planned_sides",
-    "sides_of",
-]
+__all__ = ["Shoe", "ShoeBuild", "build_insole", "build_shoe", "built_sides", "planned_sides", "sides_of"]
 
-Sides = Literal["left", "right", "both"]
-"""Which shoes to build."""
+Sides = Literal["left", "right", "both"]  # which shoes to build
 
-Rim = Literal["whole", "fine"]
-"""Cells along the edge of the face: whole ones of the lattice, or a row of smaller ones."""
+Rim = Literal["whole", "fine"]  # cells along the edge of the face: whole ones of the lattice, or a row of smaller ones
 
-RIMS: tuple[Rim, ...] = ("whole", "fine")
-"""All kinds of rim."""
+RIMS: tuple[Rim, ...] = ("whole", "fine")  # all kinds of rim
 
 _SMALLER, _LEAST_AREA = 0.72, 100.0  # of a cell that sees too little, and mm^2
 _ACTIVE = 0.146  # of the mean load of a taxel: 0.15 kg of the papers' 86 kg over two soles of 42
 
-Progress = Callable[[float, str], None]
-"""Receives the fraction done, 0..1, and what is being done."""
+Progress = Callable[[float, str], None]  # receives the fraction done, 0..1, and what is being done
 
 
 @dataclass(frozen=True)
@@ -293,3 +277,66 @@ def built_sides(
         shoes.append(Shoe(plan, solid, solid.surface))
     tell(1.0, "all sides built")
     return tuple(shoes)
+
+
+_NOTE = "an insole of {:g} mm lies in the wearer's shoe, below the foot; nothing holds it"
+
+
+def build_insole(
+    foot: Foot,
+    thickness: float,
+    *,
+    side: Sides = "both",
+    cell_area: float = 691.0,
+    rim: Rim = "fine",
+    cell: Cell | None = None,
+    parameters: ShoeParameters | None = None,
+    name: str | None = None,
+    layout_only: bool = False,
+    progress: Progress | None = None,
+) -> ShoeBuild:
+    """Fit taxels to the outline of a foot and build a flat insole around them.
+
+    Args:
+        foot: The left foot: of a scan, of a last, or of an outline.
+        thickness: From the ground's face of the pad to the face below the foot, in mm.
+        side: "left", "right" or "both"; the right insole mirrors the left.
+        cell_area: Area of a taxel in mm^2.
+        rim: "fine" follows the edge with smaller cells, "whole" takes whole ones alone.
+        cell: Other cells than hexagons of skin, in place of `rim` and `cell_area`.
+        parameters: Dimensions; None takes the defaults.
+        name: Name of the layout; None takes the foot's.
+        layout_only: Leave the solid out, and with it OpenCascade.
+        progress: Receives fraction and text.
+
+    Returns:
+        The insoles with their layouts and solids.
+
+    Raises:
+        InputError: If an argument is out of its range.
+        FootError: If the foot cannot carry the taxels.
+
+    Example:
+        >>> from plantar.shoes.foot.foot import foot_from_dimensions
+        >>> foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
+        >>> build = build_insole(foot, 6.0, layout_only=True)
+        >>> build.kind, build.parameters.thickness, round(build.fit.covered_area_ratio, 2)
+        ('insole', 6.0, 0.95)
+    """
+    sides = sides_of(side, rim)
+    foot = insole_foot(foot)
+    tell = progress or (lambda fraction, text: None)
+    p, of_cell = cell_parameters(cell, parameters or ShoeParameters())
+    p, notes = insole_parameters(foot, thickness, p)
+    tell(0.0, "fitting the taxels to the sole")
+    fit = fit_insole(foot, p, cell_area=cell_area, fine=rim == "fine", cell=cell)
+    left = plan_insole(foot, fit, p, name=name)
+    load = load_case(foot, p)
+    p, led = led_parameters(left, p, deepen=False)
+    p, lowered = relieved(left, load, p)
+    share = check_load_share(left, load, p)
+    told = (*foot.notes, *of_cell, *notes, *fit.notes, *led, *lowered, *left.notes, _NOTE.format(thickness))
+    if layout_only:
+        return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=told, kind="insole")
+    shoes = built_sides(left, insole_steps(left, p), p, sides, tell)
+    return ShoeBuild(foot, fit, p, shoes, share, Retention("none", (), 0.0, 0.0, ""), told, kind="insole")

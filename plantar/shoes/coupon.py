@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.shoes.build import Progress, ShoeBuild
-from plantar.shoes.papers.stl import write_stl
+from plantar.shoes.papers.mesh_files import write_stl
 from plantar.shoes.plan.block import Block, Step
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.solid.body import insole_steps, shoe_steps

@@ -20,10 +20,9 @@ from plantar.shoes.papers.export import export_shoe
 from plantar.shoes.units import MM_PER_M, to_m
 from plantar.sides import SIDES
 
-__all__ = ["TAXELS", "FoundShoes", "shoe_for_surface", "taxel_area"]
+__all__ = ["FoundShoes", "shoe_for_surface", "taxel_area"]
 
-TAXELS = 42
-"""Taxels of the papers' soles, which a smaller sole has, too: what they tell depends on how many there are."""
+TAXELS = 42  # taxels of the papers' soles, which a smaller sole has, too: what they tell depends on how many there are
 
 _THRESHOLD = 0.146  # of the mean load of a taxel of a standing robot: 0.15 kg of the papers' 86 kg over two soles of 42
 _AREAS = (100.0, 691.0)  # mm^2 of a taxel: what can be made, and what the papers have

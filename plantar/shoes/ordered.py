@@ -8,12 +8,10 @@ from typing import Any, cast
 import numpy as np
 
 from plantar.errors import InputError
-from plantar.shoes.build import Progress, ShoeBuild, build_shoe
-from plantar.shoes.cells.cell import Cell
-from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.build import Progress, ShoeBuild, build_insole, build_shoe
+from plantar.shoes.cells.cell import Cell, read_cell
 from plantar.shoes.coupon import build_coupons, write_coupons
 from plantar.shoes.foot.foot import Foot
-from plantar.shoes.insole import build_insole
 from plantar.shoes.order import ShoeOrder
 from plantar.shoes.parameters import ShoeParameters
 

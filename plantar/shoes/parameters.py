@@ -11,13 +11,12 @@ from typing import Any
 from plantar.errors import InputError
 from plantar.files.structured_text import read_json, read_toml
 from plantar.shoes.dimensions import check_dimensions, choice, length, number
-from plantar.shoes.materials import MATERIALS, Material
-from plantar.shoes.processes import PROCESSES, Process
+from plantar.shoes.materials import MATERIALS, PROCESSES, Material, Process
 
-__all__ = ["RETENTIONS", "ShoeParameters", "read_parameters"]
+__all__ = ["ShoeParameters", "read_parameters"]
 
+# How the shoe is held on the foot; auto takes clips where the foot has an edge to clip over, straps otherwise
 RETENTIONS: tuple[str, ...] = ("auto", "clips", "straps", "screws", "none")
-"""How the shoe is held on the foot; auto takes clips where the foot has an edge to clip over, straps otherwise."""
 
 
 @dataclass(frozen=True)

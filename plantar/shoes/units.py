@@ -7,10 +7,9 @@ from typing import overload
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["MM_PER_M", "to_m", "to_mm"]
+__all__ = ["to_m", "to_mm"]
 
-MM_PER_M = 1000.0
-"""Millimetres in a metre."""
+MM_PER_M = 1000.0  # millimetres in a metre
 
 
 @overload

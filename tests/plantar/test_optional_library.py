@@ -88,7 +88,7 @@ def test_an_interrupt_while_the_cad_kernel_loads_is_no_missing_library() -> None
     """Its native modules turn what interrupts them into import errors, swallow it, or crash."""
     code = (
         "import os, signal, sys, threading, time\n"
-        "from plantar.shoes.cad_kernel import load_kernel\n"
+        "from plantar.shoes.solid.kernel import load_kernel\n"
         "def interrupt():\n"
         "    time.sleep(0.1); os.kill(os.getpid(), signal.SIGINT)\n"  # it loads for a second
         "threading.Thread(target=interrupt, daemon=True).start()\n"

@@ -139,7 +139,7 @@ def box() -> Callable[..., Triangles]:
 @pytest.fixture
 def stl(tmp_path: Path) -> Callable[..., Path]:
     """Writes triangles to an STL file and gives its path."""
-    from plantar.shoes.papers.stl import write_stl
+    from plantar.shoes.papers.mesh_files import write_stl
 
     def write(triangles: Triangles, name: str = "foot.stl") -> Path:
         with np.errstate(invalid="ignore"):  # a test may write what is not finite

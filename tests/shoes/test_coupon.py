@@ -11,7 +11,7 @@ import trimesh
 
 from plantar.errors import InputError
 from plantar.shoes import Foot, ShoeReport, build_shoe
-from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.cells.cell import read_cell
 from plantar.shoes.coupon import build_coupons, write_coupons
 from plantar.shoes.foot.foot import foot_from_dimensions
 

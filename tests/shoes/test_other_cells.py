@@ -14,7 +14,7 @@ import pytest
 from plantar import cli
 from plantar.layouts.layout_file import read_layout
 from plantar.shoes import ShoeParameters, build_shoe, export_shoe
-from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.cells.cell import read_cell
 from plantar.shoes.foot.foot import Foot
 
 from .foot_family import prism

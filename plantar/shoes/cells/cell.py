@@ -1,4 +1,4 @@
-"""The body of a sensor cell as its maker states it. Lengths in mm.
+"""The body of a sensor cell as its maker states it, by name or from a TOML file. Lengths in mm.
 
 *Tiles* (hex, square, rectangle without an active area) have a rubber head that spreads over the ribs, so that they tile
 the sole. *Films* (any shape with an active area, and round ones) lie at the ceiling of a pocket, and a land of the pad
@@ -8,22 +8,24 @@ presses on the active area. A *sheet* is one body with rows and columns of elect
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
 from typing import Any, Literal
 
 from plantar.errors import InputError
+from plantar.files.structured_text import packaged_files, read_toml
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.shoes.dimensions import check_dimensions, checked, choice, number, text
 from plantar.shoes.dimensions import length as mm
 
-__all__ = ["KEYS", "SHAPES", "Cell", "Kind"]
+__all__ = ["Cell", "built_in_cells", "read_cell"]
 
+# How a cell is pressed: by its own head, by a land of the pad, or as a part of one sheet
 Kind = Literal["tile", "film", "sheet"]
-"""How a cell is pressed: by its own head, by a land of the pad, or as a part of one sheet."""
 
-SHAPES = ("hex", "square", "rectangle", "round", "sheet")
-"""What a cell's body is."""
+SHAPES = ("hex", "square", "rectangle", "round", "sheet")  # what a cell's body is
 
 _ALL = (
     "name",
@@ -40,6 +42,7 @@ _ALL = (
 )
 _LEADS = ("leads", "lead_diameter")
 _TAIL = ("tail_length", "tail_width")
+# The keys that a cell's TOML may have, by its shape
 KEYS: Mapping[str, tuple[str, ...]] = {
     "hex": tuple(k for k in (*_ALL, "size", "active", *_LEADS) if k != "pitch_y"),
     "square": (*_ALL, "size", "active", "lattice", *_LEADS, *_TAIL),
@@ -47,7 +50,6 @@ KEYS: Mapping[str, tuple[str, ...]] = {
     "round": (*_ALL, "size", "active", "lattice", *_LEADS, *_TAIL),
     "sheet": (*_ALL, "line_width", "edge", "tail_pitch"),
 }
-"""The keys that a cell's TOML may have, by its shape."""
 
 
 @dataclass(frozen=True)
@@ -220,3 +222,35 @@ class Cell:
             {"name": f.name, "default": f.default, "shapes": [s for s in SHAPES if f.name in KEYS[s]], **f.metadata}
             for f in fields(cls)
         ]
+
+
+_NAME_MOST = 40  # letters
+
+
+def built_in_cells() -> dict[str, Path]:
+    """Files of the built-in cells by name.
+
+    Example:
+        >>> sorted(built_in_cells())
+        ['fsr_402', 'fsr_402_long', 'hex', 'sheet', 'square']
+    """
+    return {path.stem: path for path in packaged_files("plantar.shoes", "cells/*.toml")}
+
+
+def read_cell(name: str | os.PathLike[str]) -> Cell:
+    """A built-in cell by name, or one of a TOML file; without a name it has that of its file.
+
+    Raises:
+        InputError: If there is no such cell, the file cannot be read, or a key or value is not allowed.
+
+    Example:
+        >>> read_cell("square").kind
+        'tile'
+    """
+    known = built_in_cells()
+    path = known.get(str(name), Path(name))
+    if path.suffix.lower() != ".toml":
+        raise InputError(f"no cell '{name}'; allowed: {', '.join(known)}, or a .toml file that describes one")
+    where = f"cell file {path}"
+    cell = Cell.from_mapping(read_toml(path, InputError, where), where)
+    return cell if cell.name else replace(cell, name=path.stem[:_NAME_MOST])

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
@@ -13,21 +12,19 @@ from numpy.typing import NDArray
 
 from plantar.optional_library import optional_library
 from plantar.shoes.build import Shoe, ShoeBuild
-from plantar.shoes.checks.features import Feature, printed_features
+from plantar.shoes.checks.features import printed_features
 from plantar.shoes.checks.mounting import Mounting, check_mounting
-from plantar.shoes.checks.printability import Printing, choose_direction, print_hours
-from plantar.shoes.checks.weights import Weights, weigh
+from plantar.shoes.checks.printability import Printing, Weights, choose_direction, print_hours, weigh
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.geometry.section import thinnest_wall
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.cell_room import lead_rooms
 from plantar.shoes.plan.insole_plan import EVEN_SHARE, even_share
 from plantar.shoes.plan.load_share import LoadShare
-from plantar.shoes.plan.observability import ACROSS, ALONG, ERROR, observability
 from plantar.shoes.plan.pull_off import SNAP_MOST, PullOff
 from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan
 from plantar.shoes.plan.strength import LoadCase, Member, check_strength
-from plantar.shoes.plan.touching import ACTIVE_LEAST, AREA_OFF, COP_OFF
+from plantar.shoes.plan.touching import ACROSS, ACTIVE_LEAST, ALONG, AREA_OFF, COP_OFF, ERROR, observability
 from plantar.shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
 from plantar.shoes.solid.step_model import StepSolid
 from plantar.shoes.units import to_mm
@@ -124,16 +121,21 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
     retention = build.retention
     held = retention.pull_off(build.foot, 1e-3 * weights.total, load.mass, p) if retention.places else None
     reach = _reach(shoe.plan, surface)
-    features = printed_features(shoe, build, surface)
     checks = (
         *_solid_checks(step, watertight, int(mesh.body_count), difference),
         Check("thinnest wall, mm", wall >= p.wall_min - 1e-2, round(wall, 3), f"{p.wall_min:g} or more"),
         *_layout_checks(shoe, p, step),
         *check_plan(shoe.plan, build),
-        *_feature_checks(features),
+        *(
+            Check(f"{f.name} ({f.part}), %", f.holds, round(100.0 * f.share, 1), "90 or more of it in the print")
+            for f in printed_features(shoe, build, surface)
+        ),
         *(_insole_checks(shoe, surface, p) if mounting is None else _mounting_checks(mounting, reach, shoe, build)),
         *(() if held is None else _holding_checks(held)),
-        *_lead_checks(shoe.plan, p),
+        *(
+            Check(f"leads in the {q.name}, mm2", q.holds, round(q.needed, 1), f"{q.room:.1f} or less")
+            for q in lead_rooms(shoe.plan, p)
+        ),
         *_strength_checks(load, members, build, len(shoe.layout)),
         *_printing_checks(printing[0], shoe.plan, p),
     )
@@ -164,7 +166,13 @@ def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
     """Gives the checks that a plan of a build decides: blind rim, center of pressure, touching taxels, their load
     share.
     """
-    return (*_rim_checks(plan, build), *_contact_checks(plan, build), *_share_checks(build.load_share))
+    rim, share = build.fit.blind_most, build.load_share
+    return (
+        *(() if rim is None else (_most("blind rim beyond the taxels' centres, mm", plan.blind_rim, rim, 2),)),
+        *_contact_checks(plan, build),
+        _least("load that the taxels carry on flat ground, %", 100.0 * share.flat, 100.0 * _FLAT_SHARE),
+        _least("load that the taxels carry on half the sole, %", 100.0 * share.half, 100.0 * _HALF_SHARE),
+    )
 
 
 def _left(shoe: Shoe, build: ShoeBuild) -> ShoePlan:
@@ -175,131 +183,86 @@ def _left(shoe: Shoe, build: ShoeBuild) -> ShoePlan:
     )
 
 
+def _least(name: str, value: float, least: float, digits: int = 1) -> Check:
+    return Check(name, value >= least, round(value, digits), f"{least:g} or more")
+
+
+def _most(name: str, value: float, most: float, digits: int = 1, slack: float = 0.0) -> Check:
+    return Check(name, value <= most + slack, round(value, digits), f"{most:g} or less")
+
+
 def _solid_checks(step: StepSolid, watertight: bool, bodies: int, difference: float) -> Iterator[Check]:
     yield Check("solid valid", step.valid, step.valid, "true")
     yield Check("solids", step.solids == 1, float(step.solids), "1")
     yield Check("watertight", watertight, watertight, "true")
     yield Check("separate surfaces in the STL", bodies == 1, float(bodies), "1")
-    yield Check("STL against STEP volume, %", difference <= 0.5, round(difference, 6), "0.5 or less")
+    yield _most("STL against STEP volume, %", difference, 0.5, 6)
 
 
 def _layout_checks(shoe: Shoe, p: ShoeParameters, step: StepSolid) -> Iterator[Check]:
     cells, pockets = corner_errors(shoe, p, step)
     if p.scribe > 0.0:
-        yield Check("cell corners against the solid, mm", cells <= 0.05, round(cells, 6), "0.05 or less")
-    yield Check("pocket corners against the layout, mm", pockets <= 0.05, round(pockets, 6), "0.05 or less")
+        yield _most("cell corners against the solid, mm", cells, 0.05, 6)
+    yield _most("pocket corners against the layout, mm", pockets, 0.05, 6)
     outside = _taxels_outside(shoe)
     yield Check("taxels beyond the contact face", outside == 0, float(outside), "0")
     fewest, where = shoe.plan.fewest_taxels
     yield Check(f"taxels in the {where}, the barest of five places", fewest > 0, float(fewest), "1 or more")
 
 
-def _rim_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
-    most = build.fit.blind_most
-    if most is not None:
-        blind = plan.blind_rim
-        yield Check("blind rim beyond the taxels' centres, mm", blind <= most, round(blind, 2), f"{most:g} or less")
-
-
-def _feature_checks(features: tuple[Feature, ...]) -> Iterator[Check]:
-    for f in features:
-        yield Check(f"{f.name} ({f.part}), %", f.holds, round(100.0 * f.share, 1), "90 or more of it in the print")
-
-
 def _contact_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
     if build.kind == "insole":  # which bends to the ground, and to the foot
         return
     seen, touching = observability(plan), build.touching
-    least, share = 100.0 * ALONG, 100.0 * seen.along
-    yield Check("taxels' centres over the face's length, %", share >= least, round(share, 1), f"{least:g} or more")
-    least, share = 100.0 * ACROSS, 100.0 * seen.across
-    yield Check("taxels' centres over the face's width, %", share >= least, round(share, 1), f"{least:g} or more")
+    yield _least("taxels' centres over the face's length, %", 100.0 * seen.along, 100.0 * ALONG)
+    yield _least("taxels' centres over the face's width, %", 100.0 * seen.across, 100.0 * ACROSS)
     most = ERROR * seen.width
     name = "error of the center of pressure for a load anywhere on the face, mm"
     yield Check(name, seen.error <= most, seen.error, f"{most:.1f} or less")
     if touching is None:
         return
     at = f"at half the weight, seats within {touching.scatter:g} mm (1 sigma)"
-    least, share = 100.0 * ACTIVE_LEAST, 100.0 * touching.active
-    yield Check(f"taxels active {at}, %", share >= least, round(share, 1), f"{least:g} or more")
-    least, share = 100.0 * (1.0 - AREA_OFF), 100.0 * touching.area
-    yield Check(f"footprint {at}, %", share >= least, round(share, 1), f"{least:g} or more")
-    good = touching.cop_error <= COP_OFF
-    yield Check(f"center of pressure off {at}, mm", good, touching.cop_error, f"{COP_OFF:g} or less")
+    yield _least(f"taxels active {at}, %", 100.0 * touching.active, 100.0 * ACTIVE_LEAST)
+    yield _least(f"footprint {at}, %", 100.0 * touching.area, 100.0 * (1.0 - AREA_OFF))
+    yield _most(f"center of pressure off {at}, mm", touching.cop_error, COP_OFF, 3)
 
 
 def _insole_checks(shoe: Shoe, surface: Array, p: ShoeParameters) -> Iterator[Check]:
-    high = float(surface[..., 2].max())
+    high, outline = float(surface[..., 2].max()), shoe.plan.foot
     yield Check("thickness, mm", abs(high - p.thickness) <= 0.05, round(high, 3), f"{p.thickness:g} within 0.05")
-    beyond = float(_beyond(shoe.plan.foot, surface))
-    yield Check("beyond the foot's outline, mm", beyond <= 1e-2, round(beyond, 3), "0")
-    covered, least = 100.0 * even_share(shoe.plan.cells, shoe.plan.foot), 100.0 * EVEN_SHARE
-    yield Check("even pressure that the taxels carry, %", covered >= least, round(covered, 1), f"{least:g} or more")
-
-
-def _beyond(outline: Any, surface: Array) -> float:
     points = np.unique(surface.reshape(-1, 3)[:, :2].round(4), axis=0)
-    return float(outline.distance(shapely.points(points)).max())
+    beyond = float(outline.distance(shapely.points(points)).max())
+    yield Check("beyond the foot's outline, mm", beyond <= 1e-2, round(beyond, 3), "0")
+    covered = 100.0 * even_share(shoe.plan.cells, outline)
+    yield _least("even pressure that the taxels carry, %", covered, 100.0 * EVEN_SHARE)
 
 
 def _mounting_checks(m: Mounting, reach: float, shoe: Shoe, build: ShoeBuild) -> Iterator[Check]:
-    p, overhang = build.parameters, shoe.plan.overhang
+    p = build.parameters
     assert build.retention is not None
-    least = p.clearance - 0.05
-    yield Check("gap between foot and wall, mm", m.gap >= least, round(m.gap, 3), f"{least:g} or more")
-    most = 1.2 * p.clearance + 0.5
-    yield Check("play at the wall's upper edge, mm", m.play <= most, round(m.play, 3), f"{most:g} or less")
+    yield _least("gap between foot and wall, mm", m.gap, p.clearance - 0.05, 3)
+    yield _most("play at the wall's upper edge, mm", m.play, 1.2 * p.clearance + 0.5, 3)
     if build.retention.places:
         above = m.gap_above if math.isfinite(m.gap_above) else 1e3
-        yield Check("gap between foot and clips or lugs, mm", above >= 0.05, round(above, 3), "0.05 or more")
-    name = "places where the robot's other links meet print or straps"
-    yield Check(
-        f"{name}, {'as its model moves' if m.links_known else 'shank assumed'}", m.links == 0, float(m.links), "0"
-    )
-    yield Check(
-        "gap while the shoe is pushed on, mm",
-        m.gap_on_the_way >= least,
-        round(m.gap_on_the_way, 3),
-        f"{least:g} or more",
-    )
+        yield _least("gap between foot and clips or lugs, mm", above, 0.05, 3)
+    how = "as its model moves" if m.links_known else "shank assumed"
+    name = f"places where the robot's other links meet print or straps, {how}"
+    yield Check(name, m.links == 0, float(m.links), "0")
+    yield _least("gap while the shoe is pushed on, mm", m.gap_on_the_way, p.clearance - 0.05, 3)
     yield Check("undercut of the foot's place, mm2", m.undercut == 0.0, m.undercut, "0")
-    yield Check("gap between foot and floor, mm", m.floor_gap <= 0.05, round(m.floor_gap, 3), "0.05 or less")
-    yield Check(
-        "touching area over the floor, %", m.support_share >= 0.97, round(100.0 * m.support_share, 2), "97 or more"
-    )
-    allowed = f"{p.overhang_max:g} or less"
-    yield Check("overhang, mm", overhang <= p.overhang_max + 1e-2, round(overhang, 2), allowed)
-    allowed = f"{p.reach_max:g} or less"
-    yield Check("reach of lugs, clips and holder, mm", reach <= p.reach_max + 1e-2, round(reach, 2), allowed)
+    yield _most("gap between foot and floor, mm", m.floor_gap, 0.05, 3)
+    yield _least("touching area over the floor, %", 100.0 * m.support_share, 97.0, 2)
+    yield _most("overhang, mm", shoe.plan.overhang, p.overhang_max, 2, 1e-2)
+    yield _most("reach of lugs, clips and holder, mm", reach, p.reach_max, 2, 1e-2)
 
 
 def _holding_checks(held: PullOff) -> Iterator[Check]:
-    enough = held.force >= held.swing
-    yield Check("force that pulls the shoe off, N", enough, round(held.force, 1), f"{held.swing:.1f} or more (5 g)")
-    enough = held.moment >= held.scuff
-    yield Check(
-        "moment that holds the shoe in a scuff at the toe, N m",
-        enough,
-        round(held.moment, 2),
-        f"{held.scuff:.2f} or more",
-    )
+    enough, allowed = held.force >= held.swing, f"{held.swing:.1f} or more (5 g)"
+    yield Check("force that pulls the shoe off, N", enough, round(held.force, 1), allowed)
+    enough, allowed = held.moment >= held.scuff, f"{held.scuff:.2f} or more"
+    yield Check("moment that holds the shoe in a scuff at the toe, N m", enough, round(held.moment, 2), allowed)
     if held.snap > 0.0:
-        easy = held.snap <= SNAP_MOST
-        yield Check("force that snaps a clip on, N", easy, round(held.snap, 1), f"{SNAP_MOST:g} or less")
-
-
-def _share_checks(share: LoadShare) -> Iterator[Check]:
-    flat, half = 100.0 * share.flat, 100.0 * share.half
-    least = 100.0 * _FLAT_SHARE
-    yield Check("load that the taxels carry on flat ground, %", flat >= least, round(flat, 1), f"{least:g} or more")
-    least = 100.0 * _HALF_SHARE
-    yield Check("load that the taxels carry on half the sole, %", half >= least, round(half, 1), f"{least:g} or more")
-
-
-def _lead_checks(plan: ShoePlan, p: ShoeParameters) -> Iterator[Check]:
-    for place in lead_rooms(plan, p):
-        allowed = f"{place.room:.1f} or less"
-        yield Check(f"leads in the {place.name}, mm2", place.holds, round(place.needed, 1), allowed)
+        yield _most("force that snaps a clip on, N", held.snap, SNAP_MOST)
 
 
 def _strength_checks(load: LoadCase, members: tuple[Member, ...], build: ShoeBuild, taxels: int) -> Iterator[Check]:
@@ -307,22 +270,17 @@ def _strength_checks(load: LoadCase, members: tuple[Member, ...], build: ShoeBui
     for m in members:
         yield Check(f"stress of the {m.name}, MPa", m.holds, m.stress, f"{m.allowed:g} or less ({p.material})")
     each = load.force / max(1.0, p.load_share * taxels)
-    limit = build.shoes[0].layout.ranges["force"][1]
-    yield Check("load of a taxel, N", each <= limit, round(each, 1), f"{limit:g} or less")
+    yield _most("load of a taxel, N", each, build.shoes[0].layout.ranges["force"][1])
     if build.retention is not None and build.retention.strain > 0.0:
-        strain, most = 100.0 * build.retention.strain, 100.0 * p.printed.strain
-        yield Check("strain of a clip's arm, %", strain <= most, round(strain, 2), f"{most:g} or less")
+        yield _most("strain of a clip's arm, %", 100.0 * build.retention.strain, 100.0 * p.printed.strain, 2)
 
 
 def _printing_checks(best: Printing, plan: ShoePlan, p: ShoeParameters) -> Iterator[Check]:
-    powder = not p.made_by.supports
-    most = round(_OVERHANG_SHARE * plan.contact.area)
-    yield Check(
-        f"overhang beyond 45 degrees, {best.direction}, mm2",
-        powder or best.overhang <= most,
-        best.overhang,
-        f"{most:g} or less" + (", or more in a powder bed" if powder else ""),
+    check = _most(
+        f"overhang beyond 45 degrees, {best.direction}, mm2", best.overhang, round(_OVERHANG_SHARE * plan.contact.area)
     )
+    powder = not p.made_by.supports
+    yield replace(check, holds=True, allowed=f"{check.allowed}, or more in a powder bed") if powder else check
     size = " x ".join(f"{v:g}" for v in (p.bed_length, p.bed_width, p.bed_height))
     yield Check("longest side on the printer, mm", best.fits, best.size[0], f"within {size}")
 
@@ -346,9 +304,7 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tu
     """
     p = parameters
     cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(0.05)
-    cable = cable.union(
-        shapely.union_all(pocket_outlines(shoe.plan, p)).buffer(-1e-3)
-    )  # and what is too thin next to it
+    cable |= shapely.union_all(pocket_outlines(shoe.plan, p)).buffer(-1e-3)  # and what is too thin next to it
     shapely.prepare(cable)
     corners = np.concatenate([to_mm(shoe.layout.cell_polygon(i)) for i in range(len(shoe.layout))])
     pockets = np.concatenate([ring(q) for q in shoe.plan.pockets])

@@ -24,10 +24,9 @@ from plantar.shoes.fit.lattice_fit import fit_lattice
 from plantar.shoes.fit.taxels import TaxelFit, covered_area, rows_and_columns
 from plantar.shoes.geometry.outline import CORNER, grown, ring, tidy
 
-__all__ = ["LINES_MOST", "fit_cells"]
+__all__ = ["fit_cells"]
 
-LINES_MOST = 128
-"""Most rows and columns of a sheet together."""
+LINES_MOST = 128  # most rows and columns of a sheet together
 
 _SAMPLES = 8  # offsets of a sheet's lines along each axis
 _LEAST_CELL = 0.05  # of a whole cell around a crossing: less of the sheet is a sliver

@@ -34,8 +34,7 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-_SIDES = 24
-"""Corners of a circle's polygon: flats along the directions to the neighbours on both lattices."""
+_SIDES = 24  # corners of a circle's polygon: flats along the directions to the neighbours on both lattices
 _TOUCH = 1e-6  # mm^2 that rooms may share: rounding
 
 

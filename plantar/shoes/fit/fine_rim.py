@@ -17,14 +17,13 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.shoes.fit.cell_pattern import Lattice, hex_pattern
 from plantar.shoes.fit.lattice_fit import fit_lattice
-from plantar.shoes.fit.taxels import TaxelFit, covered_area
-from plantar.shoes.fit.trimmed_cell import trimmed_cell
+from plantar.shoes.fit.taxels import TaxelFit, covered_area, trimmed_cell
 from plantar.shoes.geometry.outline import grown, tidy
 
-__all__ = ["BLIND_MOST", "blind_rim", "fit_fine_rim", "strip_cells"]
+__all__ = ["blind_rim", "fit_fine_rim", "strip_cells"]
 
+# Widest blind rim in mm that a fine rim leaves: the contact face beyond the hull of the cells' centres
 BLIND_MOST = 12.0
-"""Widest blind rim in mm that a fine rim leaves: the contact face beyond the hull of the cells' centres."""
 
 _RESERVE = 0.5  # mm: what a wall that the load case raises adds
 _DEPTHS = tuple(np.arange(18.0, 7.5, -1.0).tolist())  # of the strip

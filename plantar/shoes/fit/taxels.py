@@ -16,19 +16,15 @@ from plantar.layouts.hex_lattice import HexLattice
 from plantar.shoes.cells.cell import Cell
 from plantar.shoes.fit.cell_pattern import Lattice, hex_pattern
 from plantar.shoes.fit.lattice_fit import LatticeFit, fit_lattice
-from plantar.shoes.fit.trimmed_cell import trimmed_cell
 from plantar.shoes.geometry.outline import CORNER, grown, tidy
 
-__all__ = ["CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "covered_area", "fit_taxels", "rows_and_columns"]
+__all__ = ["TaxelFit", "covered_area", "fit_taxels", "rows_and_columns", "trimmed_cell"]
 
-LEAST_SHARE = 0.6
-"""Share of a cell that is left at least where the rim cuts it: below, the taxel's board does not fit."""
+LEAST_SHARE = 0.6  # share of a cell that is left at least where the rim cuts it: below, the taxel's board does not fit
 
-LEAST_BORDER = 0.5
-"""Border in mm that is left around the cells where a number of them needs the room."""
+LEAST_BORDER = 0.5  # border in mm that is left around the cells where a number of them needs the room
 
-CUT_CORNER = 1.02
-"""How much farther than its edges a corner of the outline that cuts cells may lie."""
+CUT_CORNER = 1.02  # how much farther than its edges a corner of the outline that cuts cells may lie
 
 _SAMPLES = 14  # lattice offsets along each axis of the unit cell, where cells are cut
 _ANGLES = (0.0, 30.0)  # degrees, where cells are cut: rows along or across the foot
@@ -246,3 +242,38 @@ def _cut_placement(
         axial[order],
         shares[order],
     )
+
+
+_SHORT = 1.2  # mm: shortest edge that is left
+
+
+def trimmed_cell(cell: Any, region: Any) -> NDArray[np.float64]:
+    """The part of a cell inside a region, without edges too short to print.
+
+    Args:
+        cell: The cell, a shapely polygon.
+        region: A shapely polygon that it crosses.
+
+    Returns:
+        Corners (k, 2) of the largest part, counter-clockwise; corners of the whole cell stay, which neighbours share.
+
+    Example:
+        >>> import shapely
+        >>> len(trimmed_cell(shapely.box(0, 0, 4, 4), shapely.box(-1, -1, 3, 5)))
+        4
+    """
+    corners = shapely.get_coordinates(cell.exterior)[:-1]
+    points = shapely.get_coordinates(shapely.geometry.polygon.orient(_largest(cell.intersection(region))).exterior)[:-1]
+    own = np.hypot(*(points[:, None] - corners[None]).transpose(2, 0, 1)).min(axis=1) < 1e-6
+    kept = list(range(len(points)))
+    while True:
+        lengths = [float(math.hypot(*(points[kept[k]] - points[kept[k - 1]]))) for k in range(len(kept))]
+        k = int(np.argmin(lengths))
+        if lengths[k] >= _SHORT or len(kept) <= 4:
+            return np.asarray(points[kept])
+        # Of the two ends of a short edge a corner of the whole cell stays, which its neighbours share.
+        kept.pop(k - 1 if own[kept[k]] and not own[kept[k - 1]] else k)
+
+
+def _largest(shape: Any) -> Any:
+    return max((p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon"), key=lambda p: p.area)

@@ -15,10 +15,9 @@ from plantar.errors import FootError
 from plantar.shoes.geometry.outline import rounded_rectangle, tidy
 from plantar.shoes.units import MM_PER_M, to_mm
 
-__all__ = ["FOOT_LENGTHS", "Foot", "foot_from_dimensions", "foot_from_outline"]
+__all__ = ["Foot", "foot_from_dimensions", "foot_from_outline"]
 
-FOOT_LENGTHS = (60.0, 450.0)
-"""Lengths in mm that a robot's foot may have."""
+FOOT_LENGTHS = (60.0, 450.0)  # lengths in mm that a robot's foot may have
 
 
 @dataclass(frozen=True)

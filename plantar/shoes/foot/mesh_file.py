@@ -15,20 +15,18 @@ from numpy.typing import NDArray
 from plantar.errors import DependencyError, FootError
 from plantar.files.gate import read_apart
 from plantar.files.input_file import check_input, read_input
-from plantar.shoes.foot.obj_file import triangles_of_obj
 from plantar.shoes.foot.package_3mf import triangles_of_3mf
-from plantar.shoes.foot.stl_file import triangles_of_stl
+from plantar.shoes.foot.stl_obj_file import triangles_of_obj, triangles_of_stl
 
-__all__ = ["MESH_FORMATS", "MOST_TRIANGLES", "Unit", "read_mesh"]
+__all__ = ["read_mesh"]
 
-Unit = Literal["m", "cm", "mm", "in"]
-"""Unit of length of a mesh file."""
+Unit = Literal["m", "cm", "mm", "in"]  # unit of length of a mesh file
 
+# File endings that are read
 MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".dae", ".3mf", ".step", ".stp", ".iges", ".igs")
-"""File endings that are read."""
 
+# Triangles that a mesh may have, as a scan has them; the feet of robots have some ten thousand
 MOST_TRIANGLES = 1_200_000
-"""Triangles that a mesh may have, as a scan has them; the feet of robots have some ten thousand."""
 
 _LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
 # Library, function, and how much memory in bytes and time in s it may take: at least, and for each byte of the file.

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,14 +24,12 @@ from plantar.files.model_limits import check_model_size
 from plantar.files.xml_file import XML_MOST
 from plantar.optional_library import optional_library, unheard
 from plantar.shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
-from plantar.shoes.foot.urdf_text import BELOW, urdf_for_mujoco
-from plantar.shoes.geometry.primitives import primitive
+from plantar.shoes.geometry.surface import primitive
 
-__all__ = ["FARTHEST", "BodyPlace", "ModelSource", "read_model_source"]
+__all__ = ["BodyPlace", "ModelSource", "read_model_source", "urdf_for_mujoco"]
 
 _LARGEST = 100e6  # bytes of a mesh
-FARTHEST = 1e6
-"""Distance in m beyond which no shape reaches."""
+FARTHEST = 1e6  # distance in m beyond which no shape reaches
 
 _UNLIMITED = 0.6  # rad to either side of a joint without limits
 _LEAST = 1e-9  # kg and kg m^2: MuJoCo wants bodies that move to have some
@@ -42,11 +41,10 @@ _NOT_NEEDED: tuple[str, ...] = (
 _COLLIDING, _DRAWN, _ELSEWHERE = 0, 1, 2  # groups of geoms
 
 Array = NDArray[np.float64]
+# Gives the rotation (3, 3) and place (3,) of shapes for angles of joints
 Poses = Callable[[Iterable[float]], list[tuple[Array, Array]]]
-"""Gives the rotation (3, 3) and place (3,) of shapes for angles of joints."""
 
-Spec = Any
-"""A `mujoco.MjSpec`."""
+Spec = Any  # a `mujoco.MjSpec`
 
 
 class _NotCompiled(FootError):
@@ -413,3 +411,54 @@ def _surface(model: Any, geom: int, where: str) -> Array:
         points = model.mesh_vert[start : start + count].astype(np.float64)
         return np.asarray(points[model.mesh_face[first : first + faces]])
     return primitive(kind.name.removeprefix("mjGEOM_").lower(), model.geom_size[geom], where)
+
+
+_COMPILER = {"discardvisual": "false", "fusestatic": "false", "strippath": "true"}
+_WORLD = "world"
+
+BELOW = "plantar_world"  # name of the link that is put below the outermost ones: no body of the robot
+
+
+def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, str]]:
+    """The text of a URDF for MuJoCo's reader.
+
+    MuJoCo merges the root link into the world, and meshes of the same file name in two folders; it knows no packages.
+    So the root hangs on a link above, and each mesh gets a name.
+
+    Returns:
+        The text, None where every link hangs on another; and the URDF's name of each mesh.
+
+    Example:
+        >>> link = '<link name="a"><visual><geometry><mesh filename="package://b/c.dae"/></geometry></visual></link>'
+        >>> urdf_for_mujoco(ElementTree.fromstring(f"<robot>{link}</robot>"))[1]
+        {'mesh_0.stl': 'package://b/c.dae'}
+    """
+    names: dict[str, str] = {}
+    for mesh in root.iterfind("link/*/geometry/mesh"):
+        name = f"mesh_{len(names)}.stl"
+        names[name] = mesh.get("filename", "")
+        mesh.set("filename", name)
+    for own in root.findall("mujoco"):
+        root.remove(own)
+    children = {c.get("link", "") for c in root.iterfind("joint/child")}
+    tops = [link.get("name", "") for link in root.findall("link") if link.get("name", "") not in children]
+    if not tops:
+        return None, {}
+    if tops != [_WORLD]:
+        _rename_world(root)
+        root.insert(0, ElementTree.Element("link", {"name": BELOW}))
+        for i, top in enumerate(_WORLD + "_link" if t == _WORLD else t for t in tops):
+            joint = ElementTree.SubElement(root, "joint", {"name": f"{BELOW}_{i}", "type": "fixed"})
+            ElementTree.SubElement(joint, "parent", {"link": BELOW})
+            ElementTree.SubElement(joint, "child", {"link": top})
+    ElementTree.SubElement(ElementTree.SubElement(root, "mujoco"), "compiler", _COMPILER)
+    return ElementTree.tostring(root, encoding="unicode"), names
+
+
+def _rename_world(root: ElementTree.Element) -> None:
+    """Rename a link called "world", a name that MuJoCo reserves."""
+    places = [(e, "name") for e in root.findall("link")]
+    places += [(e, "link") for tag in ("parent", "child") for e in root.iterfind(f"joint/{tag}")]
+    for element, key in places:
+        if element.get(key) == _WORLD:
+            element.set(key, f"{_WORLD}_link")

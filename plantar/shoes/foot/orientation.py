@@ -11,11 +11,9 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 from plantar.optional_library import optional_library
-from plantar.shoes.geometry.surface import convex_outline, corner_numbers
+from plantar.shoes.geometry.surface import convex_outline, corner_numbers, thinned
 
 __all__ = [
-    "AXES",
-    "Axis",
     "check_one_body",
     "check_told",
     "check_upright",
@@ -27,11 +25,9 @@ __all__ = [
     "straightened",
 ]
 
-Axis = Literal["x", "-x", "y", "-y", "z", "-z"]
-"""An axis of a mesh, with its direction."""
+Axis = Literal["x", "-x", "y", "-y", "z", "-z"]  # an axis of a mesh, with its direction
 
-AXES: tuple[Axis, ...] = ("x", "-x", "y", "-y", "z", "-z")
-"""All axes."""
+AXES: tuple[Axis, ...] = ("x", "-x", "y", "-y", "z", "-z")  # all axes
 
 _TILT_LEAST = math.radians(1.0)
 _TILT_MOST = math.radians(25.0)
@@ -84,46 +80,50 @@ def _thinned(points: Array) -> Array:
     """Unique points; of very many the lowest in each column of a grid."""
     if len(points) <= _MANY:
         return np.unique(points.round(6), axis=0)
-    order = np.argsort(points[:, 2], kind="stable")
-    _, first = np.unique(corner_numbers(points[order, :2] * (1e-3 / _COLUMN)), return_index=True)
-    return np.asarray(points[order[first]])
+    order = points[np.argsort(points[:, 2], kind="stable")]
+    _, first = np.unique(corner_numbers(order[:, :2] * (1e-3 / _COLUMN)), return_index=True)
+    return np.asarray(order[first])
+
+
+def _plane(points: Array, highest: float) -> tuple[Array, float]:
+    """Normal and area in mm^2 of the largest plane of the convex hull whose normal rises by a share at most."""
+    with optional_library("scipy", "shoes"):
+        from scipy.spatial import ConvexHull, QhullError
+    down = np.array([0.0, 0.0, -1.0])
+    try:
+        hull = ConvexHull(points)
+    except (QhullError, ValueError):
+        return down, 0.0
+    corners, normal = points[hull.simplices], hull.equations[:, :3]
+    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area[normal[:, 2] > highest] = 0.0
+    same = [normal @ normal[i] > _SAME_PLANE for i in np.argsort(-area, kind="stable")[:12]]
+    best = max(same, key=lambda plane: float(area[plane].sum()))
+    if not area[best].any():
+        return down, 0.0
+    mean = (area[best, None] * normal[best]).sum(axis=0)
+    return mean / np.linalg.norm(mean), float(area[best].sum())
 
 
 def _resting_plane(triangles: Array) -> tuple[Array, float]:
     """Normal of the largest plane of the convex hull's lower side, and its share of the silhouette."""
-    with optional_library("scipy", "shoes"):
-        from scipy.spatial import ConvexHull, QhullError
-
     points = _thinned(triangles.reshape(-1, 3))
-    try:
-        hull = ConvexHull(points)
-        silhouette = ConvexHull(points[:, :2]).volume
-    except (QhullError, ValueError):
-        return np.array([0.0, 0.0, -1.0]), 0.0
-    corners = points[hull.simplices]
-    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    normal = hull.equations[:, :3]
-    below = normal[:, 2] < -math.cos(_TILT_MOST)
-    if not below.any():
-        return np.array([0.0, 0.0, -1.0]), 0.0
-    normal, area = normal[below], area[below]
-    best, share = normal[int(area.argmax())], 0.0
-    for i in np.argsort(-area, kind="stable")[:12]:
-        same = normal @ normal[i] > _SAME_PLANE
-        if area[same].sum() > share:
-            share = float(area[same].sum())
-            mean = (area[same, None] * normal[same]).sum(axis=0)
-            best = mean / np.linalg.norm(mean)
-    return best, share / silhouette
+    normal, area = _plane(points, -math.cos(_TILT_MOST))
+    return normal, area / convex_outline(points[:, :2]).area if area > 0.0 else 0.0
+
+
+def _area_in_plane(triangles: Array, normal: Array, *, inwards: bool = False) -> float:
+    """Area in mm^2 of faces in the outermost plane with a normal, of those that look inwards too."""
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    double, depth, along = np.linalg.norm(cross, axis=1), triangles @ normal, cross @ normal
+    flat = (np.abs(along) if inwards else along) > _SAME_PLANE * double
+    return float(0.5 * double[flat & (depth.max() - depth.min(axis=1) < _NEAR)].sum())
 
 
 def _flat_area(triangles: Array, normal: Array) -> float:
     """Share of the silhouette that faces of the mesh have in its outermost plane with a normal."""
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    double = np.linalg.norm(cross, axis=1)
-    depth = triangles @ normal
-    near = (depth.max() - depth.min(axis=1) < _NEAR) & (np.abs(cross @ normal) > _SAME_PLANE * double)
-    return float(0.5 * double[near].sum() / convex_outline(triangles.reshape(-1, 3)[:, :2]).area)
+    silhouette = convex_outline(triangles.reshape(-1, 3)[:, :2]).area
+    return float(_area_in_plane(triangles, normal, inwards=True) / silhouette)
 
 
 def flat_share(triangles: Array) -> float:
@@ -169,12 +169,13 @@ def check_upright(triangles: Array, where: str) -> list[str]:
         FootError: If a face on a side is larger by half.
     """
     points = triangles.reshape(-1, 3)
-    if len(points) > _MANY:
-        _, first = np.unique(corner_numbers(points * (1e-3 / _COLUMN)), return_index=True)
-        points = points[first]
+    points = points if len(points) <= _MANY else thinned(points, _COLUMN)
     below = _face_area(points, _direction("-z"), _BAND)
     sides = [(_face_area(points, -_direction(axis), _DEEP), f"{axis} up") for axis in AXES[:4]]
-    sides += [(_face_area(points, n, _DEEP), _SLANTED) for n in _largest_plane(points) if _is_face(triangles, n)]
+    normal, found = _plane(points, _UPWARD)
+    slanted = _face_area(points, normal, _DEEP) if found > 0.0 else 0.0
+    if _area_in_plane(triangles, normal) > _RESTS * slanted:  # over what juts out there are no faces
+        sides.append((slanted, _SLANTED))
     area, which = max(sides, key=lambda side: round(side[0]))  # of equal ones an axis
     if area > _SIDE * below:
         raise FootError(
@@ -219,38 +220,12 @@ def check_told(triangles: Array, where: str) -> list[str]:
     return []
 
 
-def _is_face(triangles: Array, normal: Array) -> bool:
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    depth = triangles @ normal
-    near = (depth.max() - depth.min(axis=1) < _NEAR) & (cross @ normal > _SAME_PLANE * np.linalg.norm(cross, axis=1))
-    own = 0.5 * float(np.linalg.norm(cross[near], axis=1).sum())
-    return own > _RESTS * _face_area(triangles.reshape(-1, 3), normal, _DEEP)
-
-
 def _face_area(points: Array, outward: Array, deep: float) -> float:
     """Area in mm^2 of the hull of the points within `deep` mm of the farthest one in a direction."""
     depth = points @ outward
     near = points[depth > depth.max() - deep]
     across = np.linalg.svd(outward[None])[2][1:]
     return float(convex_outline(near @ across.T).area)
-
-
-def _largest_plane(points: Array) -> list[Array]:
-    """Outward normal (3,) of the largest plane of the convex hull that does not face upwards."""
-    with optional_library("scipy", "shoes"):
-        from scipy.spatial import ConvexHull, QhullError
-
-    try:
-        hull = ConvexHull(points)
-    except (QhullError, ValueError):
-        return []
-    normals = hull.equations[:, :3]
-    corners = points[hull.simplices]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    area[normals[:, 2] > _UPWARD] = 0.0
-    likely = np.argsort(-area, kind="stable")[:12]
-    same = [float(area[normals @ normals[i] > _SAME_PLANE].sum()) for i in likely]
-    return [normals[likely[int(np.argmax(same))]]]
 
 
 def check_one_body(triangles: Array, where: str) -> None:

@@ -24,10 +24,9 @@ from plantar.shoes.foot.orientation import AXES, Axis, rotation_forward
 from plantar.shoes.foot.svg_file import MOST_POINTS, Lines, lines_of_svg
 from plantar.shoes.geometry.outline import single_outline
 
-__all__ = ["OUTLINE_FORMATS", "foot_from_drawing", "read_outline"]
+__all__ = ["foot_from_drawing", "read_outline"]
 
-OUTLINE_FORMATS: tuple[str, ...] = (".dxf", ".svg", ".geojson", ".json")
-"""File endings of drawings that are read."""
+OUTLINE_FORMATS: tuple[str, ...] = (".dxf", ".svg", ".geojson", ".json")  # file endings of drawings that are read
 
 _LARGEST, _LARGEST_DXF = 10e6, 4e6  # bytes
 _FARTHEST = 1e9  # in the drawing's unit

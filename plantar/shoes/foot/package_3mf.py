@@ -33,8 +33,7 @@ _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02 "
 _PATH = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path"
 
 Array = NDArray[np.float64]
-_Name = tuple[str, str]
-"""The model part that an object is in, and its number there."""
+_Name = tuple[str, str]  # the model part that an object is in, and its number there
 
 
 @dataclass

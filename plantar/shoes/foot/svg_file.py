@@ -17,13 +17,11 @@ from plantar.files.xml_file import XML_MOST, parse_xml
 from plantar.optional_library import optional_library
 from plantar.shoes.foot.mesh_file import Unit
 
-__all__ = ["MOST_POINTS", "Lines", "lines_of_svg"]
+__all__ = ["lines_of_svg"]
 
-Lines = list[NDArray[np.float64]]
-"""Lines of points (k, 2)."""
+Lines = list[NDArray[np.float64]]  # lines of points (k, 2)
 
-MOST_POINTS = 20_000
-"""Points that a drawing may have, those on its curves counted."""
+MOST_POINTS = 20_000  # points that a drawing may have, those on its curves counted
 
 _LONGEST_PATH, _LONGEST_TRANSFORM = 1_000_000, 10_000  # characters
 _MOST_USES = 20  # of each other

@@ -13,8 +13,6 @@ from plantar.errors import FootError
 from plantar.shoes.geometry.surface import convex_outline, covered_area
 
 __all__ = [
-    "CORNER",
-    "GRID",
     "apart",
     "cut_below",
     "flush",
@@ -28,10 +26,8 @@ __all__ = [
     "touching",
 ]
 
-GRID = 1e-3
-"""Grid in mm that polygon corners lie on."""
-CORNER = 1.2
-"""How much farther than its edges the corner of a grown outline may lie."""
+GRID = 1e-3  # grid in mm that polygon corners lie on
+CORNER = 1.2  # how much farther than its edges the corner of a grown outline may lie
 _SIMPLIFY = 0.04  # mm of detail that is dropped; less than what the gap between foot and wall may lack
 _GROOVE = 10.0  # mm: half the width of a groove that is bridged
 _NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline

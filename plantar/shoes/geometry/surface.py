@@ -1,5 +1,5 @@
-"""Surfaces of up to a million triangles: whether they are closed, what they cover, and their hull, on a grid of a
-micrometre.
+"""Surfaces of up to a million triangles, on a grid of a micrometre: whether they are closed, what they cover, and their
+hull; and those of simple shapes.
 
 A covered area comes from the edges left when those shared in opposite directions cancel: their winding number about a
 point is the number of triangles over it.
@@ -14,8 +14,9 @@ import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from plantar.optional_library import optional_library
 
-__all__ = ["convex_outline", "corner_numbers", "covered_area", "is_closed", "surface_points"]
+__all__ = ["convex_outline", "corner_numbers", "covered_area", "is_closed", "primitive", "surface_points", "thinned"]
 
 _GRID = 1e-3  # mm
 _MOST_EDGES = 60_000  # left over: more come of triangles that do not join
@@ -45,6 +46,12 @@ def corner_numbers(points: Array) -> Numbers:
             number = np.unique(number, return_inverse=True)[1].reshape(-1)
         number = number * span + axis
     return np.unique(number, return_inverse=True)[1].reshape(shape)
+
+
+def thinned(points: Array, spacing: float) -> Array:
+    """Gives the first of the points (n, 2) or (n, 3) in each cell of a grid with a spacing in their unit."""
+    _, first = np.unique(corner_numbers(points * (_GRID / spacing)), return_index=True)
+    return np.asarray(points[first])
 
 
 def is_closed(triangles: Array) -> bool:
@@ -158,3 +165,41 @@ def surface_points(triangles: Array, spacing: float) -> Array:
         a, b, c = np.moveaxis(triangles[steps == count], 1, 0)
         out.append((a[:, None] + i[:, None] * (b - a)[:, None] + j[:, None] * (c - a)[:, None]).reshape(-1, 3))
     return np.concatenate(out)
+
+
+_SIZES = {"box": 3, "sphere": 1, "cylinder": 2, "capsule": 2, "ellipsoid": 3}
+
+
+def primitive(kind: str, size: NDArray[np.float64], where: str) -> NDArray[np.float64]:
+    """Triangles of a shape about the origin, its axis along z.
+
+    Args:
+        kind: "box", "sphere", "cylinder", "capsule" or "ellipsoid".
+        size: Half sizes as in MJCF: box and ellipsoid (x, y, z), sphere (radius), cylinder and capsule (radius, half
+            length of the straight part).
+        where: What it belongs to, for messages.
+
+    Returns:
+        Triangles (n, 3, 3), outward counter-clockwise.
+
+    Raises:
+        FootError: If there is no such shape, or its size is not above 0.
+    """
+    if kind not in _SIZES:
+        raise FootError(f"{where}: '{kind}' is no shape that is read; allowed: mesh, {', '.join(_SIZES)}")
+    count = _SIZES[kind]
+    if len(size) < count or not (size[:count] > 0.0).all():
+        raise FootError(f"{where}: a {kind} needs {count} sizes above 0")
+    with optional_library("trimesh", "shoes"):
+        from trimesh import creation
+    if kind == "box":
+        mesh = creation.box(extents=2.0 * size[:3])
+    elif kind == "cylinder":
+        mesh = creation.cylinder(radius=size[0], height=2.0 * size[1], sections=48)
+    elif kind == "capsule":
+        mesh = creation.capsule(radius=size[0], height=2.0 * size[1], count=[24, 24])
+        mesh.vertices[:, 2] -= 0.5 * (mesh.vertices[:, 2].max() + mesh.vertices[:, 2].min())
+    else:
+        mesh = creation.icosphere(subdivisions=3)
+        mesh.vertices *= size[:3] if kind == "ellipsoid" else size[0]
+    return np.asarray(np.asarray(mesh.vertices, dtype=float)[np.asarray(mesh.faces)])

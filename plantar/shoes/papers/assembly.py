@@ -13,7 +13,7 @@ from plantar.gravity import GRAVITY
 from plantar.pages.page import Section, figure, page, row, table
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.checks.check import ShoeCheck
-from plantar.shoes.checks.weights import BOARD_UP
+from plantar.shoes.checks.printability import BOARD_UP
 from plantar.shoes.papers.bill import WINDOW, Part
 from plantar.shoes.papers.picture import rendered_png
 from plantar.shoes.plan.wiring import channel_lines, length_of, wire_lines

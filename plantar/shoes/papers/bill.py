@@ -9,16 +9,15 @@ import numpy as np
 
 from plantar.csv_table import csv_text
 from plantar.shoes.build import Shoe, ShoeBuild
-from plantar.shoes.checks.weights import BOARD_UP, Weights
+from plantar.shoes.checks.printability import BOARD_UP, Weights
 from plantar.shoes.plan.cell_room import tail_lines
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.units import to_mm
 
-__all__ = ["WINDOW", "Part", "bill_of_parts", "bill_text"]
+__all__ = ["Part", "bill_of_parts", "bill_text"]
 
 
-WINDOW = 5.0
-"""Diameter in mm of a hole in the pad through which a taxel's infrared sensor looks."""
+WINDOW = 5.0  # diameter in mm of a hole in the pad through which a taxel's infrared sensor looks
 
 
 @dataclass(frozen=True)

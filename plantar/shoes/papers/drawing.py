@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from plantar.shoes.build import Shoe, ShoeBuild
 from plantar.shoes.geometry.section import section, section_along
 from plantar.shoes.papers.sheet import Sheet, View
-from plantar.shoes.plan.pad_outline import pad_rim
+from plantar.shoes.plan.shoe_plan import pad_rim
 from plantar.shoes.solid.pad import land_top
 from plantar.shoes.solid.step_model import release_date
 from plantar.shoes.units import to_mm

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,22 +18,21 @@ from plantar.errors import InputError
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.shoes.build import Progress, Shoe, ShoeBuild
 from plantar.shoes.checks.check import Check, ShoeCheck, check_plan, check_shoe
-from plantar.shoes.checks.weights import Weights
+from plantar.shoes.checks.printability import Weights
+from plantar.shoes.foot.mesh_file import read_mesh
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.papers.assembly import assembly_page
 from plantar.shoes.papers.bill import Part, bill_of_parts, bill_text
 from plantar.shoes.papers.drawing import draw_shoe
-from plantar.shoes.papers.kicad import board_text, net_list_text
-from plantar.shoes.papers.package_3mf import NamedBody, write_3mf, write_assembly
+from plantar.shoes.papers.mesh_files import NamedBody, write_3mf, write_assembly, write_stl
 from plantar.shoes.papers.picture import draw_picture
 from plantar.shoes.papers.step_assembly import assembly_parts
-from plantar.shoes.papers.stl import read_stl, write_stl
-from plantar.shoes.papers.wiring_list import cells_dxf, wiring_text
+from plantar.shoes.papers.wiring_files import board_text, cells_dxf, net_list_text, wiring_text
 from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
 from plantar.shoes.solid.step_model import StepSolid, read_step, write_step
 from plantar.shoes.units import to_m
 
-__all__ = ["ShoeReport", "export_shoe"]
+__all__ = ["ShoeReport", "export_shoe", "failed_checks", "shoe_text"]
 
 
 @dataclass(frozen=True)
@@ -222,7 +222,7 @@ def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[n
             write_stl(mould_surface(shoe.plan, p), target / names[5])
     except OSError as error:
         raise InputError(f"cannot write the {side} shoe to {target}: {error.strerror}") from None
-    return read_stl(target / names[0]), read_step(target / names[1]), names
+    return read_mesh(target / names[0])[0], read_step(target / names[1]), names
 
 
 def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
@@ -253,3 +253,35 @@ def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Pa
     title = f"{shoe.layout.name}, {side} {build.kind}"
     drawn.append(draw_picture(surface, pad, title, target / f"picture_{side}.png"))
     return [path.name for path in drawn]
+
+
+def shoe_text(summary: Mapping[str, Any]) -> str:
+    """The shoe's figures for people."""
+    lines = [f"  {note}" for note in summary["notes"]]
+    bound = summary["whole_taxels_bound"]
+    size = f"{summary['cell_area_mm2']:g} mm^2{' or less' if summary['smallest_cell_share'] < 1.0 else ''}"
+    lines.append(
+        f"{summary['taxels']} taxels of {size} cover "
+        f"{100 * summary['covered_area_ratio']:.0f} % of the sole, blind rim {summary['blind_rim_mm']:.0f} mm; "
+        f"overhang {summary['overhang_mm']:g} mm"
+        + ("" if bound is None else f"; at most {bound} whole ones fit there (proven)")
+    )
+    if "mass_g" in summary:
+        size = " x ".join(f"{v:.1f}" for v in summary["size_mm"])
+        lines.append(
+            f"{size} mm, {summary['volume_cm3']:.1f} cm^3, {summary['mass_g']:.0f} g printed, "
+            f"{summary['worn_mass_g']:.0f} g worn, {summary['print_hours']:g} h to print, thinnest wall "
+            f"{summary['min_wall_mm']:g} mm, {'watertight' if summary['watertight'] else 'NOT watertight'}; "
+            f"{'all checks hold' if summary['holds'] else 'A CHECK DOES NOT HOLD'}"
+        )
+    return "\n".join([*lines, *(f"  {name}" for name in summary["files"])])
+
+
+def failed_checks(summary: Mapping[str, Any]) -> list[str]:
+    """A line for each check that does not hold: side, name, value and what is allowed."""
+    return [
+        f"{side}: {check['name']} is {check['value']}, allowed {check['allowed']}"
+        for side, shoe in summary.get("sides", {}).items()
+        for check in shoe["checks"]
+        if not check["holds"]
+    ]

@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 from plantar.atomic import write_text
 from plantar.plotting import new_figure, save_figure
 
-__all__ = ["Sheet", "View"]
+__all__ = ["Sheet", "View", "dxf_text"]
 
 _SIZE = (420.0, 297.0)  # A3
 _INCH = 25.4
+# Width in mm, dashes and colour of each kind of line; their names are the layers of the DXF
 _KINDS: dict[str, tuple[float, str, str]] = {
     "OUTLINE": (0.5, "solid", "#111111"),
     "THIN": (0.25, "solid", "#111111"),
@@ -31,7 +32,6 @@ _KINDS: dict[str, tuple[float, str, str]] = {
     "FOOT": (0.35, "dotted", "#111111"),
     "CABLE": (0.35, "solid", "#e4572e"),
 }
-"""Width in mm, dashes and colour of each kind of line; their names are the layers of the DXF."""
 _ARROW = 2.2  # mm
 _HATCH = 2.5  # mm between lines
 
@@ -146,46 +146,34 @@ class Sheet:
         return save_figure(figure, path)
 
     def _dxf(self) -> str:
-        out = [
-            "0",
-            "SECTION",
-            "2",
-            "HEADER",
-            "9",
-            "$INSUNITS",
-            "70",
-            "4",
-            "0",
-            "ENDSEC",
-            "0",
-            "SECTION",
-            "2",
-            "ENTITIES",
-        ]
-        for kind, points in (*self.lines, *(("AREA", np.vstack([a, a[:1]])) for _, a in self.areas)):
-            out += ["0", "POLYLINE", "8", kind, "66", "1"]
-            for x, y in points.tolist():
-                out += ["0", "VERTEX", "8", kind, "10", f"{x:.3f}", "20", f"{y:.3f}", "30", "0.0"]
-            out += ["0", "SEQEND", "8", kind]
+        lines = [*self.lines, *(("AREA", np.vstack([a, a[:1]])) for _, a in self.areas)]
+        out: list[str] = []
         for (x, y), text, height, turn, align in self.texts:
             plain = text.replace("⌀", "%%c").replace("±", "%%p").replace("°", "%%d").replace("²", "2")
-            place = [
-                "10",
-                f"{x:.3f}",
-                "20",
-                f"{y:.3f}",
-                "30",
-                "0.0",
-                "40",
-                f"{height:g}",
-                "1",
-                plain,
-                "50",
-                f"{turn:g}",
-            ]
-            code = {"left": "0", "center": "1", "right": "2"}[align]
-            out += ["0", "TEXT", "8", "TEXT", *place, "72", code, "11", f"{x:.3f}", "21", f"{y:.3f}", "31", "0.0"]
-        return "\n".join([*out, "0", "ENDSEC", "0", "EOF", ""])
+            code, place = {"left": "0", "center": "1", "right": "2"}[align], (f"{x:.3f}", f"{y:.3f}")
+            out += ["0", "TEXT", "8", "TEXT", "10", place[0], "20", place[1], "30", "0.0", "40", f"{height:g}"]
+            out += ["1", plain, "50", f"{turn:g}", "72", code, "11", place[0], "21", place[1], "31", "0.0"]
+        return dxf_text(lines, out)
+
+
+def dxf_text(lines: Iterable[tuple[str, Any]], more: Iterable[str] = (), *, closed: bool = False) -> str:
+    """Polylines as DXF (R12, mm).
+
+    Args:
+        lines: Layer and points (k, 2) of each.
+        more: Codes and values of further entities.
+        closed: Whether each returns to its first point.
+
+    Returns:
+        The text.
+    """
+    out = ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"]
+    for layer, points in lines:
+        out += ["0", "POLYLINE", "8", layer, "66", "1", *(("70", "1") if closed else ())]
+        for x, y in np.asarray(points).tolist():
+            out += ["0", "VERTEX", "8", layer, "10", f"{x:.4f}", "20", f"{y:.4f}", "30", "0.0"]
+        out += ["0", "SEQEND", "8", layer]
+    return "\n".join([*out, *more, "0", "ENDSEC", "0", "EOF", ""])
 
 
 @dataclass(frozen=True)

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.build import Shoe, ShoeBuild
-from plantar.shoes.checks.weights import BOARD_UP
+from plantar.shoes.checks.printability import BOARD_UP
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.block import Block, Step
 from plantar.shoes.plan.keep_out import keep_out, strap_path
-from plantar.shoes.plan.pad_outline import pad_rim
-from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.plan.shoe_plan import ShoePlan, pad_rim
 from plantar.shoes.solid.kernel import build_solid
-from plantar.shoes.solid.pad import land_top
+from plantar.shoes.solid.pad import land_top, taxel_blocks
 from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import slot_lines
 from plantar.shoes.solid.step_model import StepPart
@@ -38,14 +35,10 @@ def assembly_parts(shoe: Shoe, build: ShoeBuild) -> list[StepPart]:
         parts.append(StepPart("pad", _pad(plan, p), {"pad": _HERE}))
     if plan.heel.board:
         gap, half = p.board_gap + p.made_by.slide, 0.5 * p.board_length
-        face = plan.heel.placed(_rectangle(-gap - p.board_thickness, -half, -gap, half))
+        face = plan.heel.placed(shapely.box(-gap - p.board_thickness, -half, -gap, half))
         board = _solid(Block(face, p.thickness, p.thickness + BOARD_UP))
         parts.append(StepPart("connection board", board, {"connection board": _HERE}))
     return parts + _straps(shoe, build)
-
-
-def _rectangle(*bounds: float) -> Any:
-    return shapely.box(*bounds)
 
 
 def _solid(*blocks: Block) -> Polyhedron:
@@ -54,17 +47,11 @@ def _solid(*blocks: Block) -> Polyhedron:
 
 def _taxels(plan: ShoePlan, p: ShoeParameters) -> list[StepPart]:
     """Taxels as they are in the layout; those of one shape are one product in several places."""
-    if plan.lands:
-        low, what = land_top(plan, p), "sheet" if plan.lines is not None else "cell"
-        bodies = [[Block(q, low, p.ceiling)] for q in plan.pockets]
-    else:
-        what, bodies = "taxel", [[Block(q, p.bottom, p.ceiling)] for q in plan.pockets]
-        if p.taxel_protrusion > 0.0:
-            bodies = [[Block(c, p.pad_thickness, p.bottom), *b] for c, b in zip(plan.cells, bodies, strict=True)]
+    what = "taxel" if not plan.lands else "sheet" if plan.lines is not None else "cell"
     shapes: dict[bytes, tuple[list[Block], dict[str, tuple[float, float, float]]]] = {}
-    for number, blocks in zip(plan.layout.ids.tolist(), bodies, strict=False):  # or one sheet
+    for number, blocks in zip(plan.layout.ids.tolist(), taxel_blocks(plan, p), strict=False):  # or one sheet
         x, y = np.array(blocks[-1].low.centroid.coords[0]).round(4).tolist()
-        own = [Block(_moved(b.low, -x, -y), b.z_low, b.z_high) for b in blocks]
+        own = [Block(shapely.affinity.translate(b.low, -x, -y), b.z_low, b.z_high) for b in blocks]
         key = b"".join(_from_lowest(ring(b.low), _SAME).tobytes() for b in own)
         called = what if len(plan.pockets) == 1 else f"{what} {number}"
         shapes.setdefault(key, (own, {}))[1][called] = (x, y, 0.0)
@@ -78,10 +65,6 @@ def _from_lowest(points: NDArray[np.float64], grid: float) -> NDArray[np.int64]:
     """Corners on a grid, in a turn that starts at the first of the lowest."""
     places = np.rint(points / grid).astype(np.int64)
     return np.roll(places, -int(np.lexsort(places.T)[0]), axis=0)
-
-
-def _moved(polygon: Any, x: float, y: float) -> Any:
-    return shapely.affinity.translate(polygon, x, y)
 
 
 def _pad(plan: ShoePlan, p: ShoeParameters) -> Polyhedron:

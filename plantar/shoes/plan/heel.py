@@ -13,13 +13,11 @@ from numpy.typing import NDArray
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.parameters import ShoeParameters
 
-__all__ = ["LIP", "POST", "Heel", "find_heel", "holder_depth"]
+__all__ = ["Heel", "find_heel", "holder_depth"]
 
-LIP = 1.5
-"""Rail behind the board."""
+LIP = 1.5  # rail behind the board
 
-POST = 2.5
-"""Rail beside the board."""
+POST = 2.5  # rail beside the board
 
 _TURNS = (0, 10, -10, 20, -20, 30, -30, 40, -40, 50, -50, 60, -60)  # degrees from straight back
 _TURN_COST = 0.03  # mm of reach that a degree of turning is worth

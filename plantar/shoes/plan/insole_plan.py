@@ -22,22 +22,11 @@ from plantar.shoes.geometry.outline import tidy
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.shoe_plan import ShoePlan, plan_face
 
-__all__ = [
-    "EVEN_SHARE",
-    "INSOLE_THICKNESS",
-    "even_share",
-    "fit_insole",
-    "insole_foot",
-    "insole_parameters",
-    "person_mass",
-    "plan_insole",
-]
+__all__ = ["even_share", "fit_insole", "insole_foot", "insole_parameters", "person_mass", "plan_insole"]
 
-INSOLE_THICKNESS = (4.0, 15.0)
-"""Least and greatest thickness of an insole in mm, with its pad."""
+INSOLE_THICKNESS = (4.0, 15.0)  # least and greatest thickness of an insole in mm, with its pad
 
-EVEN_SHARE = 0.80
-"""Least share of an even pressure that an insole's cells carry."""
+EVEN_SHARE = 0.80  # least share of an even pressure that an insole's cells carry
 
 _SHARES = {"pad_thickness": 1 / 6, "taxel_protrusion": 1 / 6, "pocket_depth": 1 / 4}  # the rest is the floor
 _UP_TO, _ROUND = 15.0, 8.0  # mm of the foot's height, and half the width of a gap that is filled or a spur that is not

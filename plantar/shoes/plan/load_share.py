@@ -33,8 +33,7 @@ import shapely
 from numpy.typing import NDArray
 
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.pad_outline import pad_rim
-from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.plan.shoe_plan import ShoePlan, pad_rim
 from plantar.shoes.plan.strength import LoadCase
 
 __all__ = [
@@ -44,6 +43,7 @@ __all__ = [
     "pad_modulus",
     "relieved",
     "shore_modulus",
+    "spring_forces",
     "taxel_stiffness",
 ]
 
@@ -208,33 +208,52 @@ class _Springs:
         return cls(points[inside], taxel[inside], gap[inside], stiffness[inside])
 
     def share(self, held: NDArray[np.bool_], force: float) -> tuple[float, float]:
-        """Share of a force in N on the taxels where the ground holds some springs, and the print's travel in mm:
-        Newton's method on the convex energy, with a line search.
-        """
+        """Share of a force in N on the taxels where the ground holds some springs, and the print's travel in mm."""
         if not held.any():
             return 0.0, 0.0
-        points, gap, k = self.points[held], self.gap[held], self.stiffness[held]
+        points = self.points[held]
         at = points - points.mean(axis=0)  # the load acts in the middle
-        u = np.column_stack([np.ones(len(at)), at / np.abs(at).max()])
-        load = np.array([force, 0.0, 0.0])
-        sunk = np.array([float(gap.min()) + force / k.sum(), 0.0, 0.0])
+        forces, travel = spring_forces(at, self.stiffness[held], self.gap[held][None], force)
+        return float(forces[0, self.taxel[held]].sum() / forces.sum()), float(travel[0])
 
-        def energy(at: Array) -> float:
-            return float(0.5 * (k * np.maximum(u @ at - gap, 0.0) ** 2).sum() - load @ at)
 
-        for _ in range(60):
-            way = np.maximum(u @ sunk - gap, 0.0)
-            slope = u.T @ (k * way) - load
-            if np.abs(slope).max() < 1e-9 * force:
+def spring_forces(points: Array, stiffness: Array, gaps: Array, force: float) -> tuple[Array, Array]:
+    """Forces of springs that do not pull below a rigid plate: Newton's method on the convex energy, with a line search.
+
+    Args:
+        points: Places (n, 2) from the load in mm.
+        stiffness: Of each (n,) in N/mm.
+        gaps: Free travel (k, n) in mm of the springs below each of k plates.
+        force: The load in N.
+
+    Returns:
+        Force (k, n) of each spring in N, and the travel (k,) of each plate in mm.
+    """
+    u = np.column_stack([np.ones(len(points)), points / max(1.0, float(np.abs(points).max()))])
+    load, sunk = np.array([force, 0.0, 0.0]), np.zeros((len(gaps), 3))
+    sunk[:, 0] = np.median(gaps, axis=1) + force / stiffness.sum()
+
+    def pressed(at: Array) -> Array:
+        return np.asarray(np.maximum(at @ u.T - gaps, 0.0))
+
+    def energy(at: Array) -> Array:
+        return np.asarray(0.5 * pressed(at) ** 2 @ stiffness - at @ load)
+
+    for _ in range(60):
+        way = pressed(sunk)
+        slope = (way * stiffness) @ u - load
+        if np.abs(slope).max() < 1e-9 * force:
+            break
+        bent = np.einsum("sn,ni,nj->sij", stiffness * (way > 0.0), u, u) + 1e-9 * stiffness.sum() * np.eye(3)
+        step = np.linalg.solve(bent, slope[..., None])[..., 0]
+        rate, before = np.ones(len(gaps)), energy(sunk)
+        for _ in range(20):
+            worse = energy(sunk - rate[:, None] * step) > before
+            if not worse.any():
                 break
-            active = k * (way > 0.0)
-            step = np.linalg.solve((u.T * active) @ u + 1e-9 * k.sum() * np.eye(3), slope)
-            rate, before = 1.0, energy(sunk)
-            while energy(sunk - rate * step) > before and rate > 1e-6:
-                rate *= 0.5
-            sunk = sunk - rate * step
-        way = k * np.maximum(u @ sunk - gap, 0.0)
-        return float(way[self.taxel[held]].sum() / way.sum()), float(sunk[0])
+            rate[worse] *= 0.5
+        sunk = sunk - rate[:, None] * step
+    return stiffness * pressed(sunk), sunk[:, 0]
 
 
 def _within(shape: Any, points: Array) -> NDArray[np.bool_]:

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from plantar.mechanics.lip import GRAVITY
 from plantar.shoes.parameters import ShoeParameters
 
-__all__ = ["SNAP_MOST", "PullOff", "clip_force", "needed_force", "pull_off"]
+__all__ = ["PullOff", "clip_force", "needed_force", "pull_off"]
 
 _MU = 0.3  # plastic on plastic or metal
 _SWING = 5.0  # g
@@ -27,8 +27,7 @@ _SCUFF = 0.1  # of the robot's weight on the toe
 _SHEAR, _OVERLAP = 0.07, 50.0  # MPa and mm of hooks and loops
 _SCREW = 100.0  # N
 
-SNAP_MOST = 200.0
-"""Force in N that a person pushes with his body at most, at work (EN 1005-3)."""
+SNAP_MOST = 200.0  # force in N that a person pushes with his body at most, at work (EN 1005-3)
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ from plantar.shoes.plan.block import moved_edges
 from plantar.shoes.plan.heel import Heel, find_heel
 from plantar.shoes.units import to_m, to_mm
 
-__all__ = ["ShoePlan", "mirrored_plan", "plan_face", "plan_shoe"]
+__all__ = ["ShoePlan", "mirrored_plan", "pad_rim", "plan_face", "plan_shoe"]
 
 _TOUCH = 1e-3  # mm between cells that share an edge
 _PORT_SHARE = 0.6  # of a shared edge or a body: the widest port
@@ -352,3 +352,19 @@ def mirrored_plan(plan: ShoePlan) -> ShoePlan:
         plan.lines,
         None if plan.crossings is None else plan.crossings * np.array([1.0, -1.0]),
     )
+
+
+_PLAY = 0.3  # mm between the taxels' heads and the rim
+_LEAST = 2.0  # mm: a narrower rim is left out
+
+
+def pad_rim(plan: ShoePlan, parameters: ShoeParameters) -> Any:
+    """Gives the pad's rim by plan and parameters: the contact face next to the taxels where it is wide enough, a
+    shapely geometry, possibly empty.
+    """
+    if parameters.pad_rim_height <= 0.0:
+        return shapely.Polygon()
+    beside = plan.contact.difference(shapely.union_all(plan.cells).buffer(_PLAY, join_style="mitre"))
+    wide = beside.buffer(-0.5 * _LEAST).buffer(0.5 * _LEAST, quad_segs=2).intersection(beside)
+    parts = [p for p in getattr(wide, "geoms", [wide]) if p.geom_type == "Polygon" and p.area > _LEAST**2]
+    return shapely.set_precision(shapely.MultiPolygon(parts), GRID) if parts else shapely.Polygon()

@@ -1,8 +1,9 @@
-"""How many taxels touch the ground when their seats scatter, and the pad that is soft enough for it. Lengths in mm.
+"""How well the taxels measure: how many touch when their seats scatter, with a pad soft enough for it, and whether they
+observe the center of pressure. Lengths in mm.
 
 Print and ground are rigid. Each taxel with the pad below it is a spring, its seat's height scattered by the process's
-standard deviation. The print sinks and tilts under half the robot's weight in the middle of the cells until forces and
-moments balance.
+standard deviation. The print sinks and tilts under half the robot's weight until forces and moments balance. A load is
+reported within the hull of the taxels' centres; one beyond it is off by its distance (the blind rim).
 """
 
 from __future__ import annotations
@@ -10,19 +11,21 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from plantar.gravity import GRAVITY
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.load_share import taxel_stiffness
+from plantar.shoes.plan.load_share import spring_forces, taxel_stiffness
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.strength import LoadCase
+from plantar.shoes.units import to_mm
 
-__all__ = ["ACTIVE_LEAST", "AREA_OFF", "COP_OFF", "Touching", "check_touching", "softened"]
+__all__ = ["Observability", "Touching", "check_touching", "observability", "softened"]
 
+# Least share of taxels that are active at half the weight; most that the footprint's area (share) and the center of
+# pressure (mm) may be off
 ACTIVE_LEAST, AREA_OFF, COP_OFF = 0.95, 0.10, 1.0
-"""Least share of taxels that are active at half the weight; most that the footprint's area (share) and the center of
-pressure (mm) may be off."""
 
 _SHOES = 200  # that are drawn
 _RESERVE = 0.01  # of the share of active taxels, for the draw
@@ -75,7 +78,7 @@ def check_touching(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -
     scatter = parameters.made_by.scatter
     heights = scatter * np.random.default_rng(1).standard_normal((_SHOES, len(area)))
     middle = (area @ points) / area.sum()
-    forces = _forces(points - middle, bed * area, heights, force)
+    forces, _ = spring_forces(points - middle, bed * area, -heights, force)
     active = forces >= plan.layout.force_threshold
     read = np.where(active, forces, 0.0)
     total = read.sum(axis=1)
@@ -89,34 +92,6 @@ def check_touching(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -
         round(float((active @ area).mean() / area.sum()), 4),
         round(float(min(1e3, np.quantile(off, 0.95))), 3),
     )
-
-
-def _forces(points: Array, stiffness: Array, heights: Array, force: float) -> Array:
-    """Force (shoes, n) of each spring below a plate with a load in the origin: Newton's method on the convex energy."""
-    u = np.column_stack([np.ones(len(points)), points / max(1.0, float(np.abs(points).max()))])
-    sunk = np.zeros((len(heights), 3))
-    sunk[:, 0] = heights.std() + force / stiffness.sum()
-    load = np.array([force, 0.0, 0.0])
-
-    def energy(at: Array) -> Array:
-        way = np.maximum(at @ u.T + heights, 0.0)
-        return np.asarray(0.5 * (way**2) @ stiffness - at @ load)
-
-    for _ in range(60):
-        way = np.maximum(sunk @ u.T + heights, 0.0)
-        slope = (way * stiffness) @ u - load
-        if np.abs(slope).max() < 1e-9 * force:
-            break
-        bent = np.einsum("sn,ni,nj->sij", stiffness * (way > 0.0), u, u) + 1e-9 * stiffness.sum() * np.eye(3)
-        step = np.linalg.solve(bent, slope[..., None])[..., 0]
-        rate, before = np.ones(len(heights)), energy(sunk)
-        for _ in range(12):
-            worse = energy(sunk - rate[:, None] * step) > before
-            if not worse.any():
-                break
-            rate[worse] *= 0.5
-        sunk = sunk - rate[:, None] * step
-    return np.asarray(stiffness * np.maximum(sunk @ u.T + heights, 0.0))
 
 
 def softened(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
@@ -147,3 +122,43 @@ def softened(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tupl
                     f"{p.made_by.scatter:g} mm would keep taxels on rubber off the ground",
                 )
     return p, ()
+
+
+# Least share of the face's length and width that the centres reach over; most error over the face's width
+ALONG, ACROSS, ERROR = 0.55, 0.45, 0.40
+
+
+@dataclass(frozen=True)
+class Observability:
+    """How well the taxels observe the center of pressure.
+
+    Attributes:
+        along: Longer side of the smallest rectangle around the centres, over the face's length.
+        across: Its shorter side, over the face's width; 0 for taxels in a line.
+        error: Largest error in mm for a load anywhere on the face.
+        width: Width of the face in mm.
+    """
+
+    along: float
+    across: float
+    error: float
+    width: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether both directions are observed well enough."""
+        return self.along >= ALONG and self.across >= ACROSS and self.error <= ERROR * self.width
+
+
+def observability(plan: ShoePlan) -> Observability:
+    """How well the taxels of a sole observe the center of pressure."""
+    low_x, low_y, high_x, high_y = plan.contact.bounds
+    box = shapely.MultiPoint(to_mm(plan.layout.positions[:, :2])).minimum_rotated_rectangle
+    corners = shapely.get_coordinates(box)
+    sides = np.hypot(*np.diff(corners, axis=0)[:2].T) if box.geom_type == "Polygon" else np.array([box.length, 0.0])
+    return Observability(
+        round(float(sides.max() / (high_x - low_x)), 3),
+        round(float(sides.min() / (high_y - low_y)), 3),
+        round(plan.blind_rim, 2),
+        high_y - low_y,
+    )

@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 
 from plantar.shoes.solid.polyhedron import Loops, Polyhedron
 
-__all__ = ["BULGE", "Arc", "CurvedSolid", "with_arcs"]
+__all__ = ["Arc", "CurvedSolid", "with_arcs"]
 
-BULGE = 0.25
-"""How far an arc may lie off a facet's middle, in mm."""
+BULGE = 0.25  # how far an arc may lie off a facet's middle, in mm
 
 _OFF = 0.05  # mm: how far a corner may lie off its arc
 _TURN, _WHOLE = math.radians(20.0), math.radians(150.0)  # at a corner that may vanish, and of an arc

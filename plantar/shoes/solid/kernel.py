@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import cache
 from itertools import pairwise
 from typing import Any
 
@@ -10,16 +11,40 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from plantar.shoes.cad_kernel import load_kernel
+from plantar.optional_library import optional_library
 from plantar.shoes.geometry.outline import ring
 from plantar.shoes.plan.block import Block, Groove, Step
 from plantar.shoes.solid.polyhedron import Polyhedron, without_short_edges
 
-__all__ = ["SHORTEST", "build_solid"]
+__all__ = ["build_solid", "load_kernel", "parts_of", "points_of"]
 
-SHORTEST = 0.2
-"""Shortest edge of a solid in mm."""
 
+@cache
+def load_kernel() -> Any:
+    """OpenCascade's module with all of its packages; loading it takes a second.
+
+    Raises:
+        DependencyError: If it is not installed or cannot be loaded.
+    """
+    with optional_library("OCP", "shoes"):
+        import OCP
+        import OCP.TopoDS  # gives names of the version before
+    # It prints what it finds wrong in a file to stdout, which belongs to the command; errors are raised anyhow.
+    printers = OCP.Message.Message_PrinterOStream.get_type_descriptor_s()
+    OCP.Message.Message.DefaultMessenger_s().RemovePrinters(printers)
+    return OCP
+
+
+class _Kernel:
+    """OpenCascade's packages, loaded at their first use."""
+
+    def __getattr__(self, package: str) -> Any:
+        return getattr(load_kernel(), package)
+
+
+ocp = _Kernel()
+
+SHORTEST = 0.2  # shortest edge of a solid in mm
 _BELOW = 0.5  # mm that a groove's solid reaches below the print
 
 Points = Sequence[Any] | NDArray[np.float64]
@@ -34,7 +59,7 @@ def build_solid(steps: Sequence[Step]) -> Polyhedron:
     load_kernel()
     try:
         shape = _assembled(steps)
-        solids = _count(shape)
+        solids = len(parts_of(shape, ocp.TopAbs.TopAbs_SOLID))
         if solids == 1:
             return without_short_edges(_polyhedron(shape), SHORTEST)
     except Exception as error:  # the kernel raises of every kind
@@ -44,7 +69,6 @@ def build_solid(steps: Sequence[Step]) -> Polyhedron:
 
 
 def _assembled(steps: Sequence[Step]) -> Any:
-    ocp = load_kernel()
     shape: Any = None
     for step in steps:
         bodies = [_body(block) for block in step.blocks]
@@ -69,7 +93,6 @@ def _assembled(steps: Sequence[Step]) -> Any:
 
 def _combined(operation: Any, arguments: Iterable[Any], tools: Sequence[Any]) -> Any:
     """The result of a boolean of the kernel; without its history and copies, which take a fifth of the time."""
-    ocp = load_kernel()
     if not tools:
         return next(iter(arguments))
     lists = ocp.TopTools.TopTools_ListOfShape(), ocp.TopTools.TopTools_ListOfShape()
@@ -109,7 +132,6 @@ def _sides(low: Points, high: Points) -> list[Any]:
 
 
 def _wire(points: Points) -> Any:
-    ocp = load_kernel()
     made = ocp.BRepBuilderAPI.BRepBuilderAPI_MakePolygon()
     for point in points:
         made.Add(ocp.gp.gp_Pnt(*point))
@@ -118,7 +140,6 @@ def _wire(points: Points) -> Any:
 
 
 def _face(outer: Points, *holes: Points) -> Any:
-    ocp = load_kernel()
     made = ocp.BRepBuilderAPI.BRepBuilderAPI_MakeFace(_wire(outer), True)
     for hole in holes:
         made.Add(_wire(hole))
@@ -126,14 +147,12 @@ def _face(outer: Points, *holes: Points) -> Any:
 
 
 def _prism(block: Block) -> Any:
-    ocp = load_kernel()
     holes = [np.asarray(h.coords)[:-1] if not h.is_ccw else np.asarray(h.coords)[:0:-1] for h in block.low.interiors]
     face = _face(_at(ring(block.low), block.z_low), *(_at(h, block.z_low) for h in holes))
     return ocp.BRepPrimAPI.BRepPrimAPI_MakePrism(face, ocp.gp.gp_Vec(0.0, 0.0, block.z_high - block.z_low)).Shape()
 
 
 def _solid(faces: list[Any]) -> Any:
-    ocp = load_kernel()
     sewn = ocp.BRepBuilderAPI.BRepBuilderAPI_Sewing(1e-6)
     for face in faces:
         sewn.Add(face)
@@ -141,35 +160,31 @@ def _solid(faces: list[Any]) -> Any:
     return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeSolid(ocp.TopoDS.TopoDS.Shell_s(sewn.SewedShape())).Solid()
 
 
-def _count(shape: Any) -> int:
-    ocp = load_kernel()
+def parts_of(shape: Any, kind: Any) -> list[Any]:
+    """Gives the different parts of a kind (a `TopAbs` type) of a shape of the kernel."""
     found = ocp.TopTools.TopTools_IndexedMapOfShape()
-    ocp.TopExp.TopExp.MapShapes_s(shape, ocp.TopAbs.TopAbs_SOLID, found)
-    return int(found.Size())
+    ocp.TopExp.TopExp.MapShapes_s(shape, kind, found)
+    return [found.FindKey(i + 1) for i in range(found.Size())]
+
+
+def points_of(shape: Any) -> NDArray[np.float64]:
+    """Corners (n, 3) in mm of a shape of the kernel."""
+    corners = parts_of(shape, ocp.TopAbs.TopAbs_VERTEX)
+    return np.array([ocp.BRep.BRep_Tool.Pnt_s(ocp.TopoDS.TopoDS.Vertex_s(v)).Coord() for v in corners])
 
 
 def _polyhedron(shape: Any) -> Polyhedron:
-    ocp = load_kernel()
     found = ocp.TopTools.TopTools_IndexedMapOfShape()
     ocp.TopExp.TopExp.MapShapes_s(shape, ocp.TopAbs.TopAbs_VERTEX, found)
-    points = (ocp.BRep.BRep_Tool.Pnt_s(ocp.TopoDS.TopoDS.Vertex_s(found.FindKey(i + 1))) for i in range(found.Size()))
-    corners = np.array([(p.X(), p.Y(), p.Z()) for p in points])
     faces = []
-    each = ocp.TopExp.TopExp_Explorer(shape, ocp.TopAbs.TopAbs_FACE)
-    while each.More():
-        face, loops = ocp.TopoDS.TopoDS.Face_s(each.Current()), list[tuple[int, ...]]()
-        each.Next()
-        outer, wires = (
-            ocp.BRepTools.BRepTools.OuterWire_s(face),
-            ocp.TopExp.TopExp_Explorer(face, ocp.TopAbs.TopAbs_WIRE),
-        )
-        while wires.More():
-            wire, loop = ocp.TopoDS.TopoDS.Wire_s(wires.Current()), list[int]()
-            wires.Next()
-            edges = ocp.BRepTools.BRepTools_WireExplorer(wire, face)
+    for face in map(ocp.TopoDS.TopoDS.Face_s, parts_of(shape, ocp.TopAbs.TopAbs_FACE)):
+        loops: list[tuple[int, ...]] = []
+        outer = ocp.BRepTools.BRepTools.OuterWire_s(face)
+        for wire in map(ocp.TopoDS.TopoDS.Wire_s, parts_of(face, ocp.TopAbs.TopAbs_WIRE)):
+            edges, loop = ocp.BRepTools.BRepTools_WireExplorer(wire, face), list[int]()
             while edges.More():
                 loop.append(found.FindIndex(edges.CurrentVertex()) - 1)
                 edges.Next()
             loops.insert(0 if wire.IsSame(outer) else len(loops), tuple(loop))
         faces.append(tuple(loops))
-    return Polyhedron(corners, tuple(faces))
+    return Polyhedron(points_of(shape), tuple(faces))

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from plantar.shoes.geometry.outline import GRID, ring
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.pad_outline import pad_rim
-from plantar.shoes.plan.shoe_plan import ShoePlan
+from plantar.shoes.plan.block import Block
+from plantar.shoes.plan.shoe_plan import ShoePlan, pad_rim
 
-__all__ = ["land_top", "mould_surface", "pad_surface", "prism_surface", "taxel_surfaces", "volume_of"]
+__all__ = ["land_top", "mould_surface", "pad_surface", "prism_surface", "taxel_blocks", "taxel_surfaces"]
 
 _MOULD_WALL, _MOULD_FLOOR = 6.0, 3.0  # mm around and below the cast pad
 
@@ -83,28 +83,25 @@ def _height_field(faces: Sequence[Any], tops: Sequence[float]) -> Array:
     return np.concatenate(parts)
 
 
-def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
-    """Gives the closed surfaces (n, 3, 3) of taxels (head below the print, base in the pocket) or of films and sheets,
-    by plan and parameters.
+def taxel_blocks(plan: ShoePlan, parameters: ShoeParameters) -> list[list[Block]]:
+    """Gives the blocks of each taxel of a plan, by parameters: head below the print and base in the pocket, or the body
+    of a film or sheet.
     """
     p = parameters
-    if plan.lands:
-        low = land_top(plan, p)
-        bodies = [prism_surface(q, low, p.ceiling) for q in plan.pockets]
-        if p.pad_thickness > 0.0:
-            return bodies
-        lands = [prism_surface(q, 0.0, low) for q in plan.lands]
-        return [np.concatenate([b, *own]) for b, own in zip(bodies, _shared_out(lands, len(bodies)), strict=True)]
-    bases = [prism_surface(q, p.bottom, p.ceiling) for q in plan.pockets]
-    if p.taxel_protrusion <= 0.0:
-        return bases
-    return [
-        np.concatenate([prism_surface(c, p.pad_thickness, p.bottom), b]) for c, b in zip(plan.cells, bases, strict=True)
-    ]
+    bodies = [[Block(q, land_top(plan, p) if plan.lands else p.bottom, p.ceiling)] for q in plan.pockets]
+    if plan.lands or p.taxel_protrusion <= 0.0:
+        return bodies
+    return [[Block(c, p.pad_thickness, p.bottom), *b] for c, b in zip(plan.cells, bodies, strict=True)]
 
 
-def _shared_out(lands: list[Array], count: int) -> list[list[Array]]:
-    return [lands] if count == 1 else [[land] for land in lands]
+def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
+    """Gives the surfaces (n, 3, 3) of each taxel, by plan and parameters; without a pad with its lands."""
+    blocks = taxel_blocks(plan, parameters)
+    if plan.lands and parameters.pad_thickness <= 0.0:
+        lands = [Block(q, 0.0, land_top(plan, parameters)) for q in plan.lands]
+        shared = [lands] if len(blocks) == 1 else [[land] for land in lands]  # a sheet has them all
+        blocks = [body + own for body, own in zip(blocks, shared, strict=True)]
+    return [np.concatenate([prism_surface(b.low, b.z_low, b.z_high) for b in each]) for each in blocks]
 
 
 def prism_surface(polygon: Any, low: float, high: float) -> Array:
@@ -127,9 +124,3 @@ def _triangles(face: Any) -> Array:
 
 def _at(flat: Array, z: float) -> Array:
     return np.concatenate([flat, np.full((*flat.shape[:-1], 1), z)], axis=-1)
-
-
-def volume_of(surface: Array) -> float:
-    """Volume in mm^3 that a closed surface (n, 3, 3) in mm encloses."""
-    a, b, c = np.moveaxis(surface, 1, 0)
-    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)

@@ -10,14 +10,14 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-__all__ = ["Loops", "Polyhedron", "without_short_edges"]
+__all__ = ["Polyhedron", "volume_of", "without_short_edges"]
 
 _FLAT = 1e-6  # mm
 _SLIVER = 1e-3  # mm^2
 
 Array = NDArray[np.float64]
+# Corner numbers around a face, counter-clockwise from outside; the outer loop first, holes clockwise
 Loops = tuple[tuple[int, ...], ...]
-"""Corner numbers around a face, counter-clockwise from outside; the outer loop first, holes clockwise."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,7 @@ class Polyhedron:
     @cached_property
     def volume(self) -> float:
         """Enclosed volume in mm^3."""
-        a, b, c = np.moveaxis(self.surface, 1, 0)
-        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+        return volume_of(self.surface)
 
     @cached_property
     def neighbours(self) -> dict[tuple[int, int], int]:
@@ -62,6 +61,12 @@ class Polyhedron:
         start = np.repeat(at[first], [len(loop) for loop in outer], axis=0)
         out = np.add.reduceat(np.cross(at - start, after - start), first)
         return np.asarray(out / np.maximum(np.linalg.norm(out, axis=1), 1e-300)[:, None])
+
+
+def volume_of(surface: Array) -> float:
+    """Volume in mm^3 that a closed surface (n, 3, 3) in mm encloses."""
+    a, b, c = np.moveaxis(surface, 1, 0)
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
 def _of_quads(corners: Array, quads: NDArray[np.int64]) -> NDArray[np.int64]:

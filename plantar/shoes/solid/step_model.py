@@ -16,12 +16,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.shoes.cad_kernel import load_kernel
 from plantar.shoes.solid.arcs import BULGE, Arc, CurvedSolid, with_arcs
+from plantar.shoes.solid.kernel import ocp, parts_of, points_of
 from plantar.shoes.solid.polyhedron import Loops, Polyhedron
-from plantar.shoes.solid.step_text import with_shared_entities
 
-__all__ = ["StepPart", "StepSolid", "read_step", "release_date", "write_step"]
+__all__ = ["StepPart", "StepSolid", "read_step", "release_date", "with_shared_entities", "write_step"]
 
 _TOLERANCE = 1e-5  # mm
 _SAME = 1e-6  # mm between the centres of a cone's two arcs
@@ -83,7 +82,6 @@ def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: st
         path: File to write.
         name: Of the assembly, or the file.
     """
-    ocp = load_kernel()
     plain = _plain(name)
     document = ocp.TDocStd.TDocStd_Document(ocp.TCollection.TCollection_ExtendedString("XmlOcaf"))
     shapes = ocp.XCAFDoc.XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
@@ -100,10 +98,9 @@ def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: st
         ocp.TDataStd.TDataStd_Name.Set_s(whole, ocp.TCollection.TCollection_ExtendedString(plain))
         shapes.UpdateAssemblies()
     writer = ocp.STEPCAFControl.STEPCAFControl_Writer()
-    ocp.Interface.Interface_Static.SetIVal_s(
-        "write.surfacecurve.mode", 0
-    )  # what a surface states need not be stated again
-    ocp.Interface.Interface_Static.SetCVal_s("write.step.product.name", plain)
+    static = ocp.Interface.Interface_Static
+    static.SetIVal_s("write.surfacecurve.mode", 0)  # surfaces imply these curves
+    static.SetCVal_s("write.step.product.name", plain)
     writer.Transfer(document, ocp.STEPControl.STEPControl_AsIs)
     writer.Write(str(path))
     text = Path(path).read_text(encoding="utf-8")
@@ -126,7 +123,6 @@ def release_date() -> str:
 
 
 def _solid(solid: CurvedSolid) -> Any:
-    ocp = load_kernel()
     vertices = [
         ocp.BRepBuilderAPI.BRepBuilderAPI_MakeVertex(ocp.gp.gp_Pnt(*p)).Vertex() for p in solid.body.corners.tolist()
     ]
@@ -148,21 +144,18 @@ def _solid(solid: CurvedSolid) -> Any:
 
 
 def _edge(corners: Array, vertices: list[Any], a: int, b: int, arc: Arc | None) -> Any:
-    ocp = load_kernel()
     if arc is None:
         return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(vertices[a], vertices[b]).Edge()
     return ocp.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(_curve(corners, a, b, arc), vertices[a], vertices[b]).Edge()
 
 
 def _curve(corners: Array, a: int, b: int, arc: Arc) -> Any:
-    ocp = load_kernel()
     return ocp.GC.GC_MakeArcOfCircle(
         *(ocp.gp.gp_Pnt(*map(float, p)) for p in (corners[a], arc.middle, corners[b]))
     ).Value()
 
 
 def _wire(loop: tuple[int, ...], edges: dict[tuple[int, int], Any]) -> Any:
-    ocp = load_kernel()
     builder, wire = ocp.BRep.BRep_Builder(), ocp.TopoDS.TopoDS_Wire()
     builder.MakeWire(wire)
     for a, b in zip(loop, (*loop[1:], loop[0]), strict=True):
@@ -172,7 +165,6 @@ def _wire(loop: tuple[int, ...], edges: dict[tuple[int, int], Any]) -> Any:
 
 
 def _flat_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple[int, int], Any]) -> Any:
-    ocp = load_kernel()
     plane = ocp.gp.gp_Pln(
         ocp.gp.gp_Pnt(*solid.body.corners[list(face[0])].mean(axis=0).tolist()), ocp.gp.gp_Dir(*normal.tolist())
     )
@@ -183,7 +175,6 @@ def _flat_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple
 
 
 def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tuple[int, int], Any]) -> Any:
-    ocp = load_kernel()
     loop, corners = face[0], solid.body.corners
     around = tuple(zip(loop, (*loop[1:], loop[0]), strict=True))
     both = [(a, b) for a, b in around if (min(a, b), max(a, b)) in solid.arcs]
@@ -192,9 +183,8 @@ def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tup
     low = float(corners[a, 2])
     rise, wider = float(corners[c, 2]) - low, two.radius - one.radius
     outwards = np.array([*(np.array(one.middle[:2]) - one.centre), 0.0])
-    axes = ocp.gp.gp_Ax3(
-        ocp.gp.gp_Pnt(*one.centre, low), ocp.gp.gp_Dir(0.0, 0.0, 1.0), ocp.gp.gp_Dir(*-outwards)
-    )  # the seam lies opposite
+    seam = ocp.gp.gp_Dir(*-outwards)  # opposite of the arc
+    axes = ocp.gp.gp_Ax3(ocp.gp.gp_Pnt(*one.centre, low), ocp.gp.gp_Dir(0.0, 0.0, 1.0), seam)
     if math.dist(one.centre, two.centre) > _SAME:
         surface = ocp.GeomFill.GeomFill.Surface_s(_curve(corners, a, b, one), _curve(corners, c, d, two))
         outwards = np.cross(corners[b] - corners[a], corners[c] - corners[a])
@@ -206,32 +196,27 @@ def _curved_face(solid: CurvedSolid, face: Loops, normal: Array, edges: dict[tup
     made, builder = ocp.TopoDS.TopoDS_Face(), ocp.BRep.BRep_Builder()
     builder.MakeFace(made, surface, _TOLERANCE)
     builder.Add(made, _wire(loop[::-1] if turned else loop, edges))
-    each = ocp.TopExp.TopExp_Explorer(made, ocp.TopAbs.TopAbs_EDGE)
-    while each.More():
-        ocp.ShapeFix.ShapeFix_Edge().FixAddPCurve(ocp.TopoDS.TopoDS.Edge_s(each.Current()), made, False, _TOLERANCE)
-        each.Next()
+    for edge in map(ocp.TopoDS.TopoDS.Edge_s, parts_of(made, ocp.TopAbs.TopAbs_EDGE)):
+        ocp.ShapeFix.ShapeFix_Edge().FixAddPCurve(edge, made, False, _TOLERANCE)
     return ocp.TopoDS.TopoDS.Face_s(made.Reversed()) if turned else made
 
 
 def read_step(path: str | os.PathLike[str]) -> StepSolid:
     """Measure the solid of a STEP file."""
-    ocp = load_kernel()
     reader = ocp.STEPControl.STEPControl_Reader()
     reader.ReadFile(str(path))
     reader.TransferRoots()
     shape, volume = reader.OneShape(), ocp.GProp.GProp_GProps()
     ocp.BRepGProp.BRepGProp.VolumeProperties_s(shape, volume)
-    points = [ocp.BRep.BRep_Tool.Pnt_s(ocp.TopoDS.TopoDS.Vertex_s(v)) for v in _each(shape, ocp.TopAbs.TopAbs_VERTEX)]
-    curves = [
-        ocp.BRepAdaptor.BRepAdaptor_Curve(ocp.TopoDS.TopoDS.Edge_s(e)) for e in _each(shape, ocp.TopAbs.TopAbs_EDGE)
-    ]
+    edges = map(ocp.TopoDS.TopoDS.Edge_s, parts_of(shape, ocp.TopAbs.TopAbs_EDGE))
+    curves = [ocp.BRepAdaptor.BRepAdaptor_Curve(e) for e in edges]
     circles = [c.Circle() for c in curves if c.GetType() == ocp.GeomAbs.GeomAbs_Circle]
     flat, bent = _bent_walls(shape)
     return StepSolid(
-        solids=len(_each(shape, ocp.TopAbs.TopAbs_SOLID)),
+        solids=len(parts_of(shape, ocp.TopAbs.TopAbs_SOLID)),
         valid=bool(ocp.BRepCheck.BRepCheck_Analyzer(shape).IsValid()),
         volume=float(volume.Mass()),
-        corners=np.array([(p.X(), p.Y(), p.Z()) for p in points]),
+        corners=points_of(shape),
         circles=np.array([(*(c.Location().Coord()), c.Radius()) for c in circles]).reshape(-1, 4),
         shortest=min(float(ocp.GCPnts.GCPnts_AbscissaPoint.Length_s(c)) for c in curves),
         flat=flat,
@@ -239,17 +224,9 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
     )
 
 
-def _each(shape: Any, kind: Any) -> list[Any]:
-    ocp = load_kernel()
-    found = ocp.TopTools.TopTools_IndexedMapOfShape()
-    ocp.TopExp.TopExp.MapShapes_s(shape, kind, found)
-    return [found.FindKey(i + 1) for i in range(found.Size())]
-
-
 def _bent_walls(shape: Any) -> tuple[float, float]:
     """Area of flat facets of bent walls, as `StepSolid.flat`, and of cylinders and cones."""
-    ocp = load_kernel()
-    faces = [ocp.TopoDS.TopoDS.Face_s(f) for f in _each(shape, ocp.TopAbs.TopAbs_FACE)]
+    faces = [ocp.TopoDS.TopoDS.Face_s(f) for f in parts_of(shape, ocp.TopAbs.TopAbs_FACE)]
     surfaces = [ocp.BRepAdaptor.BRepAdaptor_Surface(f) for f in faces]
     flat, normals = np.zeros(len(faces), dtype=bool), np.zeros((len(faces), 3))
     long = np.zeros(len(faces))
@@ -260,12 +237,8 @@ def _bent_walls(shape: Any) -> tuple[float, float]:
         if surface.GetType() == ocp.GeomAbs.GeomAbs_Plane:
             normals[i] = surface.Plane().Axis().Direction().Coord()
             if abs(normals[i, 2]) < 1e-6:
-                points = [
-                    ocp.BRep.BRep_Tool.Pnt_s(ocp.TopoDS.TopoDS.Vertex_s(v)).Coord()
-                    for v in _each(face, ocp.TopAbs.TopAbs_VERTEX)
-                ]
-                long[i] = math.hypot(*np.ptp(np.array(points)[:, :2], axis=0))
-                for edge in _each(face, ocp.TopAbs.TopAbs_EDGE):
+                long[i] = math.hypot(*np.ptp(points_of(face)[:, :2], axis=0))
+                for edge in parts_of(face, ocp.TopAbs.TopAbs_EDGE):
                     owners[edges.FindIndex(edge) - 1].append(i)
     for pair in (p for p in owners if len(p) == 2):
         bend = math.acos(min(1.0, abs(float(normals[pair[0]] @ normals[pair[1]]))))
@@ -284,3 +257,39 @@ def _bent_walls(shape: Any) -> tuple[float, float]:
         i for i, s in enumerate(surfaces) if s.GetType() in (ocp.GeomAbs.GeomAbs_Cylinder, ocp.GeomAbs.GeomAbs_Cone)
     ]
     return area(np.flatnonzero(flat).tolist()), area(bent)
+
+
+_REFERENCE = re.compile(r"('[^']*')|#(\d+)")
+_SHARED = ("CARTESIAN_POINT", "DIRECTION", "VECTOR", "AXIS2_PLACEMENT_3D", "LINE", "CIRCLE")  # each of those before
+
+
+def with_shared_entities(text: str) -> str:
+    """Shorten a file to about two thirds; topology stays as it is.
+
+    Example:
+        >>> data = "DATA;\\n#1 = DIRECTION('',(1.));\\n#2 = DIRECTION('',(1.));\\n#3 = PLANE('#2',#1,#2);\\nENDSEC;\\n"
+        >>> with_shared_entities(data)
+        "DATA;\\n#1=DIRECTION('',(1.));\\n#2=PLANE('#2',#1,#1);\\nENDSEC;\\n"
+    """
+    begin = text.index("DATA;\n") + len("DATA;\n")
+    end = text.index("\nENDSEC;", begin)
+    start, data, tail = text[:begin], text[begin:end], text[end + 1 :]
+    entities = []
+    for line in data.removesuffix(";").split(";\n"):
+        number, _, body = re.sub(r"\n *", "", line).removeprefix("#").partition(" = ")
+        entities.append((number, body))
+    stands = {number: number for number, _ in entities}
+
+    def referring(body: str, numbers: dict[str, str]) -> str:
+        return _REFERENCE.sub(lambda r: r[1] or "#" + numbers[r[2]], body)
+
+    for kind in _SHARED:
+        first: dict[str, str] = {}
+        for number, body in entities:
+            if body.startswith(kind + "("):
+                stands[number] = first.setdefault(referring(body, stands), number)
+    kept = [(number, body) for number, body in entities if stands[number] == number]
+    place = {number: str(i) for i, (number, _) in enumerate(kept, start=1)}
+    numbers = {number: place[other] for number, other in stands.items()}
+    lines = [f"#{place[number]}={referring(body, numbers)};" for number, body in kept]
+    return start + "\n".join(lines) + "\n" + tail

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import InputError
-from plantar.shoes.cells.cell import KEYS, SHAPES, Cell
-from plantar.shoes.cells.cell_file import built_in_cells, read_cell
+from plantar.shoes.cells.cell import KEYS, SHAPES, Cell, built_in_cells, read_cell
 
 
 @pytest.mark.parametrize("name", sorted(built_in_cells()))

@@ -8,8 +8,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from plantar.shoes.checks.printability import choose_direction
+from plantar.shoes import build_shoe
+from plantar.shoes.checks.printability import choose_direction, weigh
+from plantar.shoes.foot.foot import foot_from_dimensions
 from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.solid.pad import taxel_surfaces
+from plantar.shoes.solid.polyhedron import volume_of
 
 Shape = Callable[..., NDArray[np.float64]]
 P = ShoeParameters()
@@ -48,3 +52,14 @@ def test_what_does_not_fit_the_bed_is_told(box: Shape) -> None:
     small = ShoeParameters(bed_length=100.0, bed_width=60.0, bed_height=60.0)
     assert choose_direction(box((0, 50), (0, 90), (0, 20)), small)[0].fits
     assert not any(d.fits for d in choose_direction(box((0, 50), (0, 120), (0, 20)), small))
+
+
+@pytest.mark.parametrize("rim", ["whole", "fine"])
+@pytest.mark.parametrize("length", [0.24, 0.15])
+def test_the_skin_weighs_what_its_taxels_enclose(rim: str, length: float) -> None:
+    """A base is smaller than its cell by the rib around it."""
+    foot = foot_from_dimensions("foot", length=length, width=0.4 * length, corner_radius=0.01)
+    build = build_shoe(foot, side="left", rim=rim, layout_only=True)
+    volume = sum(volume_of(surface) for surface in taxel_surfaces(build.shoes[0].plan, build.parameters))
+    found = weigh(build.shoes[0], build, 1e5)
+    assert found.skin == pytest.approx(1e-3 * volume * build.parameters.skin_density, abs=0.01)

@@ -10,8 +10,7 @@ import pytest
 import shapely
 
 from plantar.errors import FootError, InputError
-from plantar.shoes.cells.cell import Cell
-from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.cells.cell import Cell, read_cell
 from plantar.shoes.fit.cell_fit import fit_cells
 from plantar.shoes.fit.cell_pattern import pattern_of
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 from plantar.shoes.foot.robot_model import read_foot_body, side_of_name
-from plantar.shoes.papers.stl import write_stl
+from plantar.shoes.papers.mesh_files import write_stl
 
 Shape = Callable[..., NDArray[np.float64]]
 

@@ -12,7 +12,8 @@ from plantar.errors import FootError
 from plantar.shoes import build_shoe
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.geometry.outline import outline_below
-from plantar.shoes.geometry.surface import convex_outline, corner_numbers, covered_area, is_closed
+from plantar.shoes.geometry.surface import convex_outline, corner_numbers, covered_area, is_closed, primitive
+from plantar.shoes.solid.polyhedron import volume_of
 
 from ..foot_family import FAMILY, rounded, turned
 
@@ -91,3 +92,27 @@ def test_a_million_triangles_take_seconds():
     assert time.process_time() - start < 20.0
     assert len(surface) == 1_000_000
     assert len(build.shoes[0].layout) > 20
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "half", "volume"),
+    [
+        ("box", [1.0, 2.0, 3.0], [1.0, 2.0, 3.0], 48.0),
+        ("sphere", [2.0], [2.0, 2.0, 2.0], 4 / 3 * np.pi * 8),
+        ("cylinder", [2.0, 3.0], [2.0, 2.0, 3.0], np.pi * 4 * 6),
+        ("capsule", [2.0, 3.0], [2.0, 2.0, 5.0], np.pi * 4 * 6 + 4 / 3 * np.pi * 8),
+        ("ellipsoid", [1.0, 2.0, 3.0], [1.0, 2.0, 3.0], 4 / 3 * np.pi * 6),
+    ],
+)
+def test_shapes_have_their_size(kind: str, size: list[float], half: list[float], volume: float) -> None:
+    triangles = primitive(kind, np.array(size), "g")
+    points = triangles.reshape(-1, 3)
+    np.testing.assert_allclose(points.max(axis=0), half, rtol=1e-2)
+    np.testing.assert_allclose(points.min(axis=0), -np.array(half), rtol=1e-2)
+    assert volume_of(triangles) == pytest.approx(volume, rel=0.03)
+
+
+def test_what_is_no_shape_is_refused() -> None:
+    for kind, size in (("torus", [1.0, 1.0]), ("box", [1.0, 1.0]), ("sphere", [0.0]), ("capsule", [1.0, np.nan])):
+        with pytest.raises(FootError, match=r"^g: "):
+            primitive(kind, np.array(size), "g")

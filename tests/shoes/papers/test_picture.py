@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.shoes.papers.picture import render
+from plantar.shoes import Foot
+from plantar.shoes.foot.foot_mesh import foot_from_triangles
+from plantar.shoes.papers.picture import draw_preview, render
 
 Shape = Callable[..., NDArray[np.float64]]
 RED, GREEN = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
@@ -33,3 +36,13 @@ def test_the_nearer_body_hides_the_other(box: Shape) -> None:
     assert above[middle, 100].argmax() == 1
     assert below[middle, 100].argmax() == 0
     assert (render([(low, RED)], azimuth=0.0, elevation=30.0, width=60) >= 0.0).all()
+
+
+def test_a_foot_is_drawn_with_its_axes(
+    small_foot: Foot, generated_feet: dict[str, NDArray[np.float64]], tmp_path: Path
+) -> None:
+    mesh = foot_from_triangles("a", generated_feet["toe_out"], where="a")
+    for foot, name in ((small_foot, "box"), (mesh, "mesh")):
+        text = draw_preview(foot, tmp_path / f"{name}.svg").read_text()
+        for word in ("toes, x", "left, y", "sole plane", "below the ankle"):
+            assert word in text

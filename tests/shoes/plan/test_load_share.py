@@ -14,7 +14,7 @@ from plantar.shoes.foot.foot import Foot, foot_from_dimensions
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.parameters import ShoeParameters
 from plantar.shoes.plan.load_share import apparent_modulus, check_load_share, shore_modulus
-from plantar.shoes.plan.pad_outline import pad_rim
+from plantar.shoes.plan.shoe_plan import pad_rim
 from plantar.shoes.plan.strength import load_case
 
 FOOT = foot_from_dimensions("a", length=0.2, width=0.1, corner_radius=0.02, mass=60.0)

@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog, minimize
 
+from plantar.errors import FootError
 from plantar.shoes.build import build_shoe
 from plantar.shoes.foot.foot import foot_from_dimensions
+from plantar.shoes.materials import PROCESSES
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.load_share import pad_modulus
+from plantar.shoes.plan.load_share import pad_modulus, spring_forces
 from plantar.shoes.plan.strength import load_case
-from plantar.shoes.plan.touching import _forces, check_touching
-from plantar.shoes.processes import PROCESSES
+from plantar.shoes.plan.touching import check_touching, observability
 
 FOOT = foot_from_dimensions("a", length=0.2, width=0.1, corner_radius=0.02, mass=60.0)
 
@@ -31,7 +32,7 @@ def test_springs_balance_the_load_and_stay_below_the_energy_of_any_other_plate()
     points, heights = chance.uniform(-50, 50, (20, 2)), chance.normal(0.0, 0.1, (5, 20))
     points -= points.mean(axis=0)
     stiffness = chance.uniform(200, 800, 20)
-    forces = _forces(points, stiffness, heights, 300.0)
+    forces, _ = spring_forces(points, stiffness, -heights, 300.0)
     np.testing.assert_allclose(forces.sum(axis=1), 300.0, rtol=1e-6)
     np.testing.assert_allclose(forces @ points, 0.0, atol=1e-2)
     assert ((forces == 0.0).sum(axis=1) > 0).all()  # some do not touch
@@ -52,7 +53,7 @@ def test_stiff_springs_touch_where_a_plate_rests_on_three() -> None:
     chance = np.random.default_rng(5)
     points, heights = chance.uniform(-50, 50, (12, 2)), chance.normal(0.0, 0.1, (1, 12))
     points -= points.mean(axis=0)
-    touching = np.flatnonzero(_forces(points, np.full(12, 1e6), heights, 1e-2)[0])
+    touching = np.flatnonzero(spring_forces(points, np.full(12, 1e6), -heights, 1e-2)[0][0])
     u = np.column_stack([np.ones(12), points])
     plane = linprog([1.0, 0.0, 0.0], A_ub=-u, b_ub=-heights[0], bounds=[(None, None)] * 3).x
     assert set(touching) == set(np.flatnonzero(u @ plane - heights[0] < 1e-7))
@@ -77,3 +78,23 @@ def test_a_coupon_replaces_the_gaps_of_the_process() -> None:
     made = ShoeParameters(process="SLS", gap_slide=0.33, seat_scatter=0.02).made_by
     assert (made.name, made.slide, made.scatter, made.play) == ("SLS", 0.33, 0.02, PROCESSES["SLS"].play)
     assert ShoeParameters(material="PETG").made_by.name == "FDM"
+
+
+def test_taxels_in_a_line_see_nothing_across_it() -> None:
+    foot = foot_from_dimensions("a", length=0.2, width=0.04)
+    seen = observability(build_shoe(foot, layout_only=True, taxels=5).shoes[0].plan)
+    assert seen.across < 0.1
+    assert not seen.holds
+
+
+@pytest.mark.parametrize("length", [0.065, 0.08, 0.12, 0.24])
+def test_cells_are_made_smaller_until_both_directions_are_seen(length: float) -> None:
+    foot = foot_from_dimensions("a", length=length, width=0.5 * length, corner_radius=0.005)
+    seen = observability(build_shoe(foot, layout_only=True).shoes[0].plan)
+    assert seen.holds
+    assert seen.error <= 0.4 * seen.width
+
+
+def test_a_foot_on_which_no_cells_see_it_is_refused() -> None:
+    with pytest.raises(FootError, match="no cells of 100 to 691"):
+        build_shoe(foot_from_dimensions("a", length=0.08, width=0.018), layout_only=True)

@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from plantar.shoes import build_shoe
-from plantar.shoes.cells.cell_file import read_cell
+from plantar.shoes.cells.cell import read_cell
 from plantar.shoes.foot.foot import foot_from_dimensions
 from plantar.shoes.plan.wiring import pocket_outlines
 

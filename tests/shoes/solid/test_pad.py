@@ -8,8 +8,9 @@ import trimesh
 
 from plantar.shoes import Foot, ShoeParameters, build_shoe
 from plantar.shoes.foot.foot import foot_from_dimensions
-from plantar.shoes.plan.pad_outline import pad_rim
-from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces, volume_of
+from plantar.shoes.plan.shoe_plan import pad_rim
+from plantar.shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
+from plantar.shoes.solid.polyhedron import volume_of
 
 
 @pytest.mark.parametrize("side", [0, 1])

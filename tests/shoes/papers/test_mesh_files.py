@@ -7,10 +7,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import trimesh
 from numpy.typing import NDArray
 
 from plantar.shoes.foot.mesh_file import read_mesh
-from plantar.shoes.papers.package_3mf import write_3mf
+from plantar.shoes.papers.mesh_files import write_3mf, write_stl
 
 
 def test_triangles_come_back_in_mm_and_bytes_repeat(tmp_path: Path, box: Callable[..., NDArray[np.float64]]) -> None:
@@ -33,3 +34,21 @@ def test_triangles_without_area_are_left_out(tmp_path: Path, box: Callable[..., 
     surface = np.concatenate([box((0, 1), (0, 1), (0, 1)), np.zeros((1, 3, 3))])
     triangles, _ = read_mesh(write_3mf(surface, "a", tmp_path / "a.3mf"))
     assert len(triangles) == len(surface) - 1
+
+
+def test_triangles_come_back_and_bytes_repeat(tmp_path: Path, box: Callable[..., NDArray[np.float64]]) -> None:
+    triangles = box((-10.5, 20), (0, 3), (1, 2))
+    first, second = write_stl(triangles, tmp_path / "a.stl"), write_stl(triangles, tmp_path / "b.stl")
+    assert first.read_bytes() == second.read_bytes()
+    np.testing.assert_array_equal(read_mesh(first)[0], triangles.astype(np.float32))
+    mesh = trimesh.load(first, force="mesh")
+    assert mesh.is_watertight
+    assert mesh.volume == 30.5 * 3
+    normals = np.frombuffer(first.read_bytes(), np.uint8, offset=84).reshape(-1, 50)[:, :12].copy().view("<f4")
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0)
+    assert len(first.read_bytes()) == 84 + 50 * len(triangles)
+
+
+def test_a_triangle_without_area_has_no_normal(tmp_path: Path) -> None:
+    path = write_stl(np.zeros((1, 3, 3)), tmp_path / "flat.stl")
+    assert not any(path.read_bytes()[84:])

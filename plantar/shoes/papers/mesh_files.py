@@ -1,4 +1,4 @@
-"""3MF files: triangles with their unit, so that no printing program has to guess it."""
+"""Triangles as STL and 3MF files; the same triangles give the same bytes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["NamedBody", "write_3mf", "write_assembly"]
+__all__ = ["NamedBody", "write_3mf", "write_assembly", "write_stl"]
 
 _TYPES = (
     '<?xml version="1.0" encoding="UTF-8"?>\n'
@@ -95,4 +95,21 @@ def _write(resources: str, title: str, path: str | os.PathLike[str]) -> Path:
             entry = zipfile.ZipInfo(inside, _DATE)
             entry.compress_type = zipfile.ZIP_DEFLATED
             package.writestr(entry, text)
+    return file
+
+
+_HEADER = b"plantar shoe, mm, z = 0 is the contact face".ljust(80)
+_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+def write_stl(triangles: NDArray[np.float64], path: str | os.PathLike[str]) -> Path:
+    """Write triangles (n, 3, 3) in mm, outward counter-clockwise, to a path as binary STL; returns the path."""
+    corners = np.asarray(triangles, dtype="<f4")
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    record = np.zeros(len(corners), dtype=_RECORD)
+    record["normal"] = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0) + 0.0
+    record["corners"] = corners
+    file = Path(path)
+    file.write_bytes(_HEADER + np.array([len(corners)], dtype="<u4").tobytes() + record.tobytes())
     return file

@@ -1,0 +1,191 @@
+"""A shoe's wiring: a list of the cells, their outlines as DXF, and a flexible board in KiCad's formats. Lengths in mm.
+
+The board lies in pockets, ports and channel with the gap of sliding parts. Each taxel, or of a sheet each row and
+column, has its own line to the connector at the heel. KiCad's y points down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import shapely
+
+from plantar.csv_table import csv_text
+from plantar.shoes.build import Shoe, ShoeBuild
+from plantar.shoes.geometry.outline import ring
+from plantar.shoes.papers.bill import WINDOW
+from plantar.shoes.papers.sheet import dxf_text
+from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.wiring import (
+    cable_outlines,
+    channel_lines,
+    hole_outline,
+    length_of,
+    pocket_outlines,
+    wire_lines,
+)
+from plantar.shoes.units import to_mm
+
+__all__ = ["board_nets", "board_outlines", "board_text", "cells_dxf", "net_list_text", "wiring_text"]
+
+_HEADER = ("side", "cell", "patch", "x_mm", "y_mm", "area_mm2", "hop", "from_cell", "port_x_mm", "port_y_mm", "wire_mm")
+_SHEET_HEADER = ("row", "column")
+
+
+def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
+    """The cells of each shoe in the order of the cable, as CSV.
+
+    Args:
+        shoes: The shoes.
+        parameters: Dimensions as used.
+
+    Returns:
+        The text, a header first. A wire runs from the centre of the cell before it through the port to its own; of a
+        connector along its channel. Without ways for a cable only place and area.
+    """
+    rows: list[list[Any]] = []
+    sheet = shoes[0].plan.lines is not None
+    for shoe in shoes:
+        plan, ids = shoe.plan, shoe.layout.ids.tolist()
+        centres = to_mm(shoe.layout.positions[:, :2])
+        patch = {c: n for n, c in enumerate(plan.connectors)}
+        hop = dict.fromkeys(plan.connectors, 0)
+        before: dict[int, int] = {}
+        wires = wire_lines(plan)
+        wires |= dict(zip(plan.connectors, channel_lines(plan, parameters), strict=True))
+        for i, j in plan.route:  # a tree, from the connectors outwards
+            patch[j], hop[j], before[j] = patch[i], hop[i] + 1, i
+        for j in sorted(range(len(ids)), key=lambda k: (patch.get(k, 0), hop.get(k, 0), ids[k])):
+            x, y = centres[j].round(3).tolist()
+            port: list[Any] = ["", "", ""]
+            if j in before:
+                port = [ids[before[j]], *wires[j][1].round(3).tolist()]
+            wire = round(length_of(wires[j]), 1) if j in wires else ""
+            lines = [] if plan.lines is None else plan.lines[j].tolist()
+            area = round(1e6 * float(shoe.layout.areas[j]), 2)
+            rows.append([shoe.side, ids[j], patch.get(j, ""), x, y, area, hop.get(j, ""), *port, wire, *lines])
+    return csv_text((*_HEADER, *(_SHEET_HEADER if sheet else ())), rows)
+
+
+def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
+    """Outlines for flexible boards as DXF (R12, mm), seen from above.
+
+    Args:
+        shoe: The shoe.
+        build: Its build.
+
+    Returns:
+        The text; layers CELLS (heads), POCKETS, BASES, WINDOWS (holes of the pad), OUTLINE (contact face), KEEPOUT
+        (where no board may be), and of a sheet ROWS and COLUMNS.
+    """
+    p, plan = build.parameters, shoe.plan
+    flip = 1.0 if shoe.side == "left" else -1.0
+    keep_out = [*cable_outlines(plan, p), hole_outline(plan, p)]
+    if build.retention is not None:
+        for place in build.retention.places:
+            half = 0.5 * build.retention.width
+            side = place.side * flip
+            wall = plan.contact.difference(plan.cavity)
+            keep_out.append(wall.intersection(shapely.box(place.x - half, 0.0, place.x + half, side * 1e3)))
+    layers: dict[str, tuple[Any, ...]] = {"CELLS": plan.cells, "POCKETS": plan.pockets}
+    layers |= {"OUTLINE": (plan.contact,), "KEEPOUT": tuple(keep_out)}
+    if plan.cell is None:
+        layers["BASES"] = tuple(q.buffer(-p.made_by.slide, join_style="mitre") for q in plan.pockets)
+        layers["WINDOWS"] = tuple(shapely.Point(c).buffer(0.5 * WINDOW) for c in to_mm(shoe.layout.positions[:, :2]))
+    if plan.lines is not None:
+        layers |= _electrodes(shoe)
+    parts = [(layer, q) for layer, shapes in layers.items() for s in shapes for q in getattr(s, "geoms", [s])]
+    return dxf_text([(k, ring(q)) for k, q in parts if q.geom_type == "Polygon" and not q.is_empty], closed=True)
+
+
+def _electrodes(shoe: Shoe) -> dict[str, tuple[Any, ...]]:
+    """A sheet's electrodes, each from its first crossing to its last."""
+    plan, cell = shoe.plan, shoe.plan.cell
+    assert plan.lines is not None
+    assert plan.crossings is not None
+    assert cell is not None
+    middles = plan.crossings
+    half, out = 0.5 * cell.line_width, {}
+    for layer, axis in (("ROWS", 0), ("COLUMNS", 1)):
+        on = [middles[plan.lines[:, axis] == k] for k in np.unique(plan.lines[:, axis])]
+        ends = [(at.min(axis=0) - half, at.max(axis=0) + half) for at in on]
+        out[layer] = tuple(shapely.box(*low, *high) for low, high in ends)
+    return out
+
+
+_PAD, _LINE = 1.0, 0.1  # mm
+_LAYERS = '(0 "F.Cu" signal) (31 "B.Cu" signal) (37 "F.SilkS" user) (44 "Edge.Cuts" user)'
+
+
+def board_nets(shoe: Shoe) -> dict[str, list[str]]:
+    """Nets by name, each with the references of its taxels; taxel k of the layout is T<k>."""
+    plan, ids = shoe.plan, shoe.layout.ids.tolist()
+    if plan.lines is None:
+        return {f"TAXEL_{k}": [f"T{k}"] for k in ids} | {"GND": [f"T{k}" for k in ids]}
+    nets: dict[str, list[str]] = {}
+    for k, (row, column) in zip(ids, plan.lines.tolist(), strict=True):
+        nets.setdefault(f"ROW_{row}", []).append(f"T{k}")
+        nets.setdefault(f"COLUMN_{column}", []).append(f"T{k}")
+    return dict(sorted(nets.items()))
+
+
+def board_outlines(shoe: Shoe, parameters: ShoeParameters) -> list[Any]:
+    """Gives the board's outlines of a shoe and its parameters, shapely polygons in mm, one for each patch."""
+    found = [q.buffer(-parameters.made_by.slide) for q in pocket_outlines(shoe.plan, parameters)]
+    return [part for q in found for part in getattr(q, "geoms", [q]) if not part.is_empty]
+
+
+def board_text(shoe: Shoe, parameters: ShoeParameters) -> str:
+    """Gives a shoe's board by its parameters as .kicad_pcb, taxels and connector as footprints."""
+    nets = board_nets(shoe)
+    number = {name: i for i, name in enumerate(nets, start=1)}
+    lines = [
+        "(kicad_pcb (version 20221018) (generator plantar)",
+        f'(general (thickness 0.2)) (paper "A3") (layers {_LAYERS})',
+        '(net 0 "")',
+        *(f'(net {i} "{name}")' for name, i in number.items()),
+    ]
+    for outline in board_outlines(shoe, parameters):
+        for line in (ring(outline), *(np.asarray(h.coords)[:-1] for h in outline.interiors)):
+            points = " ".join(f"(xy {x:.3f} {-y:.3f})" for x, y in line.tolist())
+            edge = f"(stroke (width {_LINE}) (type solid)) (fill none)"
+            lines.append(f'(gr_poly (pts {points}) {edge} (layer "Edge.Cuts"))')
+    centres = to_mm(shoe.layout.positions[:, :2]).tolist()
+    for k, (x, y) in zip(shoe.layout.ids.tolist(), centres, strict=True):
+        own = [name for name, parts in nets.items() if f"T{k}" in parts]
+        lines += _footprint(f"T{k}", "plantar:taxel", (x, y), own, number)
+    lines += _footprint("J1", "plantar:connector", _connector(shoe, parameters), list(nets), number)
+    return "\n".join([*lines, ")", ""])
+
+
+def _connector(shoe: Shoe, p: ShoeParameters) -> tuple[float, float]:
+    lines = channel_lines(shoe.plan, p)
+    x, y = (lines[0][-1] if lines else np.array(shoe.plan.contact.centroid.coords[0])).tolist()
+    return x, y
+
+
+def _footprint(
+    reference: str, kind: str, at: tuple[float, float], nets: list[str], number: dict[str, int]
+) -> Iterator[str]:
+    yield f'(footprint "{kind}" (layer "F.Cu") (at {at[0]:.3f} {-at[1]:.3f})'
+    yield f'(fp_text reference "{reference}" (at 0 -2) (layer "F.SilkS"))'
+    for i, name in enumerate(nets, start=1):
+        place = f"(at {1.5 * _PAD * (i - 0.5 * (len(nets) + 1)):.3f} 0) (size {_PAD} {_PAD})"
+        yield f'(pad "{i}" smd rect {place} (layers "F.Cu") (net {number[name]} "{name}"))'
+    yield ")"
+
+
+def net_list_text(shoe: Shoe) -> str:
+    """The nets as KiCad's .net file: pins of taxels and of the connector J1."""
+    nets = board_nets(shoe)
+    on = {f"T{k}": [name for name, parts in nets.items() if f"T{k}" in parts] for k in shoe.layout.ids.tolist()}
+    parts = [f'(comp (ref "{r}") (value "taxel") (footprint "plantar:taxel"))' for r in on]
+    parts.append('(comp (ref "J1") (value "heel") (footprint "plantar:connector"))')
+    lines = []
+    for i, (name, taxels) in enumerate(nets.items(), start=1):
+        nodes = [f'(node (ref "{r}") (pin "{on[r].index(name) + 1}"))' for r in taxels]
+        lines.append(f'(net (code "{i}") (name "{name}") {" ".join(nodes)} (node (ref "J1") (pin "{i}")))')
+    text = "\n".join(["(components", *parts, ")", "(nets", *lines, ")"])
+    return f'(export (version "E")\n{text}\n)\n'
