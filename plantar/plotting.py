@@ -1,7 +1,4 @@
-"""The only module that imports matplotlib: how figures are made, styled and saved.
-
-Axes come from `new_figure` and go to `save_figure`; the first figure loads matplotlib.
-"""
+"""The only module that imports matplotlib, at the first figure: makes, styles and saves figures."""
 
 from __future__ import annotations
 
@@ -74,14 +71,8 @@ def new_figure(
 
 
 def save_figure(figure: Any, path: str | os.PathLike[str]) -> Path:
-    """Save a figure; it appears whole or not at all, and the same figure gives the same bytes.
-
-    Args:
-        figure: A figure of `new_figure`.
-        path: Where to; its suffix, one of FORMATS, says the format.
-
-    Returns:
-        The path.
+    """Save a figure whole or not at all, with the same bytes for the same figure, in the format of the path's suffix;
+    returns the path.
 
     Raises:
         InputError: If the suffix is none of FORMATS, or the file cannot be written.
@@ -103,10 +94,10 @@ def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highe
     """Draw a sole from above, toes up, its cells coloured by a value.
 
     Args:
-        axes: The axes; horizontal is the sole's y to the left (so a left foot looks like one seen from above).
+        axes: The axes; horizontal is the sole's y to the left (a left foot looks like one from above).
         layout: The sole, n cells.
         values: Value (n,) of each cell; NaN is drawn empty.
-        highest: Value of the colour scale's upper end; its lower end is 0.
+        highest: Upper end of the colour scale; its lower end is 0.
 
     Returns:
         The drawn collection, for a colour bar.
@@ -120,7 +111,7 @@ def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highe
 
 
 def draw_classes(axes: Any, layout: SoleLayout, index: NDArray[np.int64], colours: Sequence[str]) -> Any:
-    """Draw a sole from above, toes up, its cells coloured by the class they belong to.
+    """Draw a sole from above, toes up, its cells coloured by class.
 
     Args:
         axes: The axes, as in `draw_cells`.
@@ -150,11 +141,7 @@ def _cells(axes: Any, layout: SoleLayout, **style: Any) -> Any:
 
 
 def ticks_in_mm(axes: Any) -> None:
-    """Label axes whose data are in m in whole millimetres, close enough together to measure an 80 mm wide foot by.
-
-    Args:
-        axes: The axes, both of them lengths in m.
-    """
+    """Label axes in m in whole millimetres, close enough together to measure an 80 mm wide foot by."""
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
     for axis, most in ((axes.xaxis, 5), (axes.yaxis, 8)):
@@ -163,29 +150,15 @@ def ticks_in_mm(axes: Any) -> None:
 
 
 def draw_raster(axes: Any, picture: NDArray[np.uint8], pixel: float) -> Any:
-    """Draw an image, its axes in the unit of a pixel's size.
-
-    Args:
-        axes: The axes; x to the right, y up from the lower edge.
-        picture: The image (h, w, 3).
-        pixel: Size of a pixel.
-
-    Returns:
-        The drawn image.
+    """Draw a picture (h, w, 3) on axes from their origin up, each pixel of a size in their unit; returns the drawn
+    image.
     """
     height, width = picture.shape[:2]
     return axes.imshow(picture, extent=(0.0, width * pixel, 0.0, height * pixel))
 
 
 def png_of(picture: NDArray[np.float64]) -> bytes:
-    """A picture as the bytes of a PNG, pixel by pixel.
-
-    Args:
-        picture: Red, green and blue (height, width, 3), 0..1.
-
-    Returns:
-        The bytes.
-    """
+    """The bytes of a PNG of a picture (height, width, 3), red, green and blue 0..1."""
     from matplotlib.image import imsave
 
     file = io.BytesIO()
@@ -196,15 +169,8 @@ def png_of(picture: NDArray[np.float64]) -> bytes:
 def thinned(
     x: NDArray[np.float64], y: NDArray[np.float64], most: int = 6000
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A line with fewer points that looks the same: of each stretch its lowest and highest point.
-
-    Args:
-        x: Abscissae (n,).
-        y: Ordinates (n,); NaN breaks the line.
-        most: About the number of points to keep.
-
-    Returns:
-        The points to draw.
+    """A line x, y with fewer points that looks the same: returns the lowest and highest point of each stretch, about
+    `most` in all; NaN breaks the line.
     """
     if len(x) <= most:
         return x, y

@@ -1,1 +1,1 @@
-"""The frame of a page that is written: a report, a benchmark, the assembly of a shoe."""
+"""The frame of a written page: a report, a benchmark, the assembly of a shoe."""

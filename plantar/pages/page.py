@@ -1,4 +1,4 @@
-"""What every page that is written is made of: its frame, sections, tables and figures, and how numbers are written."""
+"""Parts of every written page: its frame, sections, tables and figures, and the form of numbers."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "", 
 
     Args:
         title: Its title as plain text.
-        about: HTML of what stands under the title: a line, or a list of facts.
+        about: HTML below the title: a line, or a list of facts.
         sections: Its parts, which the menu lists.
         script: HTML put at the end.
         style: Its own style sheet, after that of all pages.
@@ -75,38 +75,20 @@ def _style() -> str:
 
 
 def figures_of(figures: Iterable[tuple[Path, str]]) -> Section:
-    """The section of figures.
-
-    Args:
-        figures: PNG files to embed, each with a caption that also serves as its alternative text.
-    """
+    """The section of figures: PNG files to embed, each with a caption as plain text."""
     return Section("figures", "Figures", embedded(figures))
 
 
 def embedded(figures: Iterable[tuple[Path, str]], names: Sequence[str] | None = None) -> str:
-    """Figures that stand in the page itself.
-
-    Args:
-        figures: PNG files to embed, each with a caption that also serves as its alternative text.
-        names: Names without suffix of those to take; all where None.
-
-    Returns:
-        HTML.
+    """Returns the HTML of figures in the page itself: PNG files with captions, those of the given names (stems), or
+    all.
     """
     taken = (one for one in figures if names is None or one[0].stem in names)
     return "".join(figure(path.read_bytes(), caption) for path, caption in taken)
 
 
 def figure(content: bytes, caption: str) -> str:
-    """A figure that stands in the page itself.
-
-    Args:
-        content: A PNG file's bytes.
-        caption: Its caption as plain text, which also serves as its alternative text.
-
-    Returns:
-        HTML.
-    """
+    """Returns the HTML of a figure in the page itself: content is a PNG's bytes, caption plain text."""
     data, text = base64.b64encode(content).decode(), html.escape(caption)
     width = int.from_bytes(content[16:20], "big")  # of the PNG's first chunk
     wide = f' class="wide" tabindex="0" aria-label="{text}"' if width > _WIDE else ""
@@ -115,7 +97,7 @@ def figure(content: bytes, caption: str) -> str:
 
 
 def warning_list(warnings: Iterable[str]) -> str:
-    """Warnings as a list; nothing where there are none."""
+    """Warnings as a list; empty without any."""
     rows = "".join(f"<li>{html.escape(w)}</li>" for w in warnings)
     return f'<ul class="warnings">{rows}</ul>' if rows else ""
 
@@ -127,8 +109,8 @@ def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str], wo
         label: Its name for screen readers.
         caption: HTML of its caption.
         head: HTML of each column's head.
-        rows: What `row` and `group_row` give.
-        words: Heads of the columns that hold words, which begin at the left; numbers end at the right.
+        rows: Results of `row` and `group_row`.
+        words: Heads of the columns of words, aligned left; numbers end at the right.
 
     Returns:
         HTML.
@@ -146,40 +128,17 @@ def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str], wo
 
 
 def row(name: str, cells: Iterable[str]) -> str:
-    """A row of a table.
-
-    Args:
-        name: What stands at its head.
-        cells: HTML of each of its cells.
-
-    Returns:
-        The row's HTML.
-    """
+    """Returns the HTML of a table's row: its name at the head, and HTML cells."""
     return f'<tr><th scope="row">{name}</th>{"".join(f"<td>{cell}</td>" for cell in cells)}</tr>'
 
 
 def group_row(name: str, columns: int) -> str:
-    """A row that names the rows below it, over all columns.
-
-    Args:
-        name: What stands in it.
-        columns: Number of the table's columns.
-
-    Returns:
-        The row's HTML.
-    """
+    """Returns the HTML of a row with the name of the rows below it, over all columns of the table."""
     return f'<tr class="group"><th scope="rowgroup" colspan="{columns}">{name}</th></tr>'
 
 
 def titled(name: str, unit: str) -> str:
-    """A measure's title with its unit, where it has one.
-
-    Args:
-        name: Name of the measure.
-        unit: Its unit; empty for none.
-
-    Returns:
-        The title.
+    """Returns a measure's name with its unit, if any.
 
     Example:
         >>> titled("Length", "mm"), titled("Arch index", "")
@@ -189,27 +148,12 @@ def titled(name: str, unit: str) -> str:
 
 
 def scaled(value: float | None, factor: float) -> float | None:
-    """A value in another unit.
-
-    Args:
-        value: The value; None stays None.
-        factor: Size of its unit in the other unit.
-
-    Returns:
-        Their product.
-    """
+    """Returns a value times a factor; None stays None."""
     return None if value is None else value * factor
 
 
 def number(value: float | None, digits: int = 3) -> str:
-    """A value with about as many digits as its size deserves; an en dash where it is not known.
-
-    Args:
-        value: The value, or None.
-        digits: Digits that count.
-
-    Returns:
-        The text.
+    """Returns a value as text with about as many significant digits, or an en dash if None.
 
     Example:
         >>> number(1234.5), number(-0.01234), number(None), number(0.0), number(2.0)

@@ -1,4 +1,4 @@
-"""The content security policy of pages: a page runs the scripts it was written with, and makes no request."""
+"""The content security policy of pages: a page runs its own scripts, and makes no request."""
 
 from __future__ import annotations
 
@@ -16,13 +16,8 @@ _POLICY = (
 
 
 def with_policy(page: str) -> str:
-    """A page with the policy that allows its own scripts, known by their SHA-256, and no other.
-
-    Args:
-        page: HTML with a `<head>`, whose scripts are those that it should run.
-
-    Returns:
-        The page; a browser refuses scripts, requests and forms that something else brings into it.
+    """A page (HTML with a `<head>`) with a policy that allows its present scripts, by SHA-256, and no other script,
+    request or form.
 
     Example:
         >>> with_policy("<head></head><p>text</p>")[:90]

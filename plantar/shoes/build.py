@@ -115,14 +115,14 @@ def build_shoe(
     """Fit taxels to the face on which a foot's shoe stands and build the shoe around both.
 
     Args:
-        foot: The left foot, see `foot_from_mesh` and `foot_from_dimensions`.
+        foot: The left foot.
         side: "left", "right" or "both"; the right shoe mirrors the left.
         cell_area: Area of a taxel in mm^2.
-        taxels: Number of taxels; None takes as many whole cells as fit the sole.
-        overhang: Allowed reach of taxels beyond the sole in mm; with `taxels` up to parameter overhang_max.
-        rim: "whole" cells up to the edge, or "fine": smaller ones along it, for a blind rim of 12 mm at most.
+        taxels: Number of taxels; None takes as many whole cells as fit.
+        overhang: Allowed reach of taxels beyond the sole in mm; with `taxels` up to overhang_max.
+        rim: "whole" cells up to the edge, or "fine": smaller ones along it.
         cell: Other cells than hexagons of skin, see `read_cell`, in place of `rim` and `cell_area`.
-        parameters: Dimensions of the shoe; None takes the defaults.
+        parameters: Dimensions of the shoe.
         name: Name of the layout; None takes the foot's.
         layout_only: Leave the solid out, and with it OpenCascade.
         progress: Receives fraction and text.
@@ -295,18 +295,18 @@ def build_insole(
     layout_only: bool = False,
     progress: Progress | None = None,
 ) -> ShoeBuild:
-    """Fit taxels to the outline of a foot and build a flat insole around them.
+    """Fit taxels to the outline of a foot and build a flat insole around them; options as in `build_shoe`.
 
     Args:
         foot: The left foot: of a scan, of a last, or of an outline.
         thickness: From the ground's face of the pad to the face below the foot, in mm.
-        side: "left", "right" or "both"; the right insole mirrors the left.
+        side: "left", "right" or "both".
         cell_area: Area of a taxel in mm^2.
-        rim: "fine" follows the edge with smaller cells, "whole" takes whole ones alone.
-        cell: Other cells than hexagons of skin, in place of `rim` and `cell_area`.
-        parameters: Dimensions; None takes the defaults.
-        name: Name of the layout; None takes the foot's.
-        layout_only: Leave the solid out, and with it OpenCascade.
+        rim: "fine" or "whole".
+        cell: Other cells than hexagons of skin.
+        parameters: Dimensions.
+        name: Name of the layout.
+        layout_only: Leave the solid out.
         progress: Receives fraction and text.
 
     Returns:

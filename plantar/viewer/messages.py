@@ -1,4 +1,4 @@
-"""What a viewer needs of Foxglove's messages, decoded."""
+"""Foxglove's messages, decoded for the viewer."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Shape:
         size: Size (x, y, z) in m of a cube, sphere or cylinder.
         colour: Red, green, blue and opacity, 0..1.
         points: Points (x, y, z) in m of a line or of triangles.
-        indices: Three points of each triangle, one after the other.
+        indices: Three points of each triangle, in sequence.
     """
 
     kind: str
@@ -43,11 +43,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class Entity:
-    """What is drawn in a frame.
-
-    Attributes:
-        frame: Name of the frame.
-    """
+    """Shapes in a named frame."""
 
     name: str
     frame: str
@@ -55,13 +51,8 @@ class Entity:
 
 
 def transforms(message: bytes) -> Iterator[tuple[str, str, tuple[float, ...]]]:
-    """The frames of a foxglove.FrameTransforms, of any library that wrote it.
-
-    Args:
-        message: Its encoding; fields that are left out have their default, 0.
-
-    Yields:
-        Name of each frame, of its parent, and its pose in that: position in m and quaternion (x, y, z, w).
+    """Decode a foxglove.FrameTransforms message: yields name, parent and pose (position in m, quaternion x, y, z, w) of
+    each frame.
 
     Raises:
         ValueError: If the message is damaged.
@@ -74,10 +65,8 @@ def transforms(message: bytes) -> Iterator[tuple[str, str, tuple[float, ...]]]:
 
 
 def transform_template(message: bytes) -> Template:
-    """The template of messages that have the frames of a given one and that `plantar.recordings` wrote.
-
-    Returns:
-        The template; its slots are the poses (k, 7), one after the other.
+    """The template of messages by `plantar.recordings` with the frames of a given one; its slots are the poses (k, 7)
+    in sequence.
 
     Raises:
         ValueError: If the message is damaged.
@@ -93,10 +82,7 @@ def deleted_all(message: bytes) -> bool:
 
 
 def entities(message: bytes) -> list[Entity]:
-    """The entities of a foxglove.SceneUpdate.
-
-    Returns:
-        Its entities, with the primitives that the viewer draws.
+    """The entities of a foxglove.SceneUpdate, with the primitives that the viewer draws.
 
     Raises:
         ValueError: If the message is damaged.
@@ -133,7 +119,7 @@ def _shape(kind: str, message: Value) -> Shape:
 
 
 def _numbers(message: Value, size: int) -> tuple[float, ...]:
-    """The doubles of a message that are numbered from 1 on; all must be finite."""
+    """The doubles of a message with the field numbers 1 to `size`; all must be finite."""
     values = [_fields(message).get(i, 0.0) for i in range(1, size + 1)]
     if not all(isinstance(value, float) and math.isfinite(value) for value in values):
         raise ValueError("a number of a message is none")
@@ -141,7 +127,6 @@ def _numbers(message: Value, size: int) -> tuple[float, ...]:
 
 
 def _whole_turn(turn: tuple[float, ...]) -> tuple[float, ...]:
-    """A quaternion; the one of no turn where all its numbers are left out."""
     return turn if any(turn) else _WHOLE[3:]
 
 

@@ -1,8 +1,6 @@
-"""The page itself: HTML, style, script, three.js and the walks in one file that asks for no other.
+"""The page itself: HTML, style, script, three.js and the walks in one file that needs no network.
 
-three.js lies next to this file as its npm package has it (three 0.170.0, `build/three.module.min.js`, 692 kB, MIT
-licence). A page that loaded it from a server would be dead without a network, and would show that server who looks at
-which recording.
+three.js is that of its npm package (three 0.170.0, `build/three.module.min.js`, 692 kB, MIT licence).
 """
 
 from __future__ import annotations
@@ -45,8 +43,7 @@ def write_page(
         path: HTML file to write.
 
     Returns:
-        What was written: the file, its size in bytes, for each walk its name, duration in s and number of log lines,
-        and the warnings.
+        The file, its size in bytes, for each walk its name, duration in s and number of log lines, and the warnings.
 
     Raises:
         InputError: If there are too many recordings or the page cannot be written.
@@ -77,7 +74,7 @@ def write_page(
 
 
 def view_text(written: Mapping[str, Any]) -> str:
-    """What was written, for people."""
+    """A summary of a written page, for people."""
     walks = "\n".join(f"  {walk['name']}: {walk['duration_s']:.1f} s" for walk in written["walks"])
     return f"{walks}\n  {written['file']} ({written['bytes'] / 1e6:.1f} MB)"
 
@@ -88,7 +85,7 @@ def page_of(walks: Sequence[Walk]) -> str:
 
 
 def _pieces(walks: Sequence[Walk]) -> Iterator[str]:
-    """The page piece by piece: what soles measured in an hour is large."""
+    """The page piece by piece: an hour of measured soles is large."""
     parts = {
         "TITLE": html.escape(" and ".join(walk.name for walk in walks)),
         "STYLE": _asset("view.css"),
@@ -111,7 +108,7 @@ def _asset(name: str) -> str:
 
 
 def _three() -> str:
-    """three.js as a part of a script: what the module exports becomes the members of a constant."""
+    """three.js as a part of a script: exports become members of a constant."""
     code = _asset("three.module.min.js")
     exported = _EXPORT.search(code)
     assert exported is not None, "three.module.min.js ends with its exports"
@@ -121,7 +118,7 @@ def _three() -> str:
 
 
 def _view(number: int, walk: Walk, alone: bool) -> str:
-    """The part of the page for a walk; where it is alone, the page's title names it already."""
+    """The part of the page for a walk; the page's title names a single one."""
     name = html.escape(walk.name)
     warnings = "".join(f"<li>{html.escape(line)}</li>" for line in walk.warnings)
     lines = "".join(
@@ -176,7 +173,7 @@ def _walk(walk: Walk) -> dict[str, Any]:
 
 
 def _decinewtons(force: ArrayLike) -> Any:
-    """Forces in 0.1 N from 0 on, as 16-bit numbers; the largest number is one that was not measured."""
+    """Forces in 0.1 N as 16-bit numbers; the largest number marks one that was not measured."""
     values = np.asarray(force)
     rounded = np.clip(np.nan_to_num(values) * 10.0, 0, _NOT_MEASURED - 1).round()
     return np.where(np.isfinite(values), rounded, _NOT_MEASURED)

@@ -18,11 +18,11 @@ class Latest:
 
     Args:
         times: The wanted times (n,) in s, ascending.
-        keep: Called with a slice of rows and the value that holds there.
+        keep: Called with a slice of rows and their value.
 
     Attributes:
-        count: Values that were taken.
-        late: Values that were left out, as they came after later ones.
+        count: Values taken.
+        late: Values left out, since later ones came before.
 
     Example:
         >>> rows = np.empty(3)
@@ -42,12 +42,7 @@ class Latest:
         self.count = self.late = 0
 
     def take(self, time: float, value: Callable[[], Any]) -> None:
-        """Take a value; it is computed where it is kept.
-
-        Args:
-            time: Its time in s.
-            value: Computes it.
-        """
+        """Take a value of a time in s; value is called where it is kept."""
         if time < self._since:
             self.late += 1
             return
@@ -70,14 +65,10 @@ class Latest:
 
 
 class FramePoses:
-    """Poses of frames at wanted times, from foxglove.FrameTransforms messages; a frame missing in one stays.
-
-    Args:
-        times: The wanted times (n,) in s.
+    """Poses of frames at wanted times (n,) in s, from foxglove.FrameTransforms messages; a frame missing in one stays.
 
     Attributes:
         poses: Poses (n, k, 7): position in m and quaternion (x, y, z, w).
-        latest: What takes the messages.
     """
 
     def __init__(self, first: bytes, names: list[str], times: NDArray[np.float64]) -> None:
@@ -89,11 +80,7 @@ class FramePoses:
         self._template = transform_template(first) if own == names else None
 
     def take(self, time: float, message: bytes) -> None:
-        """Take a message.
-
-        Args:
-            time: Its time in s.
-            message: Its encoding.
+        """Take a message of a time in s.
 
         Raises:
             ValueError: If it is damaged.
@@ -109,6 +96,5 @@ class FramePoses:
         self.latest.take(time, lambda: now)
 
     def _quick(self, message: bytes) -> NDArray[np.float64]:
-        """The poses of a message of the template."""
         assert self._template is not None
         return self._template.values_of([message]).reshape(-1, 7)

@@ -1,7 +1,7 @@
-"""What a page shows of a recording: frames that move, shapes in them, and the force on the soles, at common times.
+"""The content of a page: frames that move, shapes in them, and the force on the soles, at common times.
 
-A recording of `plantar sim` brings frames and shapes with it (topics "/tf" and "/scene/..."). Of an older one, or one
-of another robot, the soles are shown by themselves: where "/truth/left" states they are, or side by side.
+Without frames and shapes (topics "/tf" and "/scene/..." of `plantar sim`) the soles are shown alone: at the places in
+"/truth/left", or side by side.
 """
 
 from __future__ import annotations
@@ -49,12 +49,7 @@ Fields = list[tuple[str, int]] | None
 
 @dataclass(frozen=True)
 class Event:
-    """A line of the log.
-
-    Attributes:
-        time: When, in s.
-        level: "info", "warning" or "error".
-    """
+    """A line of the log at a time in s; its level is "info", "warning" or "error"."""
 
     time: float
     text: str
@@ -63,20 +58,18 @@ class Event:
 
 @dataclass(frozen=True)
 class Walk:
-    """What is shown of a recording at n times.
+    """A recording at n times.
 
     Attributes:
-        name: What it is called.
         time: Times (n,) in s, from 0 on.
         poses: Position and quaternion (x, y, z, w) of each frame (n, 7) in the world in m.
-        shapes: What is drawn in the frames.
         layouts: The soles, by side; their frames are "sole_left" and "sole_right".
         force: Force (n, k) in N on the taxels of each sole, float32.
-        zmp: True zero moment point (n, 3) in m, NaN where there is none or none is known.
+        zmp: True zero moment point (n, 3) in m, NaN where unknown.
         polygon: Corners (n, 12, 3) of the true support polygon in m, likewise.
-        footsteps: Times in s, and the footsteps that are planned from then on.
-        weight: Weight in N of who walks, to scale forces by.
-        warnings: What was missing, one line each.
+        footsteps: Times in s, and the footsteps planned from then on.
+        weight: Weight in N, to scale forces by.
+        warnings: One line for each missing part.
     """
 
     name: str
@@ -94,9 +87,7 @@ class Walk:
 
 
 def read_walk(path: str | os.PathLike[str]) -> Walk:
-    """Read what is shown of a recording, piece by piece: an hour of it takes no more memory than ten minutes.
-
-    The file is read twice: first for the times to show and what is drawn once, then for what holds at those times.
+    """Read a recording in two passes, piece by piece: an hour of it takes no more memory than ten minutes.
 
     Raises:
         FormatError: If it cannot be read, or holds no taxel forces with layouts.
@@ -149,7 +140,7 @@ class _Skin:
 
 
 class _Drawn:
-    """What a first reading finds: times, the frames' names, and what is drawn once or now and then."""
+    """Result of a first reading: times, the frames' names, and what is drawn once or now and then."""
 
     def __init__(self) -> None:
         self.skin: dict[Side, _Skin] = {}
@@ -163,7 +154,6 @@ class _Drawn:
         self._shapes = self._damaged = self._dropped = 0
 
     def sinks(self) -> dict[str, Sink]:
-        """What takes the topics."""
         return {
             "/tf": self._guarded(self._take_frames),
             "/scene/world": self._guarded(self._take_world),
@@ -173,7 +163,6 @@ class _Drawn:
         }
 
     def warnings(self) -> list[str]:
-        """What was left out, one line each."""
         out = [f"{self._damaged} damaged message(s) of what is drawn were left out"] if self._damaged else []
         if self._dropped:
             out.append(f"{self._dropped} message(s) were left out: more is drawn, or logged, than a page can show")
@@ -239,7 +228,7 @@ class _Drawn:
 
 
 class _Shown:
-    """What a second reading keeps: what holds at each of the times to show."""
+    """Result of a second reading: the values at each of the times to show."""
 
     def __init__(self, drawn: _Drawn, layouts: Mapping[Side, SoleLayout], time: NDArray[np.float64]) -> None:
         n = len(time)
@@ -262,7 +251,6 @@ class _Shown:
             self._latest["/truth/body"] = Latest(time, self._keep_body)
 
     def sinks(self) -> dict[str, Sink]:
-        """What takes the topics."""
         out: dict[str, Sink] = {}
         for topic, latest in self._latest.items():
             wanted = ("force",) if topic.startswith("/skin") else ("com",) if topic == "/truth/body" else _POSE
@@ -273,18 +261,15 @@ class _Shown:
         return out
 
     def finish(self) -> None:
-        """Let the last messages hold to the end."""
         for latest in self._latest.values():
             latest.finish()
 
     def frames(self) -> dict[str, NDArray[np.float64]]:
-        """Poses (n, 7) of the frames by name."""
         if self._framed is not None:
             return {name: self._framed.poses[:, i] for i, name in enumerate(self._drawn.frames)}
         return self._poses
 
     def warnings(self) -> list[str]:
-        """What was left out, one line each."""
         late = sum(latest.late for latest in self._latest.values())
         out = [f"{late} message(s) that are not in the order of time were left out"] if late else []
         return out + ([f"{self._damaged} damaged message(s) of poses or ZMP were left out"] if self._damaged else [])
@@ -307,7 +292,7 @@ class _Shown:
         self._latest["/scene/balance"].take(time, lambda: message)
 
     def _keep_balance(self, rows: slice, message: bytes) -> None:
-        """Keep ZMP and support polygon; without colour there is none."""
+        """ZMP and support polygon; those without colour are absent."""
         try:
             found = entities(message)
         except ValueError:
@@ -333,7 +318,7 @@ class _Shown:
 
 
 def _span(fields: Fields, wanted: str) -> tuple[int, int] | None:
-    """Where a field's numbers are in a message; None where there is no such field."""
+    """Place of a field's numbers in a message; None without such a field."""
     start = 0
     for name, width in fields or ():
         if name == wanted:
@@ -344,7 +329,7 @@ def _span(fields: Fields, wanted: str) -> tuple[int, int] | None:
 
 
 def _times(drawn: _Drawn, layouts: Mapping[Side, SoleLayout]) -> NDArray[np.float64]:
-    """When the walk is shown: at the times of its frames, else evenly as long as it lasts."""
+    """Times of the shown frames, else evenly as long as the walk lasts."""
     frames = np.unique(np.array(drawn.frame_times))
     if len(frames) > 1:
         return np.asarray(frames[:: -(-len(frames) // _MOST)])
@@ -354,7 +339,7 @@ def _times(drawn: _Drawn, layouts: Mapping[Side, SoleLayout]) -> NDArray[np.floa
 
 
 def _sole_poses(count: int, layouts: Mapping[Side, SoleLayout]) -> dict[str, NDArray[np.float64]]:
-    """Soles that lie side by side, for recordings without poses."""
+    """Soles side by side, for recordings without poses."""
     poses = {}
     for number, side in enumerate(SIDES):
         if side in layouts:

@@ -1,4 +1,4 @@
-"""Whether a part prints: overhangs against 45 degrees, bridges, the bed, time; and what a shoe weighs. Lengths in mm."""
+"""Whether a part prints: overhangs against 45 degrees, bridges, bed and time; and what a shoe weighs. Lengths in mm."""
 
 from __future__ import annotations
 

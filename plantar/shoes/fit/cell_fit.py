@@ -44,13 +44,13 @@ def fit_cells(
     overhang_max: float = 0.0,
     border: float = 0.0,
 ) -> TaxelFit:
-    """Fit cells of a stated body to the face of a shoe that meets the ground.
+    """Fit cells of a stated body to the face of a shoe.
 
     Args:
         foot: Outline of the foot below the rim's upper edge, a shapely polygon.
         cell: The cell.
         rib: Wall between two pockets.
-        taxels: Number of cells; None takes as many as fit; of a sheet always None.
+        taxels: Number of cells, not of a sheet; None takes as many as fit.
         overhang: Allowed reach of cells beyond the outline without `taxels`; the least with them.
         overhang_max: Allowed reach of the shoe beyond the outline.
         border: Plate beyond the cells.

@@ -169,14 +169,7 @@ def hex_pattern(area: float) -> CellPattern:
 
 
 def pattern_of(cell: Cell, rib: float) -> CellPattern:
-    """How a tile or film repeats: as stated, or as near to each other as the ribs allow.
-
-    Args:
-        cell: The cell.
-        rib: Wall between two pockets.
-
-    Returns:
-        The pattern.
+    """Gives how a tile or film cell repeats: as stated, or as near to each other as the rib between pockets allows.
 
     Raises:
         FootError: If the stated pitch leaves a thinner rib.
@@ -242,14 +235,8 @@ def _period(cell: Cell, width: float, rise: float, shift: float) -> float:
 
 
 def pocket_parts(cell: Cell, around: float = 0.0) -> tuple[Array, ...]:
-    """Convex parts of a tile's or film's pocket about the middle of its body: body and tail with play.
-
-    Args:
-        cell: The cell.
-        around: Room added all around.
-
-    Returns:
-        Corners (k, 2) of each, counter-clockwise, rows along x; a circle's polygon holds the circle.
+    """Gives corners (k, 2) of the convex parts, body and tail with play, of a tile's or film's cell, with more room
+    around.
     """
     gap = cell.play + around
     along, across = cell.body

@@ -1,8 +1,7 @@
 """A fine rim: a row of smaller cells along the edge, so that a load near it is measured near it. Lengths in mm.
 
-A strip of one depth follows the edge, cut into cells across it; inside lies the lattice, its cells whole or trimmed.
-The strip is as deep as the blind rim allows, since its cells' middles lie half its depth from the edge. A sharp corner
-has its own cell, between the perpendiculars from the strip's inner corner to both edges.
+A strip of one depth follows the edge, cut into cells across it; inside lies the lattice, its cells whole or trimmed. A
+sharp corner has its own cell, between the perpendiculars from the strip's inner corner to both edges.
 """
 
 from __future__ import annotations
@@ -39,14 +38,7 @@ Array = NDArray[np.float64]
 
 
 def blind_rim(face: Any, centres: Array) -> float:
-    """Widest place of a face beyond the hull of cell centres.
-
-    Args:
-        face: The contact face, a shapely polygon.
-        centres: Centres (n, 2) of the cells.
-
-    Returns:
-        Distance in mm from the hull to the face's farthest corner.
+    """Gives the largest distance in mm of a face, a shapely polygon, from the hull of cell centres (n, 2).
 
     Example:
         >>> import shapely
@@ -62,7 +54,7 @@ def strip_cells(region: Any, face: Any, cell_area: float) -> tuple[tuple[Array, 
 
     Args:
         region: Where cells may be, a shapely polygon.
-        face: The contact face around it, a shapely polygon.
+        face: The contact face around it.
         cell_area: Area of a whole cell in mm^2.
 
     Returns:
@@ -181,7 +173,7 @@ def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
 
 
 def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float) -> TaxelFit:
-    """Fit taxels with a fine rim to the face of a shoe that meets the ground.
+    """Fit taxels with a fine rim to the face of a shoe.
 
     Args:
         foot: Outline of the foot below the rim's upper edge, a shapely polygon.
@@ -190,10 +182,9 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
         border: Plate beyond the cells in mm.
 
     Returns:
-        The cells, from heel to toes; the bound is that of the whole ones inside of the strip.
+        The cells, from heel to toes; the bound is that of the inner ones.
 
     Raises:
-        InputError: If the area is out of its range.
         FootError: If no cells that can be made leave a blind rim of BLIND_MOST.
     """
     region, face = tidy(grown(foot, overhang)), tidy(grown(foot, overhang + border))

@@ -1,12 +1,11 @@
 """Proven upper bound on the whole cells that any placement of a lattice puts inside an outline. Lengths in mm.
 
-Branch and bound over offset (within the unit cell) and angle (within the period). A cell is inside if it is inside the
-half planes of the convex hull and outside the triangles that fill the hull's pockets; each condition's slack changes by
-at most the cell's motion. Within a box of placements no point of a cell moves by more than `reach` = half the box's
-diagonal + (distance of the cell's farthest point from the centre of rotation) x half the box's angle. So cells with a
-slack below -reach at the middle are outside for the whole box, and the number of the others bounds it. Boxes that
-cannot beat the best known are dropped; the others are halved along each axis, the most promising first, until none is
-left or the budget is spent.
+Branch and bound over offset and angle. A cell is inside if it is inside the half planes of the convex hull and outside
+the triangles that fill the hull's pockets; each condition's slack changes by at most the cell's motion. Within a box of
+placements no point of a cell moves by more than `reach` = half the box's diagonal + (distance of the cell's farthest
+point from the centre of rotation) x half the box's angle. So cells with a slack below -reach at the middle are outside
+for the whole box, and the number of the others bounds it. Boxes that cannot beat the best known are dropped, the others
+halved, the most promising first.
 """
 
 from __future__ import annotations
@@ -42,8 +41,7 @@ class CellBound:
 
     Attributes:
         bound: Whole cells that no placement exceeds.
-        best: Whole cells of the best placement seen; it may leave the outline by hundredths of a mm, or by 0.3 mm where
-            that has more than 40 corners.
+        best: Whole cells of the best placement seen, which may leave the outline by hundredths of a mm.
         origin: Centre of a cell of that placement in mm.
         angle: Angle of its rows in rad.
         boxes: Boxes of placements that were looked at.
@@ -65,7 +63,7 @@ def bound_whole_cells(region: Any, pattern: CellPattern, *, known: int = 0, shar
         region: Outline, a shapely polygon without holes in mm.
         pattern: The cells.
         known: Cells of a known placement.
-        share: The search ends at a best of this share of the bound; 1 proves the best.
+        share: The search ends at a best of this share of the bound.
 
     Returns:
         The bound and the best placement seen; `best` is 0 if none beats `known`.

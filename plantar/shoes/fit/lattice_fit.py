@@ -39,7 +39,7 @@ class LatticeFit:
         overhang: Allowed reach of a cell beyond the sole's outline in mm, as used.
         covered: Area of the sole under kept cells in mm^2.
         covered_area_ratio: `covered` over the sole's area, 0..1.
-        bound: Proven: no placement holds more whole cells with this overhang.
+        bound: Proven most whole cells of any placement with this overhang.
     """
 
     lattice: Lattice
@@ -66,15 +66,15 @@ class _Candidate:
 
 
 def whole_cell_region(region: Any, parts: Sequence[NDArray[np.float64]], angle: float) -> Any:
-    """Where the centre of a cell may lie so that the whole cell is inside a region (erosion by its parts).
+    """Where the centre of a cell may lie so that the whole cell is inside a region (erosion), up to a micrometre.
 
     Args:
         region: A shapely polygon in mm.
-        parts: Corners (k, 2) in mm of the cell's convex parts about its centre, rows along x.
+        parts: Corners (k, 2) in mm of the cell's convex parts about its centre.
         angle: Rotation of the cell in rad.
 
     Returns:
-        A shapely geometry, possibly empty; a cell may leave the region by a micrometre.
+        A shapely geometry, possibly empty.
 
     Example:
         >>> import shapely
@@ -107,8 +107,8 @@ def fit_lattice(
     """Place the lattice so that the most whole cells lie inside a sole; deterministic.
 
     At every fifth degree (fifteenth for cells with a tail) the best offset is found exactly; `bound_whole_cells` looks
-    between. Ties are decided by straight rows, by the area under the cells plus that inside their convex hull, and by
-    the patch's distance from the sole's centre.
+    between. Ties are decided by straight rows, by the area under the cells and inside their hull, and by the distance
+    from the sole's centre.
 
     Args:
         sole: Outline of the sole, a shapely polygon in mm.
@@ -268,10 +268,8 @@ def _sampled_offsets(pattern: CellPattern, angle: float) -> NDArray[np.float64]:
 
 
 def _critical_offsets(allowed: Any, pattern: CellPattern, lattice: Lattice) -> NDArray[np.float64]:
-    """Lattice origins (k, 2) at which one cell is tight at a corner of the allowed area, or two at its edges.
-
-    The count at an origin is the number of copies of the allowed area, moved by lattice vectors, that hold it. It is
-    largest at a corner of one or where the edges of two cross: the best is among these.
+    """Lattice origins (k, 2) at which one cell is tight at a corner of the allowed area, or two at its edges: the
+    count, the number of copies of the area moved by lattice vectors, is largest at one of these.
     """
     edge = allowed.boundary
     shifts = _difference_vectors(allowed, lattice)

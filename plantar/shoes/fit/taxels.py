@@ -39,22 +39,22 @@ class TaxelFit:
     """The cells of the left sole.
 
     Attributes:
-        cells: Corners (k, 2) of each cell, counter-clockwise; row by row.
+        cells: Corners (k, 2) of each, counter-clockwise; row by row.
         shares: Area (n,) of each over a whole cell's.
         cell_area: Area of a whole cell in mm^2.
         overhang: Allowed reach of a cell beyond the foot's outline, as used.
         covered: Area of the sole under the cells in mm^2.
         covered_area_ratio: `covered` over the sole's area, 0..1.
-        bound: Proven: no placement holds more whole cells with this overhang; None of a sheet.
+        bound: Proven most whole cells of any placement; None of a sheet.
         border: Border left around the cells.
-        lattice_cells: Axial coordinates (n, 2) where all cells are whole; else None.
+        lattice_cells: Axial coordinates (n, 2) where all cells are whole.
         blind_most: Widest blind rim in mm that was requested, if any.
         cell: The cell's body; None of hexagons of skin.
-        pockets: Corners (k, 2) of the pockets, of a sheet of its one recess; None where they follow from the cells.
+        pockets: Corners (k, 2) of the pockets, of a sheet of its recess; None where they follow from the cells.
         rooms: Corners (k, 2) that the plate has to hold; None for the cells.
-        links: Pairs of cells between which a cable can run straight; None for the neighbours.
-        lines: Row and column (n, 2) of a sheet's cells; else None.
-        crossings: Crossings (n, 2) of these; else None.
+        links: Pairs of cells that a cable can join; None for the neighbours.
+        lines: Row and column (n, 2) of a sheet's cells.
+        crossings: Crossings (n, 2) of these.
     """
 
     cells: Cells
@@ -91,14 +91,12 @@ def fit_taxels(
     overhang_max: float = 0.0,
     border: float = 0.0,
 ) -> TaxelFit:
-    """Fit taxels to the face of a shoe that meets the ground.
+    """Fit taxels to the face of a shoe: as many whole cells as fit, or a given number with the least overhang.
 
-    As many whole cells as fit, or a given number with the least overhang; if these do not fit, first the border
-    shrinks, then cells at the rim are cut.
+    If these do not fit, first the border shrinks, then cells at the rim are cut.
 
     Args:
-        foot: Outline of the foot below the rim's upper edge, a shapely polygon: the rigid plate meets the ground
-            everywhere below it.
+        foot: Outline of the foot below the rim's upper edge, a shapely polygon.
         cell_area: Area of a cell in mm^2.
         taxels: Number of cells; None takes as many whole ones as fit.
         overhang: Allowed reach of cells beyond the outline without `taxels`; the least with them.
@@ -248,14 +246,8 @@ _SHORT = 1.2  # mm: shortest edge that is left
 
 
 def trimmed_cell(cell: Any, region: Any) -> NDArray[np.float64]:
-    """The part of a cell inside a region, without edges too short to print.
-
-    Args:
-        cell: The cell, a shapely polygon.
-        region: A shapely polygon that it crosses.
-
-    Returns:
-        Corners (k, 2) of the largest part, counter-clockwise; corners of the whole cell stay, which neighbours share.
+    """Gives corners (k, 2) of the largest part of a cell in a region, both shapely polygons, without edges too short to
+    print; corners of the whole cell stay.
 
     Example:
         >>> import shapely

@@ -103,15 +103,8 @@ def foot_from_dimensions(
 
 
 def foot_from_outline(name: str, outline: Any, notes: tuple[str, ...] = ()) -> Foot:
-    """A foot with straight sides from the outline of its sole.
-
-    Args:
-        name: Name of the foot.
-        outline: Shapely polygon in mm: x forward, y left, the ankle at the origin.
-        notes: What was detected.
-
-    Returns:
-        The left foot.
+    """Gives a foot with straight sides and a name from the outline of its sole, a shapely polygon in mm about the
+    ankle; notes are kept.
 
     Raises:
         FootError: If the outline is not of a foot's size.

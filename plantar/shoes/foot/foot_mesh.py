@@ -110,7 +110,7 @@ def foot_from_triangles(
         sole_z: Height of the sole plane in mm.
         forward: Axis to the toes.
         sole_band: Height of the sole in mm.
-        links: Points (n, 3) of the robot's other links, in the same frame and unit.
+        links: Points (n, 3) of the robot's other links, likewise.
 
     Returns:
         The left foot.
@@ -254,16 +254,8 @@ def _check_height(triangles: Triangles, where: str) -> None:
 
 
 def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: str) -> tuple[float, str]:
-    """The size of a file's unit.
-
-    Args:
-        extent: Length of the foot in the file's unit.
-        unit: Unit given by the user.
-        file_unit: Unit stated in the file.
-        where: Name of the file, for messages.
-
-    Returns:
-        Scale to mm, and a note on how it was found.
+    """Gives scale to mm and a note for a foot of an extent: the unit given by the user, the file_unit stated in the
+    file, or one detected; where is the file's name.
 
     Raises:
         FootError: If the foot is of no foot's size.

@@ -135,14 +135,8 @@ class ModelSource:
         }
 
     def shapes(self, name: str, most: int) -> tuple[list[Array], list[Array]]:
-        """Drawn and colliding surfaces of a body and of what is fixed to it.
-
-        Args:
-            name: The body.
-            most: Shapes that it may have.
-
-        Returns:
-            Triangles (n, 3, 3) in m of each, about the body's origin, turned as at the zero pose.
+        """Gives drawn and colliding surfaces of the body of a name and of what is fixed to it, most in number:
+        triangles (n, 3, 3) in m about its origin, turned as at the zero pose.
 
         Raises:
             FootError: If a mesh cannot be read, or there are more shapes.
@@ -220,8 +214,7 @@ class ModelSource:
 
         Returns:
             Triangles (n, 3, 3) in m of each shape; ranges in rad of the last two hinges above the body; and a function
-            that gives each shape's rotation (3, 3) and place (3,) in the body's frame, turned as at the zero pose, for
-            angles of these.
+            from angles of these to each shape's rotation (3, 3) and place (3,) in the body's frame at the zero pose.
 
         Raises:
             FootError: If a mesh cannot be read.
@@ -420,13 +413,10 @@ BELOW = "plantar_world"  # name of the link that is put below the outermost ones
 
 
 def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, str]]:
-    """The text of a URDF for MuJoCo's reader.
+    """The text of a URDF for MuJoCo's reader, None where every link hangs on another; and the URDF's name of each mesh.
 
-    MuJoCo merges the root link into the world, and meshes of the same file name in two folders; it knows no packages.
-    So the root hangs on a link above, and each mesh gets a name.
-
-    Returns:
-        The text, None where every link hangs on another; and the URDF's name of each mesh.
+    MuJoCo merges the root link into the world, and meshes of the same file name; it knows no packages. So the root
+    hangs on a link above, and each mesh gets a name.
 
     Example:
         >>> link = '<link name="a"><visual><geometry><mesh filename="package://b/c.dae"/></geometry></visual></link>'

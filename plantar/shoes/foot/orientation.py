@@ -132,13 +132,8 @@ def flat_share(triangles: Array) -> float:
 
 
 def levelled(triangles: Array) -> tuple[Array, float]:
-    """Turn a foot so that its resting plane is level.
-
-    Args:
-        triangles: Triangles with z about up.
-
-    Returns:
-        The triangles, and the tilt removed in degrees: 0 below 1 degree, or without a plane large enough.
+    """Gives triangles, z about up, turned so that the resting plane is level, and the tilt removed in degrees, 0 if
+    small or uncertain.
     """
     normal, share = _resting_plane(triangles)
     tilt = math.acos(min(1.0, -float(normal[2])))
@@ -153,14 +148,11 @@ def levelled(triangles: Array) -> tuple[Array, float]:
 
 
 def check_upright(triangles: Array, where: str) -> list[str]:
-    """Refuse a foot that lies on its side: one with a face much larger than what lies below.
+    """Refuse triangles in mm of a foot on its side, one with a face much larger than what lies below; where is the
+    file's name.
 
     Faces are compared by the hull of the points near them, along the axes and along the largest plane of the convex
-    hull. Faces above do not count: a deck may be larger than the sole.
-
-    Args:
-        triangles: Triangles in mm with z taken to point up.
-        where: Name of the file, for the message.
+    hull; those above do not count, since a deck may be larger than the sole.
 
     Returns:
         A note where a side is about as large.
@@ -190,11 +182,7 @@ def check_upright(triangles: Array, where: str) -> list[str]:
 
 
 def check_told(triangles: Array, where: str) -> list[str]:
-    """Refuse a foot without a resting plane whose upper side is a tilted plane.
-
-    Args:
-        triangles: Triangles in mm with z taken to point up.
-        where: Name of the file, for the message.
+    """Refuse triangles in mm of a foot without a resting plane whose upper side is tilted; where is the file's name.
 
     Returns:
         Notes on what cannot be detected: a rounded sole's level, and a foot upside down.
@@ -229,14 +217,10 @@ def _face_area(points: Array, outward: Array, deep: float) -> float:
 
 
 def check_one_body(triangles: Array, where: str) -> None:
-    """Refuse a surface that shows two feet.
-
-    Args:
-        triangles: Triangles in mm with z up.
-        where: Name of the file, for the message.
+    """Refuse triangles in mm that show two feet; where is the file's name.
 
     Raises:
-        FootError: If it falls into two bodies of similar size seen from above.
+        FootError: If they fall into two bodies of similar size seen from above.
     """
     with optional_library("scipy", "shoes"):
         from scipy.sparse import coo_array
@@ -265,17 +249,10 @@ def check_one_body(triangles: Array, where: str) -> None:
 
 
 def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list[str]]:
-    """Turn a foot so that its length lies along x or y.
+    """Gives triangles turned so that a foot's length lies along x or y, and notes; where is the file's name.
 
     The direction is the one within 25 degrees of the outline's long axis about which the outline is most like its
     mirror image.
-
-    Args:
-        triangles: Triangles with z up.
-        where: Name of the file, for the message.
-
-    Returns:
-        The triangles, and a note where they were turned, or are a little askew.
 
     Raises:
         FootError: If it is about as wide as long, and askew so far that it could point along either axis.
@@ -320,14 +297,8 @@ def _likeness(outline: Any, degrees: float) -> float:
 
 
 def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
-    """Find the horizontal axis to the toes: the longer one, away from the ankle (the origin, or a block on top).
-
-    Args:
-        triangles: Triangles with z up.
-        where: Name of the file, for the message.
-
-    Returns:
-        The axis, and a note on how it was found.
+    """Gives the horizontal axis of triangles to the toes, the longer one, away from the ankle (the origin, or a block
+    on top), and a note; where is the file's name.
 
     Raises:
         FootError: If origin and block show opposite directions.

@@ -49,7 +49,7 @@ def foot_from_drawing(
     Args:
         path: DXF, SVG or GeoJSON file with one or more closed lines.
         mesh_side: Which foot it shows; a right foot is mirrored.
-        unit: Unit of the file; None takes the stated one, or detects it from the size.
+        unit: Unit of the file; None takes the stated one, or detects it.
         forward: Axis of the drawing to the toes; None takes the longer one.
 
     Returns:
@@ -85,10 +85,8 @@ def foot_from_drawing(
 
 
 def read_outline(path: str | os.PathLike[str]) -> tuple[Lines, Unit | None, float]:
-    """Read the lines of a DXF, SVG or GeoJSON file.
-
-    Returns:
-        Lines of points (k, 2), y upwards; the unit stated in the file, or None; and the size of a number in that unit.
+    """Read the lines of a DXF, SVG or GeoJSON file: points (k, 2), y upwards; the stated unit or None; and the size of
+    a number in it.
 
     Raises:
         FootError: If the file cannot be read.

@@ -126,20 +126,12 @@ class _Model:
 
 
 def triangles_of_3mf(path: Path, most: int) -> tuple[Array, str]:
-    """Read the triangles of all build items of a 3MF package.
-
-    Args:
-        path: The package.
-        most: Triangles that it may hold, repeated components counted each time.
-
-    Returns:
-        Triangles (n, 3, 3), and their unit: m, cm, mm or in.
+    """Gives the triangles (n, 3, 3) of all build items of the 3MF package at a path, most in number with repeated
+    components, and their unit.
 
     Raises:
         FootError: If it is no such package, or holds more.
-        ValueError: If a number is damaged.
-        LookupError: If an attribute, a corner or the unit is missing.
-        ExpatError: If its model is no XML.
+        ValueError: If a number is damaged; LookupError or ExpatError for other damage.
     """
     with open_archive(path, FootError, _LARGEST) as (package, _):
         names = [i for i in package.infolist() if i.filename.lower().endswith(".model")]

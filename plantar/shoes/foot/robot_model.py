@@ -63,14 +63,8 @@ def side_of_name(name: str) -> Literal["left", "right"] | None:
 
 
 def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeometry:
-    """Read the geometry of a robot's foot, drawn or else colliding, with what is fixed to it, and the robot's mass.
-
-    Args:
-        path: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file.
-        body: Name of the foot's body or link.
-
-    Returns:
-        The geometry.
+    """Gives the geometry of a robot's foot, drawn or else colliding, with what is fixed to it, from the body of an MJCF
+    or URDF file at a path.
 
     Raises:
         FootError: If the file or a mesh cannot be read, the body is missing, or has no geometry.
@@ -130,15 +124,8 @@ _SPACING = 0.004  # m between points
 
 
 def swept_points(source: ModelSource, name: str, surface: Array) -> tuple[Array | None, str]:
-    """Points of the links above a foot over the range of its last two hinges.
-
-    Args:
-        source: The robot's model.
-        name: The foot's body.
-        surface: Its triangles (k, 3, 3) in m; only points near them are kept.
-
-    Returns:
-        Points (n, 3) in m about the body's origin, turned as at the zero pose, None if unknown; and a note.
+    """Gives points (n, 3) in m, None if unknown, of the links above a foot over the range of its last two hinges, and a
+    note: source is the model, name the foot's body, surface its triangles (k, 3, 3), near which points are kept.
     """
     try:
         surfaces, ranges, poses = source.links_above(name, _LINKS)

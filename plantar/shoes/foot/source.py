@@ -28,14 +28,8 @@ _ALLOWED = {
 
 
 def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None]:
-    """Read the foot from its source.
-
-    Args:
-        source: One source, and how its file is to be read.
-        sole_band: Height of the lowest part of a mesh that is its sole, in mm.
-
-    Returns:
-        The left foot, and the number of taxels in a robot's file; None without one.
+    """Gives the left foot of a source, sole_band in mm the height of a mesh's sole, and the number of taxels in a
+    robot's file, or None.
 
     Raises:
         InputError: If it is not one source, or an option is not allowed; the message names the command's option.
@@ -110,10 +104,8 @@ def _box_foot(text: str) -> Foot:
 
 
 def foot_of_robot(name: str) -> tuple[Foot, int | None]:
-    """The foot of a built-in robot, from its file alone: the simulator is not loaded.
-
-    Returns:
-        The left foot, and the number of taxels in the robot's file; None without one.
+    """The left foot of a built-in robot and its number of taxels or None, from its file alone: the simulator is not
+    loaded.
 
     Raises:
         InputError: If there is no such robot; the message names all.

@@ -21,15 +21,7 @@ _VERTEX = re.compile(rb"\bvertex\s++(\S{1,64}+)\s++(\S{1,64}+)\s++(\S{1,64}+)", 
 
 
 def triangles_of_stl(data: bytes, most: int, where: str) -> NDArray[np.float64]:
-    """Triangles of an STL file.
-
-    Args:
-        data: The file.
-        most: Triangles that it may hold.
-        where: Name of the file, for messages.
-
-    Returns:
-        Triangles (n, 3, 3) in the file's unit.
+    """Gives the triangles (n, 3, 3) of an STL file's data, most in number; where is its name.
 
     Raises:
         FootError: If it is cut short or foreign, or holds more.
@@ -67,15 +59,8 @@ def _refuse_more(count: int, most: int, where: str) -> None:
 
 
 def triangles_of_obj(data: bytes, most: int, where: str) -> NDArray[np.float64]:
-    """Triangles of all objects of an OBJ file; a face of more corners is a fan.
-
-    Args:
-        data: The file.
-        most: Triangles that it may hold.
-        where: Name of the file, for messages.
-
-    Returns:
-        Triangles (n, 3, 3) in the file's unit.
+    """Gives the triangles (n, 3, 3) of an OBJ file's data, most in number, faces of more corners as fans; where is its
+    name.
 
     Raises:
         FootError: If it holds more.

@@ -37,15 +37,12 @@ _PER_PX: dict[Unit, float] = {"mm": 25.4 / 96.0, "cm": 2.54 / 96.0, "in": 1.0 / 
 
 
 def lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
-    """Lines of an SVG's shapes, with the transforms of their groups.
-
-    Returns:
-        Lines of points (k, 2), y upwards; the unit stated in the file, or None; and the size of a number in it.
+    """Lines (k, 2), y upwards, of an SVG's shapes with their transforms; the stated unit or None; and the size of a
+    number in it.
 
     Raises:
         FootError: If it cannot be read, or holds more than MOST_POINTS points.
         ValueError: If a path or a transform is damaged.
-        DependencyError: If fontTools is not installed.
     """
     with optional_library("fontTools", "shoes"):
         from fontTools.pens.recordingPen import DecomposingRecordingPen

@@ -84,17 +84,11 @@ def apart(outer: Any, inner: Any) -> Any:
 
 
 def flush(outer: Any, inner: Any) -> Any:
-    """An outline that takes in another, and is identical wherever both are about the same.
+    """Gives an outer outline, a shapely polygon in mm, that is identical to the inner one which it takes in wherever
+    both are about the same.
 
     Walls a hair apart give faces of no width, which the CAD kernel loses. Where the two part, the result is not on the
     grid.
-
-    Args:
-        outer: A shapely polygon in mm without holes.
-        inner: One that it takes in.
-
-    Returns:
-        The shapely polygon, counter-clockwise, with the inner one's corners where it follows it.
 
     Example:
         >>> import shapely
@@ -121,16 +115,7 @@ def flush(outer: Any, inner: Any) -> Any:
 
 
 def rounded_rectangle(length: float, width: float, centre: tuple[float, float], radius: float) -> Any:
-    """A rectangle with rounded corners.
-
-    Args:
-        length: Extent along x in mm.
-        width: Extent along y in mm.
-        centre: Middle (x, y) in mm.
-        radius: Corner radius in mm, up to half the shorter extent.
-
-    Returns:
-        The shapely polygon.
+    """Gives a shapely rectangle of length (x) and width (y) about a centre, its corners of a radius, all in mm.
 
     Example:
         >>> rounded_rectangle(200.0, 100.0, (20.0, 0.0), 10.0).bounds
@@ -144,14 +129,7 @@ def rounded_rectangle(length: float, width: float, centre: tuple[float, float], 
 
 
 def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
-    """Outline of a surface below a height, seen from above.
-
-    Args:
-        triangles: Triangles (n, 3, 3) in mm with the sole plane at z = 0.
-        height: Height in mm; crossing triangles are cut there.
-
-    Returns:
-        One shapely polygon in mm, see `single_outline`.
+    """Gives the outline of triangles (n, 3, 3) in mm, cut at a height above the sole plane, see `single_outline`.
 
     Raises:
         FootError: If it has no area.
@@ -161,14 +139,7 @@ def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
 
 
 def outline_of(below: NDArray[np.float64], height: float) -> Any:
-    """Outline of triangles (n, 3, 3) in mm that lie below a height.
-
-    Args:
-        below: The triangles.
-        height: The height in mm, for messages.
-
-    Returns:
-        One shapely polygon in mm, see `single_outline`.
+    """Gives the outline of triangles (n, 3, 3) in mm that lie below a height in mm, see `single_outline`.
 
     Raises:
         FootError: If it has no area.
@@ -192,18 +163,11 @@ def _projected(triangles: NDArray[np.float64]) -> Any:
 
 
 def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
-    """One outline of a sole that may touch in patches or have grooves and holes.
+    """Gives one outline of a sole from the union of touching areas and their hull, shapely geometries in mm; less than
+    a detail in mm is dropped.
 
     Several patches, or a nearly convex shape, give the hull; one patch with a waist or notch keeps it, with holes
     filled and grooves bridged.
-
-    Args:
-        union: The touching area: a shapely geometry in mm, possibly empty.
-        hull: Its convex hull.
-        detail: Detail in mm that may be dropped.
-
-    Returns:
-        The shapely polygon.
     """
     filled = shapely.union_all([shapely.Polygon(p.exterior) for p in getattr(union, "geoms", [union]) if p.area > 1.0])
     bridged = filled.buffer(_GROOVE).buffer(-_GROOVE)

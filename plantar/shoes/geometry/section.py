@@ -20,14 +20,8 @@ Bands = tuple[tuple[float, float], ...]
 
 
 def cut_segments(triangles: Array, height: float) -> tuple[Array, Array]:
-    """Where a surface crosses the plane z = height.
-
-    Args:
-        triangles: Surface (n, 3, 3) in mm, outward counter-clockwise; no corner lies at the height.
-        height: Height in mm.
-
-    Returns:
-        Segments (m, 2, 2), and the outward unit normal (m, 3) at each.
+    """Gives segments (m, 2, 2) where triangles (n, 3, 3) cross a height without corners, and the outward unit normal
+    (m, 3) at each.
     """
     z = triangles[..., 2]
     above = z > height
@@ -61,15 +55,9 @@ def section_along(triangles: Array, axis: int, at: float) -> Any:
 
 
 def wall_thickness(segments: Array, outwards: Array, leave_out: tuple[int, Bands] | None = None) -> float:
-    """Smallest thickness of the solid between two faces that look away from each other, in a section.
-
-    Args:
-        segments: Segments (m, 2, 2) of the section's border.
-        outwards: Outward unit normal (m, 3) at each, its last component across the section.
-        leave_out: Axis of the section, and bands of it in which nothing is measured.
-
-    Returns:
-        The thickness in mm; infinite for no segments.
+    """Gives the smallest thickness in mm between two faces that look away from each other: segments (m, 2, 2) of a
+    section's border, outwards their unit normals (m, 3), leave_out an axis and bands where nothing is measured;
+    infinite for no segments.
 
     Example:
         >>> square = np.array([[[0, 0], [3, 0]], [[3, 0], [3, 9]], [[3, 9], [0, 9]], [[0, 9], [0, 0]]], dtype=float)
@@ -119,14 +107,8 @@ def _first_met(
 
 
 def thinnest_wall(triangles: Array, engraved: Bands = ()) -> float:
-    """Thinnest wall, floor or bar of a body: measured in sections along all three axes.
-
-    Args:
-        triangles: Closed surface (n, 3, 3) in mm, outward counter-clockwise.
-        engraved: Bands (low, high) of z with engraved lines, between which no wall is meant.
-
-    Returns:
-        The thickness in mm.
+    """Gives the thinnest wall, floor or bar in mm of closed triangles (n, 3, 3), in sections along all three axes but
+    for engraved bands of z.
     """
     thinnest = math.inf
     for order, count in (((0, 1, 2), None), ((1, 2, 0), 17), ((2, 0, 1), 13)):

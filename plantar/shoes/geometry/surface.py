@@ -171,16 +171,8 @@ _SIZES = {"box": 3, "sphere": 1, "cylinder": 2, "capsule": 2, "ellipsoid": 3}
 
 
 def primitive(kind: str, size: NDArray[np.float64], where: str) -> NDArray[np.float64]:
-    """Triangles of a shape about the origin, its axis along z.
-
-    Args:
-        kind: "box", "sphere", "cylinder", "capsule" or "ellipsoid".
-        size: Half sizes as in MJCF: box and ellipsoid (x, y, z), sphere (radius), cylinder and capsule (radius, half
-            length of the straight part).
-        where: What it belongs to, for messages.
-
-    Returns:
-        Triangles (n, 3, 3), outward counter-clockwise.
+    """Gives the triangles (n, 3, 3) of a "box", "sphere", "cylinder", "capsule" or "ellipsoid" (kind) about the origin,
+    its axis along z, of a size as in MJCF; where is for messages.
 
     Raises:
         FootError: If there is no such shape, or its size is not above 0.
