@@ -1,8 +1,7 @@
-"""Mountable tactile shoes: from a foot's geometry to a printable part and its layout file.
+"""Mountable tactile shoes: from a foot's geometry (`Foot`) to a printable part (`build_shoe`) and its files
+(`export_shoe`).
 
-A `Foot` is read from a mesh or given by its dimensions; `build_shoe` fits the taxels and builds the solid;
-`export_shoe` writes the files and checks them. Lengths inside this package are in mm; the layout is in m. The names
-below are loaded at first use (PEP 562).
+Lengths inside this package are in mm; the layout is in m. The names below are loaded at first use (PEP 562).
 """
 
 from __future__ import annotations

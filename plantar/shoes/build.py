@@ -70,12 +70,12 @@ class ShoeBuild:
 
     Attributes:
         fit: The cells of the left sole.
-        parameters: Dimensions as used: floor and wall may be raised by the load case.
+        parameters: Dimensions as used: the load case may raise some.
         shoes: The requested shoes, left first.
-        retention: What holds them; None for layouts alone.
+        retention: None for layouts alone.
         notes: What was detected, assumed and decided.
         kind: "shoe", or "insole": a flat sheet without walls.
-        touching: Taxels that touch flat ground where seats scatter; None of an insole.
+        touching: None of an insole.
     """
 
     foot: Foot

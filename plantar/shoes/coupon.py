@@ -33,12 +33,8 @@ _NAMES = {"clips": "clip", "straps": "lug", "screws": "screw"}
 
 @dataclass(frozen=True)
 class Coupon:
-    """A piece of the left shoe, in its place there: "cell", "clip", "lug" or "screw".
-
-    Attributes:
-        text: What is tried with it.
-        window: Its outline from above, a shapely polygon in mm.
-        surface: Its triangles (n, 3, 3) in mm, outward counter-clockwise.
+    """A piece of the left shoe: "cell", "clip", "lug" or "screw", its purpose (text), outline from above (window, a
+    shapely polygon in mm) and triangles (n, 3, 3) in mm.
     """
 
     name: str
@@ -48,14 +44,8 @@ class Coupon:
 
 
 def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tuple[Coupon, ...]:
-    """Pieces of the left shoe or insole of a build: a cell with a port, and what holds the shoe.
-
-    Args:
-        build: A left shoe or a pair; its layouts are enough.
-        progress: Receives fraction and text.
-
-    Returns:
-        The cell, and one clip, lug or screw where the shoe has them.
+    """Gives pieces of the left shoe or insole of a build, a cell with a port and one holder; progress receives fraction
+    and text.
 
     Raises:
         InputError: If the build has no left shoe.

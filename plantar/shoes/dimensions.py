@@ -33,16 +33,8 @@ def text(default: str, meaning: str) -> Any:
 
 
 def checked(record: Any, name: str, value: Any, what: str) -> Any:
-    """A value for a field of a dataclass, numbers as floats.
-
-    Args:
-        record: The dataclass, or an instance.
-        name: Name of the field.
-        value: The value.
-        what: What its fields are, for messages: "shoe parameter".
-
-    Returns:
-        The value.
+    """Gives a value for the field of a name of a dataclass (record), numbers as floats; what is the word for its fields
+    in messages.
 
     Raises:
         InputError: If the value is not allowed; the message names field, value, unit and range.
@@ -63,15 +55,8 @@ def checked(record: Any, name: str, value: Any, what: str) -> Any:
 
 
 def check_dimensions(record: Any, what: str, names: Iterable[str] | None = None) -> None:
-    """Check fields of a frozen dataclass, as it is being made, and keep its numbers as floats.
-
-    Args:
-        record: The instance.
-        what: What its fields are, for messages.
-        names: Which fields; None for all.
-
-    Raises:
-        InputError: If a value is not allowed.
+    """Check fields, by names or all, of a frozen dataclass (record) as it is being made, and keep its numbers as
+    floats; what is the word for its fields.
     """
     for name in [f.name for f in fields(record)] if names is None else names:
         object.__setattr__(record, name, checked(record, name, getattr(record, name), what))

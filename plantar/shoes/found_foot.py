@@ -68,11 +68,10 @@ def shoe_for_surface(
 
     Args:
         name: Name of the robot.
-        triangles: Surface (n, 3, 3) of the left foot in m: x forward, y left, z up, the sole plane at z = 0, the origin
-            below the ankle.
+        triangles: Surface (n, 3, 3) in m: x forward, y left, z up, the origin in the sole plane below the ankle.
         folder: An existing folder.
         mass: Mass of the robot in kg.
-        solid: Whether to build the printable part; where it cannot be, the layouts are.
+        solid: Whether to build the printable part, if it can be.
         progress: Receives fraction and text.
 
     Returns:

@@ -1,11 +1,8 @@
-"""Printed materials and printing processes. Lengths in mm.
+"""Printed materials, typical of their data sheets, and printing processes. Lengths in mm.
 
-Materials are typical of their data sheets: PA12 multi-jet fusion and laser sintering; PETG, PLA and TPU (95 Shore A)
-filament; resin tough photopolymers. For a critical part use the maker's data.
-
-Gaps of a process are a side. FDM: advice of printers' makers for a 0.4 mm nozzle. SLS and MJF: services promise 0.3 mm,
-or 0.3 %; SLA: 0.1 mm. The scatter of seats, one standard deviation, is a third of that promise, for lack of a published
-figure. A coupon of your printer replaces them: parameters `gap_press`, `gap_slide`, `gap_play` and `seat_scatter`.
+Gaps are a side, by advice of printers' makers (FDM, 0.4 mm nozzle) or promises of services (SLS and MJF 0.3 mm, SLA 0.1
+mm). The scatter of seats, one standard deviation, is a third of that promise, for lack of a published figure. A coupon
+of your printer replaces them: parameters `gap_press`, `gap_slide`, `gap_play` and `seat_scatter`.
 """
 
 from __future__ import annotations

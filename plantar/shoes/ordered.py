@@ -25,17 +25,8 @@ def build_ordered(
     taxels: int | None = None,
     progress: Progress | None = None,
 ) -> ShoeBuild:
-    """Build the shoe or the insole of an order; of one for coupons, only the layouts.
-
-    Args:
-        foot: The left foot.
-        order: The options.
-        parameters: Dimensions.
-        taxels: Number of taxels of the foot's robot; None without one.
-        progress: Receives fraction and text.
-
-    Returns:
-        The build.
+    """Gives the shoe or the insole of an order for a foot, by parameters and taxels of its robot; for coupons, only
+    layouts; progress receives fraction and text.
 
     Raises:
         InputError: If the order contradicts itself.

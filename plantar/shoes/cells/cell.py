@@ -1,8 +1,8 @@
 """The body of a sensor cell as its maker states it, by name or from a TOML file. Lengths in mm.
 
-*Tiles* (hex, square, rectangle without an active area) have a rubber head that spreads over the ribs, so that they tile
-the sole. *Films* (any shape with an active area, and round ones) lie at the ceiling of a pocket, and a land of the pad
-presses on the active area. A *sheet* is one body with rows and columns of electrodes; a cell lies around a crossing.
+*Tiles* have a rubber head that spreads over the ribs. *Films* (with an active area, or round) lie at the ceiling of a
+pocket, and a land of the pad presses on them. A *sheet* has rows and columns of electrodes; a cell lies around a
+crossing.
 """
 
 from __future__ import annotations

@@ -54,14 +54,14 @@ class ShoeCheck:
     Attributes:
         watertight: Whether every edge of the STL has two consistent triangles.
         min_wall_mm: Thinnest wall, floor or bar.
-        size_mm: Extent (3,) of the printed part along x, y, z.
+        size_mm: Extent (3,) of the printed part.
         overhang_mm: Reach of the contact face beyond the foot.
-        reach_mm: Reach of any part beyond it, lugs and the board's holder included.
+        reach_mm: Reach of any part, lugs and the board's holder included.
         printing: The build directions, the chosen first.
-        mounting: The gaps between foot and shoe; None of an insole.
-        pull_off: Holding forces; None without holders.
+        mounting: None of an insole.
+        pull_off: None without holders.
         shortest_edge_mm: Of the STEP.
-        arc_share: Share of bent walls that are cylinders and cones, 0..1; 1 where none is bent.
+        arc_share: Share of bent walls that are cylinders and cones, 0..1.
     """
 
     watertight: bool
@@ -90,16 +90,8 @@ class ShoeCheck:
 
 
 def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid) -> ShoeCheck:
-    """Measure one exported shoe.
-
-    Args:
-        shoe: The shoe as built.
-        build: Its build.
-        surface: Triangles (n, 3, 3) in mm, as read back from the STL.
-        step: The solid as read back from the STEP.
-
-    Returns:
-        The measures and checks; a check that does not hold raises nothing.
+    """Gives measures and checks of a shoe of a build, by its surface (n, 3, 3) in mm from the STL and the solid from
+    the STEP (step).
     """
     with optional_library("trimesh", "shoes"):
         import trimesh
@@ -291,16 +283,8 @@ def _reach(plan: ShoePlan, surface: Array) -> float:
 
 
 def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tuple[float, float]:
-    """Distance of corners in the solid from where the layout states them.
-
-    Args:
-        shoe: The shoe.
-        parameters: Its dimensions.
-        step: The solid as read back from the STEP.
-
-    Returns:
-        Largest distance in mm of a layout's cell corner from the groove in the ribs, and of a pocket's corner from one
-        in the pockets' ceiling, those left out that a port or the channel removes.
+    """Gives largest distances in mm of a shoe's corners in the solid (step) from the layout's, by parameters: of cells
+    from the groove, of pockets from their ceiling, without those that a port or the channel removes.
     """
     p = parameters
     cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(0.05)

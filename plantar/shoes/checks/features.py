@@ -1,6 +1,4 @@
-"""Whether the print has the seats that its bill and its assembly name: looked for in sections of the exported surface,
-at the places of the plan. Lengths in mm.
-"""
+"""Whether the print has the seats named in its bill and assembly, by sections of the surface. Lengths in mm."""
 
 from __future__ import annotations
 

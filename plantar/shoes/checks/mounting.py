@@ -37,15 +37,15 @@ class Mounting:
     """How the foot sits in the shoe.
 
     Attributes:
-        gap: Smallest gap between foot and wall, 0 where they meet.
+        gap: Smallest gap between foot and wall.
         play: Largest gap at the wall's upper edge.
-        gap_above: Smallest gap between the foot and lugs or clips above the wall.
-        gap_on_the_way: Smallest gap between the foot and rigid parts while the shoe is pushed on from below.
-        floor_gap: Distance between the foot's lowest point and the floor.
+        gap_above: Smallest gap between the foot and lugs or clips.
+        gap_on_the_way: Smallest gap between the foot and rigid parts while the shoe is pushed on.
+        floor_gap: From the foot's lowest point to the floor.
         support_share: Share of the foot's touching area over the floor, 0..1.
-        undercut: Area in mm^2 of wall over the foot's place, clips and screws left out, which could not be printed.
-        links: Places where other links of the robot meet print or strap while the ankle moves.
-        links_known: Whether those are of the robot's model, or an assumed shank.
+        undercut: Area in mm^2 of wall over the foot's place, which could not be printed.
+        links: Places where other links of the robot meet print or strap.
+        links_known: Whether those are of the robot's model.
     """
 
     gap: float
@@ -62,17 +62,8 @@ class Mounting:
 def check_mounting(
     foot: Foot, side: Side, surface: Array, retention: Retention, parameters: ShoeParameters
 ) -> Mounting:
-    """Put the foot into the shoe and measure.
-
-    Args:
-        foot: The left foot.
-        side: Which shoe it is.
-        surface: Triangles (n, 3, 3) of the exported shoe in mm.
-        retention: What holds it.
-        parameters: Dimensions as used.
-
-    Returns:
-        The gaps.
+    """Gives the gaps of the left foot put into the surface (n, 3, 3) in mm of the exported shoe of a side, by its
+    retention and parameters.
     """
     p = parameters
     flip = np.array([1.0, 1.0, 1.0]) if side == "left" else np.array([1.0, -1.0, 1.0])

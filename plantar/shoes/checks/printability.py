@@ -39,7 +39,7 @@ class Printing:
     Attributes:
         direction: One of BUILD_DIRECTIONS.
         overhang: Area in mm^2 that faces down by more than 45 degrees and is no bridge.
-        bridges: Area in mm^2 of flat ceilings no wider than the printer bridges.
+        bridges: Area in mm^2 of bridged ceilings.
         size: Extent (3,) on the bed: longer, shorter side and height.
     """
 

@@ -1,8 +1,4 @@
-"""How cells repeat over a sole: the room of one, and the lattice of its copies. Lengths in mm.
-
-A room is a union of convex parts about the cell's centre: a tile's hexagon or rectangle, or a film's pocket with its
-tail and half a rib around it. Rows are `rise` apart; each is shifted by `shift` against the one before.
-"""
+"""How cells repeat over a sole: the room of one, a union of convex parts, and the lattice. Lengths in mm."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """A fine rim: a row of smaller cells along the edge, so that a load near it is measured near it. Lengths in mm.
 
-A strip of one depth follows the edge, cut into cells across it; inside lies the lattice, its cells whole or trimmed. A
-sharp corner has its own cell, between the perpendiculars from the strip's inner corner to both edges.
+A strip of one depth is cut into cells across it, one for each sharp corner; inside lies the lattice, its cells whole or
+trimmed.
 """
 
 from __future__ import annotations

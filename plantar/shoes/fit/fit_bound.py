@@ -1,11 +1,9 @@
 """Proven upper bound on the whole cells that any placement of a lattice puts inside an outline. Lengths in mm.
 
-Branch and bound over offset and angle. A cell is inside if it is inside the half planes of the convex hull and outside
-the triangles that fill the hull's pockets; each condition's slack changes by at most the cell's motion. Within a box of
-placements no point of a cell moves by more than `reach` = half the box's diagonal + (distance of the cell's farthest
-point from the centre of rotation) x half the box's angle. So cells with a slack below -reach at the middle are outside
-for the whole box, and the number of the others bounds it. Boxes that cannot beat the best known are dropped, the others
-halved, the most promising first.
+Branch and bound over offset and angle. A cell is inside the half planes of the convex hull and outside the triangles
+that fill its pockets; the slack of each condition changes by at most the cell's motion. In a box of placements that is
+at most `reach` = half its diagonal + (distance of the cell's farthest point from the centre of rotation) x half its
+angle: cells with a slack below -reach at the middle are outside for the whole box, and the others bound it.
 """
 
 from __future__ import annotations

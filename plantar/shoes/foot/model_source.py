@@ -1,6 +1,5 @@
-"""A robot's model through MuJoCo's reader: shapes and places of bodies, and the robot's mass.
-
-Only the parts in question are compiled, so that a robot whose other meshes are missing still has a foot.
+"""A robot's model through MuJoCo's reader: shapes and places of bodies, and mass; only the parts in question are
+compiled.
 """
 
 from __future__ import annotations

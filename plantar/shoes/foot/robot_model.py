@@ -36,7 +36,7 @@ class BodyGeometry:
         triangles: Triangles (n, 3, 3) in m, z up.
         side: Side shown by the body's name.
         mass: Mass of the robot in kg, None if unknown.
-        links: Points (n, 3) in m of the links above it while the ankle moves; None if unknown.
+        links: Points (n, 3) in m of the moving links above; None if unknown.
     """
 
     triangles: Array

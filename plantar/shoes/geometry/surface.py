@@ -1,8 +1,5 @@
 """Surfaces of up to a million triangles, on a grid of a micrometre: whether they are closed, what they cover, and their
-hull; and those of simple shapes.
-
-A covered area comes from the edges left when those shared in opposite directions cancel: their winding number about a
-point is the number of triangles over it.
+hull.
 """
 
 from __future__ import annotations

@@ -42,16 +42,7 @@ code { overflow-wrap: anywhere; }
 
 
 def assembly_page(build: ShoeBuild, checks: Mapping[str, ShoeCheck], bills: Mapping[str, Sequence[Part]]) -> str:
-    """The page of a shoe, or of a pair; its pictures show the first side.
-
-    Args:
-        build: The shoes, with their solids.
-        checks: Measures of each side.
-        bills: Parts of each side.
-
-    Returns:
-        HTML that refers to no other file and no network.
-    """
+    """Gives the HTML page of a build with its solids, checks and bills by side; it needs no network."""
     shoe = build.shoes[0]
     sides = " and ".join(s.side for s in build.shoes)
     kind = build.kind if len(build.shoes) == 1 else f"{build.kind}s"

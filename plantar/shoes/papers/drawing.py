@@ -1,8 +1,6 @@
-"""The drawing of a shoe for a workshop: views, sections, details, datums, and every feature located and toleranced.
+"""The drawing of a shoe for a workshop: an A3 sheet to ISO 128, 129, 5459, 1101 and 7200. Lengths in mm.
 
-A sheet of A3 to ISO 128 (lines, sections), ISO 129 (dimensions), ISO 5459 (datums), ISO 1101 (tolerances of place and
-form) and ISO 7200 (title block). Datum A is the printed lower face, B the plane y = 0 and C the plane x = 0 below the
-ankle. Lengths in mm.
+Datum A is the printed lower face, B the plane y = 0 and C the plane x = 0 below the ankle.
 """
 
 from __future__ import annotations
@@ -36,17 +34,7 @@ Array = NDArray[np.float64]
 
 
 def draw_shoe(shoe: Shoe, build: ShoeBuild, triangles: Array, paths: Sequence[str | os.PathLike[str]]) -> list[Path]:
-    """Draw one shoe; the endings of the paths give the formats.
-
-    Args:
-        shoe: The shoe.
-        build: Its build.
-        triangles: Its surface (n, 3, 3) in mm, as exported.
-        paths: Files to write: .pdf, .svg, .png, .dxf.
-
-    Returns:
-        The paths.
-    """
+    """Draw a shoe of a build with its triangles (n, 3, 3) in mm to paths: .pdf, .svg, .png, .dxf; returns these."""
     sheet = sheet_of(shoe, build, triangles)
     return [sheet.write(path) for path in paths]
 

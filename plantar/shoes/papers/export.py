@@ -37,14 +37,12 @@ __all__ = ["ShoeReport", "export_shoe", "failed_checks", "shoe_text"]
 
 @dataclass(frozen=True)
 class ShoeReport:
-    """What was exported and measured.
+    """What was exported and measured, by side.
 
     Attributes:
-        checks: Measures of each shoe by side; empty for layouts alone.
+        checks: Empty for layouts alone.
         files: Names of the files in the folder.
-        weights: Masses of each shoe by side.
-        bills: Bill of parts of each shoe by side.
-        plan_checks: Checks of each layout by side, for layouts alone.
+        plan_checks: Checks for layouts alone.
     """
 
     build: ShoeBuild

@@ -37,9 +37,9 @@ def render(
     Args:
         bodies: Triangles (n, 3, 3), outward counter-clockwise, and the colour (r, g, b) 0..1 of each body.
         azimuth: Of the eye, in degrees about z from +x.
-        elevation: Of the eye, in degrees; negative looks from below.
-        width: Width of the picture in pixels.
-        margin: Empty share of the picture at each side.
+        elevation: Of the eye, in degrees.
+        width: Width in pixels.
+        margin: Empty share at each side.
 
     Returns:
         Picture (height, width, 3), 0..1, on white.
@@ -141,17 +141,8 @@ def rendered_png(
 def draw_picture(
     surface: Array, pad: Array | None, title: str, path: str | os.PathLike[str], *, width: int = 560
 ) -> Path:
-    """Draw a shoe from above and, its pad apart, from below.
-
-    Args:
-        surface: Triangles (n, 3, 3) of the printed part in mm.
-        pad: Triangles of the pad in mm; None without one.
-        title: Title of the picture.
-        path: File to write; the ending gives the format.
-        width: Width of each view in pixels.
-
-    Returns:
-        The path.
+    """Draw a printed surface (n, 3, 3) in mm from above and, its pad or None apart, from below, with a title, to a
+    path, each view of a width in pixels; returns the path.
     """
     low, high = surface.reshape(-1, 3).min(axis=0), surface.reshape(-1, 3).max(axis=0)
     apart = np.array([0.0, 0.0, 0.28 * (high[1] - low[1]) + 12.0])

@@ -157,15 +157,8 @@ class Sheet:
 
 
 def dxf_text(lines: Iterable[tuple[str, Any]], more: Iterable[str] = (), *, closed: bool = False) -> str:
-    """Polylines as DXF (R12, mm).
-
-    Args:
-        lines: Layer and points (k, 2) of each.
-        more: Codes and values of further entities.
-        closed: Whether each returns to its first point.
-
-    Returns:
-        The text.
+    """Gives lines, layer and points (k, 2) of each, and more codes and values as DXF (R12, mm); closed lines return to
+    their first point.
     """
     out = ["0", "SECTION", "2", "HEADER", "9", "$INSUNITS", "70", "4", "0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"]
     for layer, points in lines:

@@ -1,7 +1,6 @@
 """A shoe's wiring: a list of the cells, their outlines as DXF, and a flexible board in KiCad's formats. Lengths in mm.
 
-The board lies in pockets, ports and channel with the gap of sliding parts. Each taxel, or of a sheet each row and
-column, has its own line to the connector at the heel. KiCad's y points down.
+Each taxel, or of a sheet each row and column, has its own line to the connector at the heel. KiCad's y points down.
 """
 
 from __future__ import annotations
@@ -35,15 +34,8 @@ _SHEET_HEADER = ("row", "column")
 
 
 def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
-    """The cells of each shoe in the order of the cable, as CSV.
-
-    Args:
-        shoes: The shoes.
-        parameters: Dimensions as used.
-
-    Returns:
-        The text, a header first. A wire runs from the centre of the cell before it through the port to its own; of a
-        connector along its channel. Without ways for a cable only place and area.
+    """Gives the cells of each of the shoes in the order of the cable as CSV, by parameters. A wire runs from the centre
+    of the cell before it through the port to its own; of a connector along its channel.
     """
     rows: list[list[Any]] = []
     sheet = shoes[0].plan.lines is not None
@@ -70,15 +62,8 @@ def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
 
 
 def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
-    """Outlines for flexible boards as DXF (R12, mm), seen from above.
-
-    Args:
-        shoe: The shoe.
-        build: Its build.
-
-    Returns:
-        The text; layers CELLS (heads), POCKETS, BASES, WINDOWS (holes of the pad), OUTLINE (contact face), KEEPOUT
-        (where no board may be), and of a sheet ROWS and COLUMNS.
+    """Gives outlines for flexible boards of a shoe of a build as DXF (R12, mm): layers CELLS, POCKETS, BASES, WINDOWS
+    (holes of the pad), OUTLINE, KEEPOUT (where no board may be), and of a sheet ROWS and COLUMNS.
     """
     p, plan = build.parameters, shoe.plan
     flip = 1.0 if shoe.side == "left" else -1.0

@@ -16,11 +16,8 @@ __all__ = ["Block", "Groove", "Step", "box_block", "mirrored_block", "mirrored_s
 
 @dataclass(frozen=True)
 class Block:
-    """A body between two heights.
-
-    Attributes:
-        low: Outline at the lower height, a shapely polygon; holes only where `high` is None.
-        high: Outline at the upper height, with as many corners and parallel edges; None for a prism.
+    """A body between two heights: outlines `low` and `high` (shapely polygons with parallel edges), or a prism without
+    `high`, which may have holes.
     """
 
     low: Any
@@ -31,11 +28,8 @@ class Block:
 
 @dataclass(frozen=True)
 class Groove:
-    """Half of a V groove along a closed line, on its inner side, open below.
-
-    Attributes:
-        line: The groove's upper edge, a shapely polygon.
-        edge: Its lower inner edge, with as many corners and parallel edges.
+    """Half of a V groove on the inner side of a closed `line`, its upper edge; `edge` is the lower one, with parallel
+    edges.
     """
 
     line: Any
@@ -80,14 +74,8 @@ def _flipped(polygon: Any) -> Any:
 
 
 def moved_edges(points: NDArray[np.float64], distance: float) -> NDArray[np.float64] | None:
-    """Move each edge of a ring outwards, so that it keeps its number of corners.
-
-    Args:
-        points: Corners (k, 2), counter-clockwise.
-        distance: In mm; negative moves inwards.
-
-    Returns:
-        Corners (k, 2), or None where an edge would vanish or the ring cross itself.
+    """Gives points (k, 2), counter-clockwise, with each edge moved outwards by a distance in mm, or None where an edge
+    would vanish or the ring cross itself.
 
     Example:
         >>> moved_edges(np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]]), -0.5).tolist()

@@ -57,15 +57,8 @@ def tail_lines(plan: ShoePlan) -> int:
 def led_parameters(
     plan: ShoePlan, parameters: ShoeParameters, *, deepen: bool = True
 ) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Widen channel, ports and pockets so that a sheet's tail or the cells' own leads pass.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-        deepen: Whether pockets may be made deeper.
-
-    Returns:
-        The dimensions, and a note for each that was raised.
+    """Gives parameters whose channel, ports and pockets (with deepen) let a sheet's tail or the cells' own leads of a
+    plan pass, and notes.
 
     Raises:
         FootError: If a sheet's tail is wider than a channel can be.

@@ -26,11 +26,8 @@ _REAR = 4.0  # mm: how much of the rim counts as its rear edge
 
 @dataclass(frozen=True)
 class Heel:
-    """A place on the outside of the rear wall, and a frame there: x into the shoe, y to the left of that.
-
-    Attributes:
-        turn: Angle of the frame's x against the sole's in rad; 0 straight behind the foot.
-        board: Whether the connection board has its holder there.
+    """A place on the outside of the rear wall, and a frame there, turned by an angle in rad: x into the shoe, y to the
+    left.
     """
 
     x: float
@@ -60,15 +57,8 @@ def holder_depth(parameters: ShoeParameters) -> float:
 
 
 def find_heel(rim: Any, foot: Any, parameters: ShoeParameters) -> tuple[Heel, str | None]:
-    """Find the place where the holder reaches the least beyond the foot, straight back or turned up to 60 degrees.
-
-    Args:
-        rim: Outside of the wall, a shapely polygon.
-        foot: Outline of the foot.
-        parameters: Size of the board.
-
-    Returns:
-        The place; and a note where the holder is left out because it would reach too far.
+    """Gives the place where the board's holder reaches the least beyond the foot, turned up to 60 degrees, by rim and
+    foot (shapely polygons) and parameters; and a note where it is left out.
     """
     half = 0.5 * parameters.board_length + POST + parameters.made_by.slide
     depth = holder_depth(parameters)

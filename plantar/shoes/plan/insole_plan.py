@@ -1,7 +1,6 @@
-"""Plan of an insole: a flat sheet with cells below a person's foot, without walls, laid into a shoe. Lengths in mm.
+"""Plan of an insole: a flat sheet with cells below a person's foot, laid into a shoe. Lengths in mm.
 
-Foot and shoe are soft: pressure next to the cells is not measured. So the cells go up to the edge, and carry of an even
-pressure the share of the sole that they cover.
+Foot and shoe are soft: pressure next to the cells is not measured, so the cells go up to the edge.
 """
 
 from __future__ import annotations
@@ -59,15 +58,8 @@ def insole_foot(foot: Foot) -> Foot:
 def insole_parameters(
     foot: Foot, thickness: float, parameters: ShoeParameters
 ) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Dimensions of an insole: parameters left at their defaults share its thickness.
-
-    Args:
-        foot: The foot, whose length gives the person's estimated mass.
-        thickness: From the ground's face of the pad to the face below the foot, in mm.
-        parameters: Dimensions; the floor takes what is left.
-
-    Returns:
-        The dimensions, and what was assumed.
+    """Gives parameters of an insole for a foot: those left at their defaults share its thickness in mm, the floor takes
+    the rest; and what was assumed.
 
     Raises:
         InputError: If the thickness is out of its range, leaves no floor, or the material is stiff.
@@ -109,17 +101,8 @@ def insole_parameters(
 def fit_insole(
     foot: Foot, parameters: ShoeParameters, *, cell_area: float, fine: bool, cell: Cell | None = None
 ) -> TaxelFit:
-    """Fit cells up to the edge of an insole, which lies `clearance` within the foot's outline.
-
-    Args:
-        foot: The left foot.
-        parameters: Dimensions of `insole_parameters`.
-        cell_area: Area of a cell in mm^2.
-        fine: Whether a row of smaller cells follows the edge.
-        cell: Other cells than hexagons of skin, in place of the two before.
-
-    Returns:
-        The cells.
+    """Gives cells up to the edge of an insole, within a foot's outline by parameters: hexagons of cell_area in mm^2,
+    with a fine rim or whole ones, or another cell.
 
     Raises:
         FootError: If none fit, or they would carry less than `EVEN_SHARE` of an even pressure.

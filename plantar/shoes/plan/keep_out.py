@@ -1,7 +1,7 @@
 """Where the robot's other links pass, and whether a strap, a lug or a clip would be in their way. Lengths in mm.
 
-Of a robot's model the links above the foot are swept over the ankle's range. Of a foot alone a shank is assumed on the
-block on top of the foot, or on the ankle at the origin, that leans by 20 degrees every way.
+Without a robot's model a shank is assumed on the block on top of the foot, or on the ankle at the origin, that leans by
+20 degrees every way.
 """
 
 from __future__ import annotations
@@ -33,12 +33,8 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class KeepOut:
-    """Points that other links of the robot pass through, and the foot below them.
-
-    Attributes:
-        links: Points (n, 3) in mm above the sole plane.
-        surface: Points (k, 3) of the foot; None where only its outline is known.
-        known: Whether the links are those of the robot's model.
+    """Points (n, 3) in mm that other links of the robot pass through, known from its model or not, and the foot's
+    surface (k, 3), if known.
     """
 
     links: Array
@@ -56,17 +52,8 @@ class KeepOut:
         return int(((self.links > a) & (self.links < b)).all(axis=1).sum())
 
     def strap_meets(self, x: float, width: float, lugs: tuple[float, float], slot: float, thickness: float) -> int:
-        """Count points below or in a strap drawn over the upper hull of slots and foot.
-
-        Args:
-            x: Middle of the strap along the foot.
-            width: Its width.
-            lugs: y of the slots, right and left.
-            slot: Their height above the sole plane.
-            thickness: Of the strap.
-
-        Returns:
-            The number.
+        """Gives the number of points below or in a strap of a width and thickness over the foot at x: lugs are y of the
+        slots, right and left, slot their height.
         """
         half = 0.5 * width
         inside = (

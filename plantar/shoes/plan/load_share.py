@@ -1,22 +1,20 @@
 """The share of the load on the taxels: print and ground as rigid plates, springs between them.
 
-Under a taxel the pad's sheet and the taxel are in series; next to the taxels the pad's rim, or the sheet, carries once
-the relief below the print is closed. Each is a layer of rubber bonded between two plates with the apparent modulus
+Under a taxel the pad's sheet and the taxel are in series; next to the taxels the pad carries once the relief below the
+print is closed. Each is a bonded layer of rubber with the apparent modulus
 
     E_c = E (1 + 2 k S^2)                                                        (Gent and Lindley 1959, eq. 11)
 
-with the shape factor S = loaded area / (perimeter x thickness), and for a hardness of H degrees Shore A
+with the shape factor S = loaded area / (perimeter x thickness), k by the hardness (Lindley, "Engineering design with
+natural rubber", table 3), and for H degrees Shore A
 
     E = 0.0981 (56 + 7.62336 H) / (0.137505 (254 - 2.54 H))  in MPa              (Gent 1958)
 
-k falls with the hardness (Lindley, "Engineering design with natural rubber", table 3). Foam has no shape factor; its
-cells hold gas, so that a pressure s at a compression per thickness of e follows
+Foam has no shape factor; its cells hold gas, so that a pressure s at a compression per thickness of e follows
 
     s = E e / (1 - e)     with the secant modulus     s / e = E + s
 
-which fits a polyethylene foam's data sheet (Plastazote LD33: 40, 75, 115, 175 kPa at 25, 40, 50, 60 %) to 4 % with E =
-116 kPa, three times the pressure at 25 %. Springs do not pull. The print sinks and tilts until forces and moments
-balance.
+(4 % off the data sheet of Plastazote LD33), E three times the pressure at 25 %.
 
 Gent: "On the relation between indentation hardness and Young's modulus", Trans. IRI 34, 1958. Gent, Lindley: "The
 compression of bonded rubber blocks", Proc. IMechE 173, 1959.
@@ -86,16 +84,8 @@ def shore_modulus(hardness: float) -> float:
 
 
 def apparent_modulus(hardness: float, area: float, perimeter: float, thickness: float) -> float:
-    """Modulus in MPa of a rubber layer bonded between two plates.
-
-    Args:
-        hardness: In degrees Shore A.
-        area: Loaded area in mm^2.
-        perimeter: Its free border in mm.
-        thickness: Of the layer in mm.
-
-    Returns:
-        Pressure over compression per thickness.
+    """Gives the modulus in MPa of a bonded rubber layer: hardness in degrees Shore A, area in mm^2, perimeter and
+    thickness in mm.
     """
     shape = area / (perimeter * thickness)
     factor = float(np.interp(hardness, _HARDNESS, _FACTOR))
@@ -134,15 +124,8 @@ def taxel_stiffness(plan: ShoePlan, parameters: ShoeParameters, pressure: float)
 
 
 def relieved(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Raise the pad's relief until the taxels carry the load case, in steps of 0.1 mm.
-
-    Args:
-        plan: The sole.
-        load: The load case.
-        parameters: Dimensions; with `strengthen` no they stay.
-
-    Returns:
-        The parameters, and a note where the relief was raised.
+    """Gives parameters with the pad's relief raised until a plan's taxels carry the load, in steps of 0.1 mm, and a
+    note.
     """
     p = parameters
     if p.strengthen == "no":
@@ -218,16 +201,9 @@ class _Springs:
 
 
 def spring_forces(points: Array, stiffness: Array, gaps: Array, force: float) -> tuple[Array, Array]:
-    """Forces of springs that do not pull below a rigid plate: Newton's method on the convex energy, with a line search.
-
-    Args:
-        points: Places (n, 2) from the load in mm.
-        stiffness: Of each (n,) in N/mm.
-        gaps: Free travel (k, n) in mm of the springs below each of k plates.
-        force: The load in N.
-
-    Returns:
-        Force (k, n) of each spring in N, and the travel (k,) of each plate in mm.
+    """Gives the force (k, n) in N and travel (k,) in mm of k rigid plates on springs that do not pull: points (n, 2)
+    from the load in mm, stiffness (n,) in N/mm, gaps (k, n) of free travel in mm, force in N; Newton's method on the
+    convex energy, with a line search.
     """
     u = np.column_stack([np.ones(len(points)), points / max(1.0, float(np.abs(points).max()))])
     load, sunk = np.array([force, 0.0, 0.0]), np.zeros((len(gaps), 3))

@@ -1,14 +1,14 @@
 """How firmly clips, straps or screws hold a shoe, against its weight in swing and a scuff at the toe. Lengths in mm.
 
 - A clip's arm is a cantilever bent by the hook's reach d; its retaining face has 45 degrees: F = E b t^3 d / (4 L^3),
-  pull-off P = F (mu + tan 45) / (1 - mu tan 45)          (Bayer, Snap-fit joints for plastics) It snaps on over a
-  lead-in of 45 degrees with the same force: 200 N at most by hand (EN 1005-3)
+  pull-off P = F (mu + tan 45) / (1 - mu tan 45)          (Bayer, Snap-fit joints for plastics) It snaps on with the
+  same force: 200 N at most by hand (EN 1005-3)
 - A strap slips where its hooks and loops shear over their overlap, and pulls on both lugs at 45 degrees: P = 2 sin 45 x
-  shear strength x width x overlap (7 N/cm^2, hook-and-loop tapes' data sheets)
-- A set screw presses with 100 N, tightened by two fingers, on a soft tip: P = mu 100 N
+  shear strength (7 N/cm^2, data sheets) x width x overlap
+- A set screw presses with 100 N, tightened by two fingers: P = mu 100 N
 
-Needed are 5 g on the worn mass in swing, and at the toe, where the ground drags a tenth of the robot's weight over the
-contact face, a moment of mu 0.1 m g (thickness + rim / 3), which turns the shoe about the heel's edge off the toes.
+Needed are 5 g on the worn mass in swing, and at the toe, dragged by a tenth of the robot's weight, a moment of mu 0.1 m
+g (thickness + rim / 3) about the heel's edge.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def pull_off(
     kind: str, places: tuple[tuple[float, float], ...], width: float, heel: float, worn: float, mass: float,
     parameters: ShoeParameters,
 ) -> PullOff:  # fmt: skip
-    """Forces and moments of one shoe.
+    """Holding forces of one shoe.
 
     Args:
         kind: "clips", "straps" or "screws".

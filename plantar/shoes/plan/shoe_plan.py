@@ -41,14 +41,13 @@ class ShoePlan:
 
     Attributes:
         foot: Outline of the foot below the rim's upper edge.
-        contact: Outline of the pad, and of the printed plate but for heel shelf and lugs.
+        contact: Outline of the pad, and of the plate but for heel shelf and lugs.
         cavity: Inside of the rim at its upper edge.
         rim: Outside of the rim.
         cells: Cells in the order of the layout's taxels.
         pockets: Cells moved in by half a rib, or bodies with their play; of a sheet its recess.
-        route: Pairs of taxel indices that the cable joins, from the connectors outwards: a tree for each patch.
-        connectors: Index of the taxel of each patch at which its cable leaves, the heel's first; empty without ways for
-            a cable.
+        route: Pairs of taxel indices that the cable joins, from the connectors outwards.
+        connectors: Index of the taxel of each patch at which its cable leaves, the heel's first.
         lines: Row and column (n, 2) of a sheet's cells.
         crossings: Crossings (n, 2) in mm of these.
     """
@@ -147,16 +146,8 @@ class ShoePlan:
 
 
 def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
-    """Draw the left sole: its face takes in the foot with clearance and rim, and the taxels with their border.
-
-    Args:
-        foot: The left foot.
-        fit: The cells.
-        parameters: Dimensions of the shoe.
-        name: Name of the layout; None takes the foot's.
-
-    Returns:
-        The plan of the left shoe.
+    """Gives the left plan of a foot and fit by parameters, its face around the foot's rim and the taxels' border, its
+    layout with a name or the foot's.
 
     Raises:
         FootError: If the cells leave no pocket between the ribs.
@@ -175,22 +166,8 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
 def plan_face(
     outline: Any, contact: Any, cavity: Any, rim: Any, fit: TaxelFit, parameters: ShoeParameters, *, name: str
 ) -> ShoePlan:
-    """Plan pockets, layout and cable of a contact face.
-
-    Args:
-        outline: The foot's outline.
-        contact: The contact face.
-        cavity: Inside of the wall at its upper edge.
-        rim: Outside of the wall.
-        fit: The cells.
-        parameters: Dimensions.
-        name: Name of the layout.
-
-    Returns:
-        The left plan.
-
-    Raises:
-        FootError: If the cells leave no pocket between the ribs.
+    """Gives the left plan with pockets, layout of a name and cable of a contact face, by the foot's outline, cavity and
+    rim (inside and outside of the wall), fit and parameters.
     """
     cells = tuple(shapely.Polygon(c) for c in fit.cells)
     if fit.pockets is not None:

@@ -1,12 +1,12 @@
-"""Strength of the printed part: beams under 1.5 x body weight on a third of the sole, and the thickness they need.
+"""Strength of the printed part under 1.5 x body weight on a third of the sole: p = load_factor m g / (load_share A)
+from below.
 
-The pressure p = load_factor m g / (load_share A) acts on the plate from below; the stiff foot carries it where it
-touches. Beams of 1 mm width, without ribs and wall, so on the safe side:
+Beams of 1 mm width, without ribs and wall, so on the safe side:
 
 - beyond the foot, over a reach c: a cantilever, M = p c^2 / 2
 - between two places where the foot touches, over a span L: a beam with clamped ends, M = p L^2 / 12
-- the wall, pushed sideways with `friction` times the load over the foot's width b, at a third of its height h (the push
-  falls off linearly upwards): M = friction F / b x h / 3, across the layers
+- the wall, pushed sideways with `friction` times the load over the foot's width b, at a third of its height h: M =
+  friction F / b x h / 3, across the layers
 
 Stress is 6 M / t^2, allowed the material's strength over `safety`.
 """
@@ -92,16 +92,7 @@ def load_case(foot: Foot, parameters: ShoeParameters) -> LoadCase:
 
 
 def check_strength(foot: Foot, contact: Any, parameters: ShoeParameters) -> tuple[LoadCase, tuple[Member, ...]]:
-    """Stresses in plate and wall.
-
-    Args:
-        foot: The left foot.
-        contact: Outline of the contact face, a shapely polygon in mm.
-        parameters: Dimensions as used.
-
-    Returns:
-        The load, and each member.
-    """
+    """Gives the load and the stresses in plate and wall of a foot with a contact face, by parameters."""
     p, material = parameters, parameters.printed
     load = load_case(foot, p)
     allowed = material.strength / p.safety
@@ -146,15 +137,8 @@ def _unsupported_span(foot: Foot) -> float:
 
 
 def strengthened(foot: Foot, contact: Any, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Raise floor and wall until they carry the load, in steps of 0.1 mm.
-
-    Args:
-        foot: The left foot.
-        contact: Outline of the contact face, a shapely polygon in mm.
-        parameters: Dimensions; with `strengthen` no they stay.
-
-    Returns:
-        The parameters, and a note for each that was raised.
+    """Gives parameters with floor and wall raised in steps of 0.1 mm until they carry the load of a foot with a contact
+    face, and notes.
     """
     if parameters.strengthen == "no":
         return parameters, ()

@@ -1,9 +1,8 @@
-"""How well the taxels measure: how many touch when their seats scatter, with a pad soft enough for it, and whether they
-observe the center of pressure. Lengths in mm.
+"""Measuring quality of a sole: taxels that touch when their seats scatter, and observability of the center of pressure.
+Lengths in mm.
 
-Print and ground are rigid. Each taxel with the pad below it is a spring, its seat's height scattered by the process's
-standard deviation. The print sinks and tilts under half the robot's weight until forces and moments balance. A load is
-reported within the hull of the taxels' centres; one beyond it is off by its distance (the blind rim).
+Print and ground are rigid, each taxel with the pad below it is a spring. A load beyond the hull of the taxels' centres
+is reported at that hull.
 """
 
 from __future__ import annotations
@@ -52,9 +51,9 @@ class Touching:
         scatter: Standard deviation of the seats' heights in mm.
         stiffness: Of a median taxel with its pad in N/mm.
         active: Mean share of taxels above their threshold, 0..1.
-        touching: Mean share of those that carry any load, 0..1.
-        area: Mean share of the cells' area of the active ones, 0..1.
-        cop_error: Distance in mm of the active taxels' center of pressure from the load, 95th percentile.
+        touching: Mean share of loaded ones, 0..1.
+        area: Mean share of the active cells' area, 0..1.
+        cop_error: Error of the active taxels' center of pressure in mm, 95th percentile.
     """
 
     scatter: float
@@ -95,15 +94,8 @@ def check_touching(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -
 
 
 def softened(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
-    """Soften the pad until enough taxels touch: the thinnest, and of that the firmest, foam available.
-
-    Args:
-        plan: The sole.
-        load: The load case.
-        parameters: Dimensions; with `strengthen` no, a given foam, or no pad they stay.
-
-    Returns:
-        The parameters, and a note where the pad was changed.
+    """Gives parameters with the thinnest, then firmest foam of the pad with which enough taxels of a plan touch under a
+    load, and a note.
     """
     p = parameters
     if p.strengthen == "no" or p.pad_foam > 0.0 or p.pad_thickness <= 0.0 or check_touching(plan, load, p).holds():

@@ -1,8 +1,4 @@
-"""Runs of narrow facets replaced by arcs: outlines of many corners become cylinders and cones. Lengths in mm.
-
-A round wall is a strip of upright facets, possibly with strips of a bevel above. Where the corners of all its outlines
-lie on circles, the strip becomes one curved face between the same end corners.
-"""
+"""Runs of narrow facets replaced by arcs: walls of many corners become cylinders and cones. Lengths in mm."""
 
 from __future__ import annotations
 

@@ -68,16 +68,8 @@ def _cell_steps(plan: ShoePlan, p: ShoeParameters) -> tuple[Step, Step]:
 
 
 def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> list[tuple[float, float, Any]]:
-    """The place of the foot between the walls, level by level: its outline up to the level's upper height, grown by the
-    clearance.
-
-    Args:
-        foot: The left foot.
-        plan: The left sole.
-        parameters: Dimensions.
-
-    Returns:
-        Lower and upper height above the foot's face, and the outline, from below.
+    """Gives lower and upper heights above the foot's face and outlines of the foot's place in a plan, from below, by
+    parameters: the foot's outline up to each level, grown by the clearance.
     """
     p = parameters
     outlines = [plan.cavity]
@@ -145,16 +137,8 @@ def bare_floor(steps: tuple[Step, ...]) -> Any | None:
 
 
 def mark_outline(plan: ShoePlan, parameters: ShoeParameters, side: Side, floor: Any | None = None) -> Any:
-    """Letters of the mark in the floor: L or R, and the name.
-
-    Args:
-        plan: The sole of that side.
-        parameters: Dimensions; `mark_height` 0 leaves the mark out.
-        side: "left" or "right".
-        floor: That side's bare floor, a shapely polygon; None: everywhere between the walls.
-
-    Returns:
-        A shapely multipolygon, read with the toes to the right, empty without a mark.
+    """Gives letters of the mark, L or R and the name, on a plan of a side, by parameters, within its bare floor or
+    everywhere: a shapely multipolygon read with the toes to the right.
     """
     from shapely.ops import polylabel
 

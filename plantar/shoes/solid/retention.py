@@ -81,8 +81,8 @@ class Retention:
 
 
 def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> Retention:
-    """Choose clips where a foot has edges for them, lugs for straps otherwise, or the kind in the parameters; plan is
-    the left sole, and it returns the choice.
+    """Gives clips where a foot has edges for them, lugs for straps otherwise, or the kind in the parameters; plan is
+    the left sole.
 
     Raises:
         FootError: If clips are requested and the foot has no edge for them.
@@ -147,17 +147,8 @@ def _strap_places(foot: Foot, plan: ShoePlan, width: float, p: ShoeParameters) -
 
 
 def strap_meets(others: KeepOut, outline: Any, x: float, width: float, parameters: ShoeParameters) -> int:
-    """Count points of the robot's other links in the way of a strap and its lugs.
-
-    Args:
-        others: The links.
-        outline: Of the left foot below the wall's upper edge, a shapely polygon.
-        x: Middle of the strap along the foot in mm.
-        width: Of the strap in mm.
-        parameters: Dimensions.
-
-    Returns:
-        The number.
+    """Gives the number of points of the robot's others links in the way of a strap at x of a width in mm and its lugs,
+    by the foot's outline and parameters.
     """
     p, y = parameters, outline.centroid.y
     half, top = 0.5 * (width + _SLOT_PLAY) + _LUG_END, p.rim_height + p.strap_thickness + _SLOT_PLAY + _BAR + 1.0

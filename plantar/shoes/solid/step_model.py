@@ -57,8 +57,7 @@ class StepSolid:
         corners: Points (n, 3).
         circles: Centre and radius (m, 4) of each arc.
         shortest: Length of the shortest edge.
-        flat: Area in mm^2 of flat facets of bent walls: upright, next to one turned by 1 to 20 degrees, within `BULGE`
-            of an arc.
+        flat: Area in mm^2 of flat facets of bent walls, within `BULGE` of an arc.
         round: Area of cylinders and cones.
     """
 
@@ -73,14 +72,8 @@ class StepSolid:
 
 
 def write_step(parts: Sequence[StepPart], path: str | os.PathLike[str], name: str) -> None:
-    """Write parts as STEP (mm), as products by name; the same parts give the same file.
-
-    The header has SOURCE_DATE_EPOCH or the release's year as date, so that two files of one solid do not differ.
-
-    Args:
-        parts: One part alone is a product, several are an assembly.
-        path: File to write.
-        name: Of the assembly, or the file.
+    """Write parts, one or an assembly of a name, as STEP (mm) to a path; the date is SOURCE_DATE_EPOCH or the release's
+    year, so that the same parts give the same file.
     """
     plain = _plain(name)
     document = ocp.TDocStd.TDocStd_Document(ocp.TCollection.TCollection_ExtendedString("XmlOcaf"))
