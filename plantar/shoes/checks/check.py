@@ -26,6 +26,7 @@ from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan
 from plantar.shoes.plan.strength import LoadCase, Member, check_strength
 from plantar.shoes.plan.touching import ACROSS, ACTIVE_LEAST, ALONG, AREA_OFF, COP_OFF, ERROR, observability
 from plantar.shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
+from plantar.shoes.solid.kernel import SHORTEST
 from plantar.shoes.solid.step_model import StepSolid
 from plantar.shoes.units import to_mm
 
@@ -287,7 +288,7 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tu
     from the groove, of pockets from their ceiling, without those that a port or the channel removes.
     """
     p = parameters
-    cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(0.05)
+    cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(SHORTEST)
     cable |= shapely.union_all(pocket_outlines(shoe.plan, p)).buffer(-1e-3)  # and what is too thin next to it
     shapely.prepare(cable)
     corners = np.concatenate([to_mm(shoe.layout.cell_polygon(i)) for i in range(len(shoe.layout))])

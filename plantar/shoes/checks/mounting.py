@@ -71,7 +71,11 @@ def check_mounting(
     shoe = shoe if side == "left" else shoe[:, ::-1]
     floor = p.thickness
     lowest = float(foot.triangles[..., 2].min()) if foot.triangles is not None else 0.0
+    # On a flat foot the hooks of clips begin below the wall's upper edge: from there on they are what is near the foot.
+    hooks = min((q.edge for q in retention.places), default=0.0) if retention.kind == "clips" else math.inf
+    hooks -= p.clearance
     walls = [share * p.rim_height - 0.011 for share in LEVELS] + [p.rim_height - p.lead_in - 0.011]
+    walls = [height for height in walls if height < hooks]
     gap = way = math.inf
     for height in walls:
         solid = section(shoe, floor + height)
@@ -79,14 +83,14 @@ def check_mounting(
         way = min(way, _gap_on_the_way(foot, height + 0.011, solid))
     play = _play(foot.passing(p.rim_height), section(shoe, floor + p.rim_height - p.lead_in - 0.011))
     above = math.inf
-    top = retention.top(p)
+    top, start = retention.top(p), min(p.rim_height, hooks)
     for i in range(_ABOVE if retention.places else 0):
-        height = p.rim_height + (top - p.rim_height) * (i + 0.47) / _ABOVE
+        height = start + (top - start) * (i + 0.47) / _ABOVE
         solid = section(shoe, floor + height)
         if solid.is_empty:
             continue
         above = min(above, _gap(foot, height, solid))
-        if retention.kind != "clips" or height < min(q.edge for q in retention.places) - p.clearance:
+        if height < hooks:
             way = min(way, float(foot.passing(top).distance(solid)))
     touching = foot.support if foot.support is not None and not foot.support.is_empty else foot.sole
     below = section(shoe, floor - p.mark_depth - 0.05)
