@@ -119,7 +119,7 @@ def test_every_figure_of_a_report_has_its_unit_limit_and_source_in_the_docs(
     rows = [[c.strip() for c in line.split("|")[1:-1]] for line in part.splitlines() if line.startswith("|")]
     assert all(len(row) in (3, 4) and all(row) for row in rows)
     named = " ".join(row[0] for row in rows)
-    names = re.findall(r'Check\(\s*f?"([^"]+)"', Path(check.__file__).read_text())
+    names = re.findall(r'(?:Check|_least|_most)\(\s*f?"([^"]+)"', Path(check.__file__).read_text())
     assert len(names) > 25
     for name in names:  # the words before the unit, and before what differs from shoe to shoe
         words = name.split("{")[0].removesuffix(" the ").split(",")[0].strip()
