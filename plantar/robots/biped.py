@@ -120,7 +120,6 @@ def _is_finite_number(value: Any) -> bool:
 
 
 def _mass_attributes(mass: float, size: Sequence[float], position: Sequence[float]) -> str:
-    """Inertial element of a solid box."""
     x, y, z = size
     inertia = mass / 12.0 * np.array([y * y + z * z, x * x + z * z, x * x + y * y])
     return (

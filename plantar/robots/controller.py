@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,7 @@ from plantar.robots.kinematics.command_joints import carry_command, follow_comma
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
 from plantar.robots.kinematics.standing_posture import solve_standing
-from plantar.robots.motors.command_motors import command_motors
+from plantar.robots.motors.torque_control import command_motors
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk
@@ -35,17 +36,6 @@ from plantar.robots.walk import Control, Walk
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
 __all__ = ["JointTargets", "RobotController", "load_controller"]
-
-
-@dataclass(frozen=True)
-class _Task:
-    """What the controller is asked to do (`plantar.robots.controller_settings.Task`)."""
-
-    name: str
-    walk: Walk
-    control: Control
-    controller: Mapping[str, Mapping[str, Any]]
-    proximity_range: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +115,10 @@ def load_controller(
     walk = Walk.from_table(given.pop("walk", {}), "[walk]", SceneError).for_body(body)
     control = Control.from_table(given.pop("control", {}), "[control]", SceneError).for_body(body)
     parts = {name: check_controller_table(name, table, f"[{name}]", SceneError) for name, table in given.items()}
-    task = _Task("load_controller", walk, control, parts, own.layouts["left"].proximity_range)
+    sees = own.layouts["left"].proximity_range
+    task: Any = SimpleNamespace(
+        name="load_controller", walk=walk, control=control, controller=parts, proximity_range=sees
+    )
     limits = ankle_limits(own, legs.model, body.weight, min(walk.crouch, own.largest_crouch_partial))
     settings = controller_settings(task, own, body, ankle_sensors(legs.model, own), limits)
     start = start_of_walk(walk, own, settings.com_height, velocities=walk.velocities(seed))

@@ -140,7 +140,6 @@ def com_height_of(walk: Walk, robot: Robot) -> float:
 
 
 def _period(control: Control) -> float:
-    """Control period in s: a whole number of physics steps."""
     steps = control.period / control.physics_period
     if round(steps) < 1 or abs(steps - round(steps)) > 1e-6:
         raise SceneError(
@@ -151,7 +150,6 @@ def _period(control: Control) -> float:
 
 
 def _possible(control: Control, robot: Robot) -> Control:
-    """The switches that a robot can follow."""
     looks = not robot.rocks and all("proximity" in layout.modalities for layout in robot.layouts.values())
     footholds = control.footholds if looks or control.footholds == "off" else "force"
     return replace(
@@ -164,7 +162,6 @@ def _possible(control: Control, robot: Robot) -> Control:
 
 
 def _given(scene: Task, robot: Robot) -> dict[str, dict[str, Any]]:
-    """Settings of each part: the robot's, then the scene's."""
     return {name: {**robot.controller.get(name, {}), **scene.controller.get(name, {})} for name in CONTROLLER_TABLES}
 
 

@@ -51,7 +51,6 @@ def add_leg_shapes(spec: Any, robot: Robot, own: Collection[str] = ()) -> None:
 
 
 def _links(spec: Any, robot: Robot, side: Side) -> list[Any]:
-    """The bodies of a leg from hip to foot."""
     leg = robot.legs[side]
     chain = [spec.body(leg.foot_body)]
     first = spec.joint(leg.joints[0]).parent

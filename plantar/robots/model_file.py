@@ -52,7 +52,6 @@ def spec_from_file(robot: Robot) -> Any:
 
 
 def _parsed(robot: Robot) -> Any:
-    """The model file as an editable `mujoco.MjSpec`."""
     assert robot.model_file is not None
     check_model(robot.model_file, RobotError)  # MuJoCo would follow no matter what it names
     try:
@@ -85,7 +84,6 @@ def _without_collisions(spec: Any) -> list[Any]:
 
 
 def _add_imu(spec: Any, robot: Robot) -> None:
-    """The IMU's site, where the file has none, and its gyro and accelerometer."""
     torso = _body(spec, robot, robot.torso_body, "[torso] body")
     if spec.site(robot.imu_site) is None:
         torso.add_site(name=robot.imu_site, pos=[0.0, 0.0, 0.0])
@@ -128,7 +126,6 @@ def _clear_world(spec: Any, root: Any) -> None:
 
 
 def _weld_upper_body(spec: Any, robot: Robot) -> None:
-    """Only the legs' joints and the free base stay."""
     legs = {name for leg in robot.legs.values() for name in leg.joints}
     _check_joints(spec, robot, legs)
     for side, leg in robot.legs.items():
@@ -139,7 +136,6 @@ def _weld_upper_body(spec: Any, robot: Robot) -> None:
 
 
 def _check_joints(spec: Any, robot: Robot, wanted: set[str]) -> None:
-    """Refuse legs with a joint that the model does not have."""
     names = {j.name for j in spec.joints}
     missing = sorted(wanted - names)
     if missing:

@@ -148,7 +148,6 @@ class _RobotFile(RobotTables):
                 refuse_unknown_keys(self.table(key), allowed, self.place(key), RobotError)
 
     def _kind(self) -> str:
-        """What the robot's model is made from."""
         kind = self.text("kind", "model")
         if kind not in ("biped", "mjcf", "urdf"):
             raise RobotError(f"{self.place('model')} kind is '{kind}'; allowed: biped, mjcf, urdf")
@@ -309,7 +308,6 @@ class _RobotFile(RobotTables):
         }
 
     def _balance(self) -> dict[str, Any]:
-        """The balance law and its gains."""
         balance = dict(self.table("balance"))
         try:
             balance_gains(balance)
@@ -318,7 +316,6 @@ class _RobotFile(RobotTables):
         return balance
 
     def _controller(self) -> dict[str, Mapping[str, Any]]:
-        """Settings of the controller's other parts."""
         return {
             name: check_controller_table(name, self.source[name], self.place(name), RobotError)
             for name in CONTROLLER_TABLES

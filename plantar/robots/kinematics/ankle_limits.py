@@ -76,7 +76,6 @@ def _knee_strip(places: NDArray[np.float64], reach: float, crouch: float) -> lis
 
 
 def _torque_limits(model: mujoco.MjModel) -> dict[int, float]:
-    """Torque limit in N m of each joint whose actuator has one."""
     return {
         int(model.actuator_trnid[a, 0]): float(model.actuator_forcerange[a, 1] * abs(model.actuator_gear[a, 0]))
         for a in range(model.nu)

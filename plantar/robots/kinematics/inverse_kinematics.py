@@ -229,7 +229,6 @@ class InverseKinematics:
         return step
 
     def _rows_by_level(self) -> list[NDArray[np.int_]]:
-        """Rows of the tasks of each level."""
         levels: dict[int, list[slice]] = {}
         for task, rows in zip(self.tasks, self._rows, strict=True):
             levels.setdefault(task.level, []).append(rows)

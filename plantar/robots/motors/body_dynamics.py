@@ -25,10 +25,10 @@ class BodyDynamics:
 
     Attributes:
         rows: Places (6 + k,) of the base's and the joints' velocities.
-        mass: M (6 + k, 6 + k), with rotors, after `place`; likewise all below.
-        bias: h (6 + k,): Coriolis, centrifugal and gravity terms and what damps the joints.
+        mass: M (6 + k, 6 + k), with rotors, after `place`; its first three rows over the mass are the CoM's Jacobian.
+        bias: h (6 + k,), after `move`: Coriolis, centrifugal and gravity terms and what damps the joints.
         soles: Jacobian (6, 6 + k) of each sole site's velocity and turn, world frame.
-        drifts: Acceleration (6,) of each sole site for a = 0.
+        drifts: Acceleration (6,) of each sole site for a = 0, after `move`.
     """
 
     def __init__(self, model: mujoco.MjModel, dofs: NDArray[np.int_], sites: Mapping[Side, int]) -> None:
@@ -44,22 +44,27 @@ class BodyDynamics:
         self.soles: dict[Side, NDArray[np.float64]] = {s: np.zeros((6, count)) for s in SIDES}
         self.drifts: dict[Side, NDArray[np.float64]] = {s: np.zeros(6) for s in SIDES}
 
-    def place(self, configuration: NDArray[np.float64], velocity: NDArray[np.float64]) -> None:
-        """Compute all at a configuration (nq,) of the model and a velocity (6 + k,)."""
+    def place(self, configuration: NDArray[np.float64]) -> None:
+        """Compute mass matrix and Jacobians at a configuration (nq,) of the model; `move` has to follow."""
         model, data = self._model, self.data
         data.qpos[:] = configuration
-        data.qvel[self.rows] = velocity
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
-        mujoco.mj_comVel(model, data)
         mujoco.mj_makeM(model, data)
         mujoco.mj_fullM(model, data, self._full)
         self.mass[:] = self._full[self._grid]
-        mujoco.mj_rne(model, data, 0, self._force)
-        self.bias[:] = self._force[self.rows] + self._damping * velocity
         for side, site in self._sites.items():
             mujoco.mj_jacSite(model, data, self._wide[:3], self._wide[3:], site)
             self.soles[side][:] = self._wide[:, self.rows]
+
+    def move(self, velocity: NDArray[np.float64]) -> None:
+        """Compute bias and drifts at a velocity (6 + k,)."""
+        model, data = self._model, self.data
+        data.qvel[self.rows] = velocity
+        mujoco.mj_comVel(model, data)
+        mujoco.mj_rne(model, data, 0, self._force)
+        self.bias[:] = self._force[self.rows] + self._damping * velocity
+        for side, site in self._sites.items():
             body, point = int(model.site_bodyid[site]), data.site_xpos[site]
             mujoco.mj_jacDot(model, data, self._wide[:3], self._wide[3:], point, body)
             self.drifts[side][:] = self._wide @ data.qvel

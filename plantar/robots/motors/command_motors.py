@@ -7,8 +7,10 @@ only what the plan does not know. With "torque" they are those of `plantar.robot
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,15 +18,15 @@ from plantar.gait.command import Command, JointTargets, Sensors
 from plantar.robots.kinematics.command_joints import follow_command
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.motors.body_dynamics import BodyDynamics
-from plantar.robots.motors.planned_motion import PlannedMotion
 from plantar.robots.robot import Robot
-from plantar.robots.walk import Control
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 
-__all__ = ["CommandMotors", "MotorGains", "command_motors", "motor_gains", "planned_wrenches"]
+__all__ = ["CommandMotors", "MotorGains", "PlannedMotion", "motor_gains", "planned_wrenches"]
 
 _REACH_ERROR = 0.02  # rad, or m on a leg of 0.6 m, of a joint solution, as of `plantar.sim.run.servos`
+_SPEED_SHARE = 0.9  # of a joint's speed limit that its target may have, as of `plantar.sim.run.servos`
+_SMOOTH = 0.04  # beat, time constant of the low pass on the acceleration: 10 ms on a leg of 0.6 m
 _SLOW = 0.0247  # rad/beat from which a joint moves against its friction
 
 
@@ -64,6 +66,38 @@ def planned_wrenches(command: Command) -> dict[Side, NDArray[np.float64]]:
     return wrenches
 
 
+class PlannedMotion:
+    """Velocity and acceleration of solutions that follow each other by a control period.
+
+    Args:
+        model: The robot alone.
+        rows: Places (6 + k,) of the base's and the leg joints' velocities.
+        period: Control period in s.
+        beat: Time scale sqrt(leg / g) of the robot in s.
+
+    Attributes:
+        velocity: Velocity (6 + k,) of the last solution in m/s and rad/s; 0 at the first one.
+        acceleration: Its acceleration (6 + k,), low-passed.
+    """
+
+    def __init__(self, model: mujoco.MjModel, rows: NDArray[np.int_], period: float, beat: float) -> None:
+        self._model, self._rows, self._period = model, rows, period
+        self._share = -math.expm1(-period / (_SMOOTH * beat))
+        self._last: NDArray[np.float64] | None = None
+        self._moved = np.zeros(model.nv)
+        self.velocity, self.acceleration = np.zeros(len(rows)), np.zeros(len(rows))
+
+    def update(self, configuration: NDArray[np.float64]) -> None:
+        """Take in a solution, a configuration (nq,)."""
+        if self._last is not None:
+            mujoco.mj_differentiatePos(self._model, self._moved, self._period, self._last, configuration)
+            velocity = self._moved[self._rows]
+            change = (velocity - self.velocity) / self._period
+            self.acceleration += self._share * (change - self.acceleration)
+            self.velocity = velocity
+        self._last = configuration
+
+
 class CommandMotors:
     """Solves commands for the motors (`plantar.gait.command.Motors`).
 
@@ -90,6 +124,10 @@ class CommandMotors:
         sites: dict[Side, int] = {s: model.site(robot.legs[s].sole_site).id for s in SIDES}
         self.dynamics = BodyDynamics(model, self._dofs, sites)
         self.motion = PlannedMotion(model, self.dynamics.rows, period, body.beat)
+        self._period = period
+        self._angles: NDArray[np.float64] | None = None
+        speeds = robot.velocity_limits or (1e3,) * (len(names) // 2)
+        self._farthest = _SPEED_SHARE * period * np.array([*speeds] * 2)  # rad in a control period
         self._friction = model.dof_frictionloss[self._dofs]
         self._slow = _SLOW / body.beat
 
@@ -97,25 +135,26 @@ class CommandMotors:
         """Returns targets for the `command` that answers the `sensors` (`plantar.gait.command.Motors`)."""
         self.out_of_reach = not follow_command(self._legs, command) <= _REACH_ERROR
         self.motion.update(self._legs.configuration)
-        velocity = self.motion.velocity[6:]
-        torques = self.torques(command, sensors) + self._friction * np.tanh(velocity / self._slow)
-        angles = self._legs.joints.copy()
+        torques = self.torques(command, sensors)
+        angles, velocity = self.followed()
+        torques = torques + self._friction * np.tanh(velocity / self._slow)
         if command.joint_offsets is not None:
             angles += command.joint_offsets
         return JointTargets(angles, torques, velocity, self.stiffness, self.damping)
 
     def torques(self, command: Command, sensors: Sensors) -> NDArray[np.float64]:
         """Returns feed-forward torques (k,) in N m for the `command` that answers the `sensors`."""
-        self.dynamics.place(self._legs.configuration, self.motion.velocity)
+        self.dynamics.place(self._legs.configuration)
+        self.dynamics.move(self.motion.velocity)
         return self.dynamics.forces(self.motion.acceleration, planned_wrenches(command))[6:]
 
+    def followed(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Angles (k,) in rad and rates (k,) in rad/s that the motors' gains follow, within the joints' speed limits.
 
-def command_motors(
-    robot: Robot, legs: LegModel, body: BodyScale, control: Control, period: float
-) -> CommandMotors | None:
-    """What drives a robot as a scene's `[control]` table asks for.
-
-    Takes `robot`, its `legs`, `body`, `control` and the control `period` in s; returns None for position servos."""
-    if control.drives == "servo":
-        return None
-    return CommandMotors(robot, legs, body, motor_gains(robot, control.joint_stiffness), period)
+        Where a joint would have to be faster, all move by the same smaller share of their way, and catch up later.
+        """
+        last = self._legs.joints.copy() if self._angles is None else self._angles
+        way = self._legs.joints - last
+        way /= max(1.0, float((np.abs(way) / self._farthest).max()))
+        self._angles = last + way
+        return self._angles.copy(), way / self._period

@@ -25,7 +25,7 @@ from plantar.robots.kinematics.ankle_limits import ankle_limits
 from plantar.robots.kinematics.ankle_sensors import ankle_sensors
 from plantar.robots.kinematics.body import body_of
 from plantar.robots.kinematics.robot_model import Visitor, build_leg_model
-from plantar.robots.motors.command_motors import command_motors
+from plantar.robots.motors.torque_control import command_motors
 from plantar.robots.robot import Robot
 from plantar.robots.robot_file import load_robot
 from plantar.robots.start import start_of_walk

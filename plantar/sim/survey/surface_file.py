@@ -126,7 +126,6 @@ def _collada(path: Path) -> Triangles:
 
 
 def _collada_matrix(node: Element) -> NDArray[np.float64]:
-    """Pose (4, 4) of a node in its parent."""
     at = np.eye(4)
     for element in node:
         step = np.eye(4)
@@ -172,7 +171,6 @@ def _collada_shape(geometry: Element) -> Triangles:
 
 
 def _collada_faces(part: Element, points: dict[str, NDArray[np.float64]]) -> Triangles:
-    """Triangles of one list of polygons; a polygon is a fan."""
     inputs = part.findall("input")
     vertex = next(i for i in inputs if i.get("semantic") == "VERTEX")
     width = 1 + max(int(i.get("offset", "0")) for i in inputs)

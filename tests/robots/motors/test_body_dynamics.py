@@ -38,7 +38,8 @@ def test_forces_are_those_of_mujocos_inverse_dynamics(robot: Robot) -> None:
         configuration, velocity = random_state(model, seed)
         acceleration = rng.normal(size=model.nv) * 20.0
         wrenches = {s: rng.normal(size=6) * 200.0 for s in SIDES}
-        dynamics.place(configuration, velocity[dynamics.rows])
+        dynamics.place(configuration)
+        dynamics.move(velocity[dynamics.rows])
         data.qpos, data.qvel, data.qacc = configuration, velocity, acceleration
         mujoco.mj_inverse(model, data)
         expected = data.qfrc_inverse.copy()
@@ -56,13 +57,14 @@ def test_drifts_are_what_is_left_of_the_soles_acceleration_without_a(robot: Robo
     legs = build_leg_model(robot)
     model, dynamics = legs.model, dynamics_of(robot, legs)
     configuration, velocity = random_state(model, 3)
-    dynamics.place(configuration, velocity[dynamics.rows])
+    dynamics.place(configuration)
+    dynamics.move(velocity[dynamics.rows])
     drifts = {s: d.copy() for s, d in dynamics.drifts.items()}
     moved = []
     for step in (-1e-5, 1e-5):
         there = configuration.copy()
         mujoco.mj_integratePos(model, there, velocity, step)
-        dynamics.place(there, velocity[dynamics.rows])
+        dynamics.place(there)
         moved.append({s: dynamics.soles[s] @ velocity[dynamics.rows] for s in SIDES})
     for side in SIDES:
         assert drifts[side] == pytest.approx((moved[1][side] - moved[0][side]) / 2e-5, abs=1e-5)

@@ -1,0 +1,190 @@
+"""Whole-body torque control of a walk: the measured body follows the command by inverse dynamics.
+
+Its tasks, as accelerations of the measured state: the CoM by the pendulum c'' = w^2 (c - p) with the desired ZMP p of
+the balance law, and back to its height; the base to its planned orientation; the joints of a leg that swings to its
+planned motion; soles that stand stay where they are, with the wrenches that the balance law plans as far as the motion
+leaves them free (`plantar.robots.motors.torque_program`). Where the program has no solution, and while the robot
+stands without feedback before its walk, torques are those of the planned motion within their limits.
+"""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.gait.command import Command, Sensors
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.wrench_cone import Rectangle
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.motors.command_motors import CommandMotors, MotorGains, motor_gains, planned_wrenches
+from plantar.robots.motors.torque_program import Standing, Torques, Wish, torques_of
+from plantar.robots.robot import Robot
+from plantar.robots.walk import Control
+from plantar.settings.body_scale import BodyScale
+from plantar.sides import SIDES, Side
+
+__all__ = ["TorqueControl", "command_motors"]
+
+_FRICTION = 0.5
+_SMOOTH = 0.03  # beat, time constant of the low pass on the encoders' rates: 7 ms on a leg of 0.6 m
+_HEIGHT, _TILT, _SWING, _STANCE = 2.5, 3.5, 5.0, 5.0  # 1/beat: how fast height, base, swing leg and soles are corrected
+_COM_WEIGHT, _TILT_WEIGHT, _SWING_WEIGHT, _STANCE_WEIGHT = 1.0, 0.1, 0.01, 1e-5
+_LOADED = 0.03  # weight: load from which a sole that should carry stands
+_EDGE = 0.03  # sole: that centres of pressure keep from its edge
+_SLOW_DOWN, _REACH = 0.1, 0.02  # s in which the way to a limit may be crossed, and a speed beyond it brought back
+_SPEED_SHARE = 0.95  # of a joint's speed limit, which it overshoots
+_FASTEST = 300.0  # rad/s^2 of a joint
+_LEAK = 5.0  # 1/beat: how fast the motion that the motors' gains follow returns to the measured one
+
+
+class TorqueControl(CommandMotors):
+    """Torques by a whole-body program (`plantar.gait.command.Motors`).
+
+    Takes what `CommandMotors` takes.
+
+    Attributes:
+        unsolved: How many ticks had no solution.
+    """
+
+    def __init__(self, robot: Robot, legs: LegModel, body: BodyScale, gains: MotorGains, period: float) -> None:
+        super().__init__(robot, legs, body, gains, period)
+        model, beat, names = legs.model, body.beat, [*robot.legs["left"].joints, *robot.legs["right"].joints]
+        self.unsolved = 0
+        self._beat, self._weight = beat, body.mass * GRAVITY
+        self._share = -math.expm1(-period / (_SMOOTH * beat))
+        joints = [model.joint(n).id for n in names]
+        self._places = model.jnt_qposadr[joints]
+        low, high = model.jnt_range[joints].T
+        free = model.jnt_limited[joints] == 0
+        self._low, self._high = np.where(free, -np.inf, low), np.where(free, np.inf, high)
+        self._fastest = _SPEED_SHARE * np.array(
+            [
+                *(robot.velocity_limits or (1e3,) * (len(names) // 2)),
+            ]
+            * 2
+        )
+        motors = [list(model.actuator_trnid[:, 0]).index(j) for j in joints]
+        self._torque = np.where(model.actuator_forcelimited[motors] > 0, model.actuator_forcerange[motors, 1], np.inf)
+        self._rectangles, edge = {}, _EDGE * body.sole
+        for side in SIDES:
+            (x, y), (length, width) = robot.sole_rectangle(side)
+            self._rectangles[side] = Rectangle(x - length + edge, x + length - edge, y - width + edge, y + width - edge)
+        self._sides = {"left": slice(6, 6 + len(names) // 2), "right": slice(6 + len(names) // 2, 6 + len(names))}
+        self._last: NDArray[np.float64] | None = None
+        self._speeds = np.zeros(len(names))
+        self._followed = np.zeros((2, len(names)))  # angles and rates that the motors' gains follow
+
+    def torques(self, command: Command, sensors: Sensors) -> NDArray[np.float64]:
+        """Returns torques (k,) in N m for the `command` that answers the `sensors`."""
+        planned = np.clip(super().torques(command, sensors), -self._torque, self._torque)
+        solved = None
+        if np.isfinite(sensors.joint_positions).all() and np.isfinite(sensors.gyro).all():
+            offsets = command.joint_offsets
+            angles = sensors.joint_positions if offsets is None else sensors.joint_positions - offsets
+            if self._last is not None:
+                self._speeds += self._share * ((angles - self._last) / self._period - self._speeds)
+            self._last = angles
+            if command.zmp_desired is not command.reference.vrp:  # else the robot stands without feedback
+                solved = self._solved(command, sensors.gyro, angles)
+        if solved is None:
+            self.unsolved += command.zmp_desired is not command.reference.vrp
+            self._followed[:] = self._legs.joints, self.motion.velocity[6:]
+            return planned
+        leak = min(1.0, self._period * _LEAK / self._beat)
+        self._followed += leak * (np.array([self._last, self._speeds]) - self._followed)
+        self._followed += self._period * np.array([self._followed[1], solved.acceleration[6:]])
+        return solved.torques
+
+    def followed(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        return self._followed[0].copy(), self._followed[1].copy()
+
+    def _solved(self, command: Command, gyro: NDArray[np.float64], angles: NDArray[np.float64]) -> Torques | None:
+        """The program's solution at the measured state, or None."""
+        state, dynamics, beat = command.state, self.dynamics, self._beat
+        configuration = self._legs.configuration
+        planned_base = configuration[3:7].copy()
+        configuration[:3] = state.position_base
+        mujoco.mju_mat2Quat(configuration[3:7], state.rotation_base_to_world.ravel())
+        configuration[self._places] = angles
+        velocity = np.concatenate([np.zeros(3), gyro, self._speeds])
+        dynamics.place(configuration)
+        velocity[:3] = state.com_velocity - dynamics.mass[:3] @ velocity / dynamics.mass[0, 0]
+        dynamics.move(velocity)
+        loads = state.loads
+        carrying: Side = "left" if loads["left"] >= loads["right"] else "right"
+        foot = command.feet[carrying]
+        between = state.rotations_sole[carrying] @ foot.rotation.T
+        turn = math.atan2(between[1, 0] - between[0, 1], between[0, 0] + between[1, 1])
+        lowest = state.positions_sole[carrying].item(2)
+        wished, weights = np.zeros(len(velocity)), np.full(len(velocity), _STANCE_WEIGHT)
+        # The base: its orientation alone; where it is follows from the CoM.
+        wished[3:6] = self._upright(planned_base, turn, state.rotation_base_to_world, velocity[3:6])
+        weights[:3], weights[3:6] = 0.0, _TILT_WEIGHT
+        standing = {}
+        for side in SIDES:
+            wrench = planned_wrenches(command).get(side)
+            at = self._sides[side]
+            joints = slice(at.start - 6, at.stop - 6)
+            error = self._legs.joints[joints] - angles[joints]
+            lag = self.motion.velocity[at] - velocity[at]
+            rate = _SWING / beat
+            wished[at] = self.motion.acceleration[at] + rate * rate * error + 2.0 * rate * lag
+            if wrench is not None and loads[side] > _LOADED * self._weight:
+                rotation = state.rotations_sole[side]
+                rest = -_STANCE / beat * (dynamics.soles[side] @ velocity)
+                own = np.concatenate([command.feet[side].rotation.T @ part for part in (wrench[:3], wrench[3:])])
+                standing[side] = Standing(rotation, self._rectangles[side], _FRICTION, rest, own)
+            else:
+                weights[at] = _SWING_WEIGHT
+        height = command.com.item(2) - foot.position.item(2) - (state.com.item(2) - lowest)
+        rate = _HEIGHT / beat
+        slowest, fastest = self._bounds(angles)
+        wish = Wish(
+            wished,
+            weights,
+            np.array([*self._pendulum(command), rate * rate * height - 2.0 * rate * state.com_velocity.item(2)]),
+            _COM_WEIGHT,
+            self._torque,
+            slowest,
+            fastest,
+            standing,
+        )
+        return torques_of(dynamics, wish, GRAVITY)
+
+    def _pendulum(self, command: Command) -> NDArray[np.float64]:
+        square = GRAVITY / (command.com.item(2) - min(f.position.item(2) for f in command.feet.values()))
+        return np.asarray(square * (command.state.com[:2] - command.zmp_desired))
+
+    def _upright(
+        self, planned: NDArray[np.float64], turn: float, rotation: NDArray[np.float64], speed: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Angular acceleration (3,) of the base in its own frame that brings it to the planned orientation."""
+        wanted, inverse, error, way = np.zeros(4), np.zeros(4), np.zeros(4), np.zeros(3)
+        mujoco.mju_mulQuat(wanted, np.array([math.cos(0.5 * turn), 0.0, 0.0, math.sin(0.5 * turn)]), planned)
+        mujoco.mju_mat2Quat(inverse, rotation.T.ravel())
+        mujoco.mju_mulQuat(error, inverse, wanted)
+        mujoco.mju_quat2Vel(way, error, 1.0)
+        rate = _TILT / self._beat
+        return np.asarray(rate * rate * way + 2.0 * rate * (self.motion.velocity[3:6] - speed))
+
+    def _bounds(self, angles: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Least and largest accelerations (2, k) that keep the joints' limits of angle and speed."""
+        least = np.maximum(-self._fastest, (self._low - angles) / _SLOW_DOWN)
+        most = np.minimum(self._fastest, (self._high - angles) / _SLOW_DOWN)
+        return np.asarray(np.clip((np.array([least, most]) - self._speeds) / _REACH, -_FASTEST, _FASTEST))
+
+
+def command_motors(
+    robot: Robot, legs: LegModel, body: BodyScale, control: Control, period: float
+) -> CommandMotors | None:
+    """What drives a robot.
+
+    Takes `robot`, its `legs`, `body`, `control` and the control `period` in s; returns None for position servos.
+    """
+    if control.drives == "servo":
+        return None
+    kind = TorqueControl if control.drives == "torque" else CommandMotors
+    return kind(robot, legs, body, motor_gains(robot, control.joint_stiffness), period)

@@ -1,0 +1,159 @@
+"""Torques of a whole body that stands on its soles: inverse dynamics as one quadratic program.
+
+Unknown are the acceleration a (6 + k) and the wrench w_i (6) of each standing sole in its frame, in body weights. Of
+
+    sum_j d_j (a_j - a*_j)^2 + c |J_c a + drift_c - c*|^2 + sum_i |w_i - w*_i|^2_W
+
+the program finds the least subject to
+- the dynamics of the base, M_b a + h_b = sum J_b,i^T w_i, which no motor drives;
+- soles that stay: J_i a + drift_i = their wanted acceleration (0, or what brings a sole to rest);
+- the wrench cones of the soles: friction pyramid, centre of pressure in the sole, limits of the yaw moment;
+- torque limits, |M_k a + h_k - sum J_k,i^T w_i| <= tau, and bounds of the joints' accelerations, which keep their
+  limits of speed and position and give way where nothing else is possible.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import daqp
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.mechanics.wrench_cone import Rectangle, cone_rows
+from plantar.robots.motors.body_dynamics import BodyDynamics
+from plantar.sides import Side
+
+__all__ = ["Standing", "Torques", "Wish", "torques_of"]
+
+Array = NDArray[np.float64]
+
+_BASE = 6
+_EQUAL, _SOFT = 5, 8  # daqp's words for an equality and for a limit that may give way
+_FACETS = 16  # of a wrench cone
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A sole that stands.
+
+    Attributes:
+        rotation: Rotation (3, 3) from the sole to the world frame.
+        rectangle: The part of the sole that may carry.
+        friction: Coefficient of its friction pyramid.
+        acceleration: Wanted acceleration (6,) of its site, world frame.
+        wrench: Preferred wrench (6,) in its frame about its origin in N and N m.
+    """
+
+    rotation: Array
+    rectangle: Rectangle
+    friction: float
+    acceleration: Array
+    wrench: Array
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What the body should do.
+
+    Attributes:
+        acceleration: a* (6 + k,) of the base and the joints.
+        weights: d (6 + k,) of each.
+        com: Acceleration (3,) of the CoM in m/s^2.
+        com_weight: c.
+        torque: Limits (k,) of the torques in N m; inf without.
+        slowest: Least accelerations (k,) of the joints in rad/s^2.
+        fastest: Largest accelerations (k,).
+        standing: The soles that stand.
+    """
+
+    acceleration: Array
+    weights: Array
+    com: Array
+    com_weight: float
+    torque: Array
+    slowest: Array
+    fastest: Array
+    standing: Mapping[Side, Standing] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Torques:
+    """Torques, and the motion and wrenches that belong to them.
+
+    Attributes:
+        torques: Torques (k,) in N m.
+        acceleration: Acceleration (6 + k,).
+        wrenches: Wrench (6,) of each standing sole in its frame in N and N m.
+    """
+
+    torques: Array
+    acceleration: Array
+    wrenches: Mapping[Side, Array]
+
+
+_WRENCH = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 0.1])  # weights W of forces in body weights, moments in those times 0.1 m
+_RIDGE = 1e-6
+_TOLERANCE = 1e-10  # of rows in N, N m, m/s^2 and rad/s^2, of cones in body weights
+
+
+def torques_of(dynamics: BodyDynamics, wish: Wish, gravity: float) -> Torques | None:
+    """Torques for a wish; `gravity` in m/s^2.
+
+    Args:
+        dynamics: Dynamics of the body where it is.
+        wish: What it should do.
+        gravity: Acceleration of a falling body in m/s^2.
+
+    Returns:
+        The torques; None where no motion keeps the constraints, or a number is not finite.
+    """
+    mass, bias, size = dynamics.mass, dynamics.bias, len(dynamics.bias)
+    count, total = 6 * len(wish.standing), float(mass[0, 0])
+    weight = total * gravity
+    unit = np.tile(weight * np.array([1.0, 1.0, 1.0, 0.1, 0.1, 0.1]), len(wish.standing))
+    jacobian, wanted, preferred = np.zeros((count, size)), np.zeros(count), np.zeros(count)
+    cones = np.zeros((_FACETS * len(wish.standing), size + count))
+    for i, (side, sole) in enumerate(wish.standing.items()):
+        at, turn = slice(6 * i, 6 * i + 6), sole.rotation.T
+        rows = dynamics.soles[side]
+        jacobian[6 * i : 6 * i + 3], jacobian[6 * i + 3 : 6 * i + 6] = turn @ rows[:3], turn @ rows[3:]
+        lacking = sole.acceleration - dynamics.drifts[side]
+        wanted[6 * i : 6 * i + 3], wanted[6 * i + 3 : 6 * i + 6] = turn @ lacking[:3], turn @ lacking[3:]
+        preferred[at] = sole.wrench
+        cones[_FACETS * i : _FACETS * (i + 1), size + 6 * i : size + 6 * i + 6] = cone_rows(
+            sole.rectangle, sole.friction
+        ) * (unit[at] / weight)
+    preferred /= unit
+    pushed = jacobian.T * unit
+    moves = np.hstack([mass, -pushed])
+    com = mass[:3] / total
+    diagonal = np.concatenate([wish.weights, np.tile(_WRENCH, len(wish.standing))]) + _RIDGE
+    aim = np.concatenate([wish.acceleration, preferred])
+    hessian, gradient = np.diag(diagonal), -diagonal * aim
+    hessian[:size, :size] += wish.com_weight * com.T @ com
+    drift = bias[:3] / total - np.array([0.0, 0.0, gravity])
+    gradient[:size] -= wish.com_weight * (wish.com - drift) @ com
+    fixed = np.hstack([jacobian, np.zeros((count, count))])
+    bounded = np.zeros((size - _BASE, size + count))
+    bounded[:, _BASE:size] = np.eye(size - _BASE)
+    rows = np.vstack([moves[:_BASE], fixed, cones, moves[_BASE:], bounded])
+    none, torque = np.full(len(cones), -1e30), np.minimum(wish.torque, 1e6)
+    held = np.concatenate([-bias[:_BASE], wanted])
+    upper = np.concatenate([held, np.zeros(len(cones)), torque - bias[_BASE:], wish.fastest])
+    lower = np.concatenate([held, none, -torque - bias[_BASE:], wish.slowest])
+    sense = np.zeros(len(rows), dtype=np.int32)
+    sense[: _BASE + count], sense[-len(bounded) :] = _EQUAL, _SOFT
+    if not (np.isfinite(gradient).all() and np.isfinite(rows).all() and np.isfinite(held).all()):
+        return None
+    found, _, flag, _ = daqp.solve(hessian, gradient, rows, upper, lower, sense, primal_tol=_TOLERANCE)
+    if flag < 1:
+        return None
+    found = np.asarray(found)
+    forces = unit * found[size:]
+    return Torques(
+        (moves @ found + bias)[_BASE:],
+        found[:size],
+        {side: forces[6 * i : 6 * i + 6] for i, side in enumerate(wish.standing)},
+    )
