@@ -22,8 +22,7 @@ from plantar.sim.companion.experiments.multi_contact import MultiContact
 from plantar.sim.companion.runner import Companion
 from plantar.sim.run.scene_kind import open_scene
 from plantar.wholebody.dynamics import RobotDynamics
-from plantar.wholebody.tasks.interaction import DirectInteraction
-from plantar.wholebody.tasks.skin_interaction import SkinInteraction
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction, SkinInteraction
 from plantar.wholebody.tasks.task import Demand
 
 HERE = Path(__file__).parent

@@ -15,8 +15,8 @@ from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.machine import load_machine
 from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
-from plantar.wholebody.tasks.interaction import DirectInteraction
 from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 
 machine = load_machine("planar-arm")
 alone = machine.spec().compile()

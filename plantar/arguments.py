@@ -1,8 +1,4 @@
-"""Single arguments as callers hand them over, checked once where they come in: numbers, objects, lists of objects.
-
-All public functions check what callers hand over with these, `plantar.arrays`, `plantar.plane_points` and
-`plantar.taxel_values`.
-"""
+"""Checks of single arguments from callers: numbers, objects, lists of objects."""
 
 from __future__ import annotations
 
@@ -27,20 +23,20 @@ _Value = TypeVar("_Value")
 def number(
     value: object, name: str, error: type[PlantarError] = InputError, *, finite: bool = False, nan: bool = False
 ) -> float:
-    """One real number.
+    """One real number as a float.
 
     Args:
-        value: What a caller handed over.
-        name: What it is, the subject of an error.
-        error: Which error to raise.
+        value: The argument.
+        name: Its name in an error.
+        error: Class of the error.
         finite: Refuse inf, and what is beyond `LARGEST`.
-        nan: Let NaN pass.
+        nan: Allow NaN.
 
     Returns:
-        It as a float.
+        The float.
 
     Raises:
-        PlantarError: If it is no real number, NaN, or not finite where it has to be.
+        PlantarError: If it is not a real number, or not finite where it has to be.
 
     Example:
         >>> number(np.float32(0.5), "threshold"), number(np.array(2), "threshold")
@@ -63,17 +59,17 @@ def integer(value: object, name: str, low: int, high: int | None = None, error: 
     """One whole number in a range.
 
     Args:
-        value: What a caller handed over.
-        name: What it is, the subject of an error.
-        low: Smallest that is allowed.
-        high: Largest that is allowed; no end where None.
-        error: Which error to raise.
+        value: The argument.
+        name: Its name in an error.
+        low: Smallest allowed.
+        high: Largest allowed; no limit if None.
+        error: Class of the error.
 
     Returns:
-        It as an int.
+        The int.
 
     Raises:
-        PlantarError: If it is no whole number, or out of the range.
+        PlantarError: If it is not a whole number, or out of the range.
 
     Example:
         >>> integer(np.int64(3), "frame", 0, 9)
@@ -93,10 +89,10 @@ def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = In
     """An object of a class.
 
     Args:
-        value: What a caller handed over.
+        value: The argument.
         kind: The class.
-        name: What it is, the subject of an error.
-        error: Which error to raise.
+        name: Its name in an error.
+        error: Class of the error.
 
     Returns:
         The object.
@@ -115,18 +111,18 @@ def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = In
 
 
 def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputError) -> tuple[_Value, ...]:
-    """Several objects in a row.
+    """Several objects as a tuple.
 
     Args:
-        value: What a caller handed over.
-        name: What they are, the subject of an error.
-        error: Which error to raise.
+        value: The argument.
+        name: Its name in an error.
+        error: Class of the error.
 
     Returns:
-        They as a tuple.
+        The tuple.
 
     Raises:
-        PlantarError: If it is nothing that can be gone through.
+        PlantarError: If it is not iterable.
 
     Example:
         >>> items(range(2), "poses")
@@ -139,14 +135,14 @@ def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputE
 
 
 def does(name: str, verb: str) -> str:
-    """Subject and verb of an error.
+    """Subject and verb of an error, in agreement.
 
     Args:
-        name: What a caller handed over; a plural where it, or what stands before "of", ends in s.
+        name: Name of an argument; a plural if it, or what precedes "of", ends in s.
         verb: "are", "have" or "hold".
 
     Returns:
-        Both, in agreement.
+        Both.
 
     Example:
         >>> does("forces", "are"), does("polygon", "have"), does("mask of taxels", "hold")
@@ -156,7 +152,6 @@ def does(name: str, verb: str) -> str:
 
 
 def _float(value: object, name: str, error: type[PlantarError]) -> float:
-    """What a number that is not a float yet is as one."""
     try:
         if isinstance(value, int):
             return float(value)
@@ -169,7 +164,7 @@ def _float(value: object, name: str, error: type[PlantarError]) -> float:
 
 
 def _short(value: object) -> str:
-    """A value in an error: as it is written where that is short, else what it is."""
+    """A value in an error: as written if short, else its type."""
     if isinstance(value, np.ndarray):
         return f"an array of shape {value.shape}"
     if value is None or isinstance(value, str | int | float | complex | np.generic):

@@ -1,7 +1,7 @@
-"""Arrays as callers hand them over, checked once where they come in, and arrays that are kept.
+"""Checks of arrays from callers, and read-only copies.
 
-Real numbers of any type, order and stride; text, objects, complex numbers, dates, ragged rows and masked values are
-refused. float64 is not copied.
+Real numbers of any type, order and stride are allowed; text, objects, complex numbers, dates, ragged rows and masked
+values are refused. float64 is not copied.
 """
 
 from __future__ import annotations
@@ -39,12 +39,12 @@ def numbers(value: object, name: str, error: type[PlantarError] = InputError) ->
     """Real numbers as float64, an array of any shape.
 
     Args:
-        value: What a caller handed over.
-        name: What it is, the subject of an error: "polygon", "forces" (a plural ends in s).
-        error: Which error to raise.
+        value: The argument.
+        name: Its name in an error: "polygon", "forces" (a plural ends in s).
+        error: Class of the error.
 
     Returns:
-        The very array where it is one of float64, else a converted one.
+        The array itself if float64, else a converted one.
 
     Raises:
         PlantarError: If these are not real numbers, rows differ in length, or values are masked.
@@ -64,18 +64,18 @@ def numbers(value: object, name: str, error: type[PlantarError] = InputError) ->
 
 
 def held_numbers(value: object, name: str, error: type[PlantarError] = InputError) -> NDArray[Any]:
-    """Real numbers in the type that holds them, an array of any shape: for one that is too large to convert.
+    """Real numbers in their own type, for an array that is too large to convert.
 
     Args:
-        value: What a caller handed over, for example a memory-mapped array.
-        name: What it is, the subject of an error.
-        error: Which error to raise.
+        value: The argument, for example a memory-mapped array.
+        name: Its name in an error.
+        error: Class of the error.
 
     Returns:
-        The very array where it is one.
+        The array itself, or one of the value.
 
     Raises:
-        PlantarError: If these are not real numbers, rows differ in length, or values are masked.
+        PlantarError: As `numbers`.
 
     Example:
         >>> held_numbers(np.zeros(2, dtype=np.float32), "forces").dtype
@@ -99,14 +99,14 @@ def array(
     """Real numbers in an array of a given shape.
 
     Args:
-        value: What a caller handed over.
-        name: What it is, the subject of an error.
+        value: The argument.
+        name: Its name in an error.
         shape: Length of each axis; a text for any length, and `...` in front for any number of axes.
-        error: Which error to raise.
+        error: Class of the error.
         finite: Refuse NaN, inf, and what is beyond `LARGEST`.
 
     Returns:
-        The very array where it is one of float64, else a converted one.
+        The array itself if float64, else a converted one.
 
     Raises:
         PlantarError: If these are not real numbers, of another shape, or not finite where they have to be.
@@ -134,17 +134,17 @@ def own_array(
     *,
     finite: bool = False,
 ) -> NDArray[np.float64]:
-    """`array`, copied and read-only: for an object that keeps it.
+    """`array`, copied and read-only.
 
     Args:
-        value: What a caller handed over.
-        name: What it is, the subject of an error.
+        value: The argument.
+        name: Its name in an error.
         shape: As in `array`.
-        error: Which error to raise.
-        finite: Refuse NaN, inf, and what is beyond `LARGEST`.
+        error: Class of the error.
+        finite: As in `array`.
 
     Returns:
-        An array that nobody else holds and that cannot be written to.
+        The copy.
 
     Example:
         >>> given = np.zeros(2)
@@ -156,13 +156,13 @@ def own_array(
 
 
 def own(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A copy that cannot be written to.
+    """A read-only copy.
 
     Args:
         values: Array of any shape.
 
     Returns:
-        An array that nobody else holds.
+        The copy.
 
     Example:
         >>> own(np.zeros(2)).flags.writeable
@@ -179,10 +179,10 @@ def integers(
     """Whole numbers in an array of a given shape.
 
     Args:
-        value: What a caller handed over.
-        name: What it is, the subject of an error.
+        value: The argument.
+        name: Its name in an error.
         shape: As in `array`.
-        error: Which error to raise.
+        error: Class of the error.
 
     Returns:
         The array as int64; an empty list is one without rows.
@@ -210,16 +210,16 @@ def mask(
     """Truth values in an array of a given shape.
 
     Args:
-        value: What a caller handed over: bool, or whole numbers that are all 0 or 1.
-        name: What it is, the subject of an error.
+        value: The argument: bool, or whole numbers that are all 0 or 1.
+        name: Its name in an error.
         shape: As in `array`.
-        error: Which error to raise.
+        error: Class of the error.
 
     Returns:
-        The very array where it is one of bool, else a converted one.
+        The array itself if bool, else a converted one.
 
     Raises:
-        PlantarError: If these are no truth values, for example indices of taxels, or of another shape.
+        PlantarError: If these are not truth values, for example indices of taxels, or of another shape.
 
     Example:
         >>> mask([1, 0], "mask", ("n",)).tolist()
@@ -262,7 +262,7 @@ def read_only(value: _Value) -> _Value:
     """Close an object's arrays to writing.
 
     Args:
-        value: An array, or a tuple that holds some, however deep; anything else stays as it is.
+        value: An array, or nested tuples that hold some; anything else is not changed.
 
     Returns:
         The same object.
@@ -276,12 +276,12 @@ def read_only(value: _Value) -> _Value:
 
 
 def not_finite(values: NDArray[np.float64], name: str, error: type[PlantarError] = InputError) -> PlantarError:
-    """The error that says what is wrong with numbers that are not all finite.
+    """The error for numbers that are not all finite.
 
     Args:
         values: Array of any shape.
-        name: What it is, the subject of the error.
-        error: Which error.
+        name: Its name in the error.
+        error: Class of the error.
 
     Returns:
         The error, to be raised.
@@ -296,7 +296,6 @@ def not_finite(values: NDArray[np.float64], name: str, error: type[PlantarError]
 
 
 def _given(value: object, name: str, error: type[PlantarError]) -> NDArray[Any]:
-    """An array of what was handed over, of any type."""
     parts = value if isinstance(value, list | tuple) else (value,)
     if any(isinstance(part, np.ma.MaskedArray) and np.ma.is_masked(part) for part in parts):
         raise error(f"{does(name, 'hold')} masked values; fill them first, with NaN where nothing was measured")
@@ -309,7 +308,7 @@ def _given(value: object, name: str, error: type[PlantarError]) -> NDArray[Any]:
 
 
 def _fits(shape: tuple[int, ...], wanted: tuple[object, ...]) -> bool:
-    """Whether a shape is one that is wanted; see `array`. Without a generator, which costs more than the rest."""
+    """Whether a shape is wanted (see `array`), without a generator, which costs more than the rest."""
     if wanted and wanted[0] is ...:
         wanted = wanted[1:]
         shape = shape[max(0, len(shape) - len(wanted)) :]
@@ -322,6 +321,5 @@ def _fits(shape: tuple[int, ...], wanted: tuple[object, ...]) -> bool:
 
 
 def _shape_text(shape: tuple[object, ...]) -> str:
-    """A shape as `array` takes it, to be read."""
     parts = ["..." if s is ... else str(s) for s in shape]
     return f"({', '.join(parts)}{',' if len(parts) == 1 else ''})"

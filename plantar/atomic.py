@@ -25,7 +25,7 @@ _LEFTOVER = re.compile(r"\.plantar-([0-9a-f]{8})-([1-9]\d{0,9})-")
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a temporary path beside `path`; on success it takes the name `path`, on an error it is deleted.
+    """Give a temporary path for `path`; on success it is renamed to `path`, on an error deleted.
 
     Args:
         path: The final path; the temporary one keeps its suffix.
@@ -48,13 +48,13 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def temporary_beside(path: str | os.PathLike[str]) -> Path:
-    """An empty file of a temporary name in the folder of another one, with the permissions of any new file.
+    """An empty temporary file in the folder of `path`, with the permissions of a new file.
 
     Args:
         path: The final path; the temporary one keeps its suffix.
 
     Returns:
-        The temporary path, for the caller to rename or to remove.
+        The temporary path, to rename or remove.
 
     Raises:
         InputError: If the folder does not exist or cannot be written to.
@@ -83,19 +83,19 @@ def write_text(path: str | os.PathLike[str], text: str) -> Path:
 
 @contextmanager
 def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLike[str] | None] = ()) -> Iterator[Path]:
-    """Give a temporary folder; on success its files move into `path` (made if needed), on an error nothing is left.
+    """Give a temporary folder; on success its files move into `path` (made if needed), on an error it is deleted.
 
-    Files of `path` that the run does not write stay as they are.
+    Other files in `path` stay.
 
     Args:
         path: The output folder, which may exist.
-        inputs: Files that what is written is made of, or None; none of them is overwritten.
+        inputs: Input files, which are not overwritten; or None.
 
     Yields:
         The temporary folder to write to.
 
     Raises:
-        InputError: If the folder cannot be made or written to, or a file would take the place of an input.
+        InputError: If the folder cannot be made or written to, or a file would replace an input.
     """
     final = Path(path)
     kept = {os.path.realpath(source) for source in inputs if source is not None}
@@ -134,13 +134,10 @@ def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLi
 
 @contextmanager
 def parent_folder(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Make the folder that a file is to be written to; on an error what was made and is still empty is removed.
+    """Make the folder of a file to write; on an error remove what was made and is empty.
 
     Args:
         path: The file.
-
-    Yields:
-        Nothing.
 
     Raises:
         InputError: If the folder cannot be made, or the path is a folder itself.
@@ -164,7 +161,7 @@ def parent_folder(path: str | os.PathLike[str]) -> Iterator[None]:
 
 @cache
 def _machine() -> str:
-    """What tells the process numbers of this machine, or of this container, from those of others."""
+    """Distinguishes process numbers of this machine or container from those of others."""
     try:
         space = os.readlink("/proc/self/ns/pid")
     except OSError:
@@ -177,7 +174,7 @@ def _prefix() -> str:
 
 
 def _remove_leftovers(folder: Path) -> None:
-    """Remove what processes of this machine that are dead have left in a folder."""
+    """Remove the temporary files of dead processes of this machine from a folder."""
     if os.name == "nt":  # where no signal asks whether a process lives
         return
     with suppress(OSError), os.scandir(folder) as entries:

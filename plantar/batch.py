@@ -1,9 +1,8 @@
-"""The percept's members over whole recordings: arrays of forces (..., taxels), without a loop over frames in Python.
+"""The percept's members over whole recordings: arrays of forces (..., taxels), without a Python loop over frames.
 
-The dimensions before the taxels are any, and those of the results. Memory-mapped arrays may be larger than memory:
-contiguous float64 is read in place, other rows block by block. Taxels are active as in `Percept`.
-
-`threads` share the frames without the interpreter lock; results are the same to the last bit.
+Results keep the dimensions before the taxels. Memory-mapped arrays may be larger than memory: contiguous float64 is
+read in place, other rows block by block. `threads` share the frames without the interpreter lock; results are the same
+to the last bit.
 """
 
 from __future__ import annotations
@@ -50,12 +49,12 @@ _LEAST = 512
 
 @dataclass(frozen=True, eq=False)
 class Loads:
-    """What the forces of each frame sum up to; "..." are the dimensions of the forces before the taxels.
+    """Sums of the forces of each frame; "..." are the dimensions before the taxels.
 
     Attributes:
         wrench: Ground reaction wrench (..., 6) about the sole frame's origin in N and N m (T 4.23).
         contact_area: Area (...) of the active cells in m^2 (T 4.22).
-        center_of_pressure: Position (..., 2) in the sole frame in m (T 4.21); NaN in a frame without load.
+        center_of_pressure: Position (..., 2) in the sole frame in m (T 4.21); NaN without load.
 
     Example:
         >>> Loads(np.array([[0.0, 0.0, 5.0, 0.0, 0.0, 0.0]]), np.zeros(1), np.zeros((1, 2))).vertical_force.tolist()
@@ -117,7 +116,6 @@ class SupportPolygons:
 
     @lazy
     def _ends(self) -> NDArray[np.int64]:
-        """Where each frame's polygon ends in `vertices` (...)."""
         return np.cumsum(self.size).reshape(self.size.shape)
 
 
@@ -160,16 +158,16 @@ def wrenches(
     Args:
         layout: The sole, n taxels.
         force: Normal forces (..., n) in N.
-        threshold: Activation threshold in N; the layout's own where None, -inf to count every finite force.
-        out: Where to write (..., 6), float64 and contiguous; a new array where None.
-        threads: How many threads share the frames; as many as this process has cores where None.
+        threshold: Activation threshold in N; the layout's if None, -inf to count every finite force.
+        out: Array (..., 6) to write to, float64 and contiguous; a new one if None.
+        threads: Number of threads; one a core if None.
 
     Returns:
         Wrench (..., 6) about the sole frame's origin in N and N m.
 
     Raises:
         ReadingError: If the forces or `out` have another shape, or are not numeric.
-        InputError: If the layout is none, the threshold NaN or no number, or there is not at least one thread.
+        InputError: If layout, threshold or threads are not valid.
 
     Example:
         >>> from plantar import hex_layout
@@ -200,15 +198,15 @@ def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None, 
     Args:
         layout: The sole, n taxels.
         force: Normal forces (..., n) in N.
-        threshold: Activation threshold in N; the layout's own where None.
-        threads: How many threads share the frames; as many as this process has cores where None.
+        threshold: Activation threshold in N; the layout's if None.
+        threads: Number of threads; one a core if None.
 
     Returns:
         The sums of each frame.
 
     Raises:
         ReadingError: If the forces have another shape or are not numeric.
-        InputError: If the layout is none, the threshold NaN or no number, or there is not at least one thread.
+        InputError: If layout, threshold or threads are not valid.
 
     Example:
         >>> from plantar import hex_layout
@@ -241,16 +239,16 @@ def support_polygons(
     Args:
         layout: The sole, n taxels.
         force: Normal forces (..., n) in N.
-        threshold: Activation threshold in N; the layout's own where None.
-        vertices: Keep the polygons, and not only what is measured of them.
-        threads: How many threads share the frames; as many as this process has cores where None.
+        threshold: Activation threshold in N; the layout's if None.
+        vertices: Keep the polygons, not only their measures.
+        threads: Number of threads; one a core if None.
 
     Returns:
-        Area, centroid and size of each polygon, and the polygons where asked for.
+        Area, centroid and size of each polygon, and the polygons if kept.
 
     Raises:
         ReadingError: If the forces have another shape or are not numeric.
-        InputError: If the layout is none, the threshold NaN or no number, or there is not at least one thread.
+        InputError: If layout, threshold or threads are not valid.
 
     Example:
         >>> from plantar import hex_layout
@@ -289,23 +287,21 @@ def ground_planes(
     tolerance: float = 2e-3,
     threads: int | None = 1,
 ) -> GroundPlanes:
-    """Plane of the ground under the sole in every frame; `plantar.fit_ground_plane` says how.
+    """Plane of the ground under the sole in every frame, as `plantar.fit_ground_plane`.
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (..., n) in m; inf where nothing is in range, NaN for a dead taxel.
-        sensing_range: Distance in m from which a reading, also a negative one, counts as out of range; that of the
-            layout where None.
+        distance: Distances (..., n) in m; inf out of range, NaN for a dead taxel.
+        sensing_range: Distance in m from which a reading, also a negative one, is out of range; the layout's if None.
         tolerance: Distance in m from the plane that noise and rough ground explain.
-        threads: How many threads share the frames; as many as this process has cores where None.
+        threads: Number of threads; one a core if None.
 
     Returns:
         The planes.
 
     Raises:
         ReadingError: If the distances have another shape or are not numeric.
-        InputError: If the tolerance is not above 0, the range not a finite value above 0, or there is not at least one
-            thread.
+        InputError: If tolerance, range or threads are not above 0.
 
     Example:
         >>> from plantar import hex_layout
@@ -332,14 +328,14 @@ def ground_planes(
 
 
 def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[slice, NDArray[np.float64]]]:
-    """Cut a recording into blocks of frames, for results that should not be held in memory as a whole.
+    """Cut a recording into blocks of frames, for results too large for memory.
 
     Args:
         force: Forces (frames, n), for example of `numpy.load(path, mmap_mode="r")`.
         frames: Frames in a block.
 
     Yields:
-        Which frames, and a view of them: nothing is read or copied before the view is.
+        Slice of frames, and a view of them, read when used.
 
     Raises:
         InputError: If there is not at least one frame in a block.
@@ -355,7 +351,7 @@ def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[sl
 
 
 def _joined(parts: list[NDArray[np.float64]], threads: int | None) -> NDArray[np.float64]:
-    """Points (sum of k, 2) of parts (k, 2), one after the other; large ones are copied by several threads."""
+    """Points (sum of k, 2) of parts (k, 2); several threads copy large ones."""
     ends = np.cumsum([0, *map(len, parts)]).tolist()
     out = np.empty((ends[-1], 2))
 
@@ -368,7 +364,7 @@ def _joined(parts: list[NDArray[np.float64]], threads: int | None) -> NDArray[np
 
 
 def _frames(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> tuple[NDArray[np.float64], tuple[int, ...]]:
-    """Forces (frames, n) of the layout's width, and the dimensions that the frames are of."""
+    """Forces (frames, n) of the layout's width, and the dimensions of the frames."""
     instance(layout, SoleLayout, "layout")
     array = held_numbers(force, name, ReadingError)
     if array.ndim < 1 or array.shape[-1] != len(layout):
@@ -378,18 +374,16 @@ def _frames(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> tuple
 
 
 def _limits(layout: SoleLayout, threshold: float | None) -> tuple[float, float]:
-    """Between which forces a taxel is active."""
     low = layout.force_threshold if threshold is None else number(threshold, "activation threshold")
     return low, layout.force_limit
 
 
 def _is_plain(force: NDArray[np.generic]) -> bool:
-    """Whether the kernels take forces as they lie in memory."""
     return force.dtype == np.float64 and force.flags.c_contiguous and force.dtype.isnative and force.flags.aligned
 
 
 def _doubles(force: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The forces as the kernels take them, converted where they are not so yet."""
+    """The forces as the kernels take them, converted if needed."""
     return force if _is_plain(force) else np.ascontiguousarray(force, dtype=np.float64)
 
 
@@ -404,7 +398,6 @@ def _pieces(force: NDArray[np.float64], threads: int | None, frames: int | None 
 
 
 def _workers(threads: int | None) -> int:
-    """How many threads that is."""
     if threads is not None:
         return integer(threads, "threads", 1)
     affinity = getattr(os, "sched_getaffinity", None)  # not everywhere: without it all cores count
@@ -412,10 +405,9 @@ def _workers(threads: int | None) -> int:
 
 
 def _shared(work: Callable[[slice], _Done], pieces: list[slice], threads: int | None) -> list[_Done]:
-    """What some work gives of each piece, in their order, done by as many threads as there is work for.
+    """Results of some work on each piece, in order, by as many threads as there is work for.
 
-    The caller's thread is one of them; each takes the next piece when it is done, as waking threads costs up to
-    0.3 ms.
+    The caller's thread is one of them; each takes the next piece when done, as waking threads costs up to 0.3 ms.
     """
     others = min(_workers(threads), len(pieces)) - 1
     if others <= 0:

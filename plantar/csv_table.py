@@ -1,4 +1,4 @@
-"""CSV tables that a spreadsheet shows as they are: no cell of a table that Plantar writes is run as a formula."""
+"""CSV tables whose cells no spreadsheet runs as a formula."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _GUARD = "'"
 def csv_text(names: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     """A table as CSV.
 
-    Text that a spreadsheet would run (=, +, -, @, tab, line end) follows an apostrophe. None, NaN and infinities
-    are empty cells.
+    Text that a spreadsheet would run (=, +, -, @, tab, line end) follows an apostrophe. None, NaN and infinities are
+    empty.
 
     Args:
         names: Heads of the columns.
@@ -88,13 +88,13 @@ def mapping_rows(names: Sequence[str], rows: Iterable[Mapping[str, Any]]) -> Ite
 
 
 def original_cell(text: str) -> str:
-    """A cell as it was before it was written.
+    """A cell without the apostrophe that was added.
 
     Args:
         text: The cell as it was read.
 
     Returns:
-        The text without the apostrophe that was added.
+        The text.
 
     Example:
         >>> original_cell("'=1"), original_cell("'quoted'")

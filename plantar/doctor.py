@@ -1,4 +1,4 @@
-"""What is installed of what Plantar can use, what is missing or broken, and how to get it."""
+"""Which libraries that Plantar can use are installed, missing or broken, and how to get them."""
 
 from __future__ import annotations
 
@@ -54,15 +54,15 @@ PURPOSES = {
 
 
 def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str, Any]:
-    """Load every library that Plantar can use, and see how things stand.
+    """Load every library that Plantar can use.
 
     Args:
-        libraries: Distribution and module of what each extra brings.
+        libraries: Distribution and module of the libraries of each extra.
 
     Returns:
         Versions of Plantar and Python, the platform, whether the kernels are compiled, whether pictures can be drawn
         without a display (`opengl`), and for each library its extra, name, version and problem: None, "missing" or why
-        it cannot be loaded. `holds` is False where one that is always needed is missing, or an installed one is broken.
+        it cannot be loaded. `holds` is False where a required one is missing, or an installed one is broken.
 
     Example:
         >>> examine({"": {"no-such-library": "no_such_library"}})["libraries"][0]["problem"]
@@ -86,10 +86,10 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
 
 
 def doctor_text(found: Mapping[str, Any]) -> str:
-    """What `examine` found, for people: an extra a paragraph, and what to do.
+    """The result of `examine` for people: an extra a paragraph, and what to do.
 
     Args:
-        found: The result of `examine`.
+        found: The result.
 
     Returns:
         The text.
@@ -115,7 +115,6 @@ def doctor_text(found: Mapping[str, Any]) -> str:
 
 
 def _state(name: str, module: str, extra: str) -> dict[str, str | None]:
-    """Version and problem of a library."""
     try:
         installed = version(name)
     except PackageNotFoundError:
@@ -129,12 +128,10 @@ def _state(name: str, module: str, extra: str) -> dict[str, str | None]:
 
 
 def _kernels_are_compiled() -> bool:
-    """Whether the kernels run compiled."""
     return bool(import_module("plantar.kernels").compiled)
 
 
 def _told(problem: str | None) -> str:
-    """A problem behind a library's name."""
     if problem is None:
         return ""
     return "missing" if problem == "missing" else f": cannot be loaded: {problem}"

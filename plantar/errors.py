@@ -69,7 +69,7 @@ class SceneError(PlantarError):
 
 
 class WorkerError(PlantarError):
-    """What shall run a sweep cannot, or went away; nothing is wrong with what was asked."""
+    """A worker of a sweep cannot run, or went away; the input is right."""
 
 
 class DependencyError(PlantarError):
@@ -78,7 +78,7 @@ class DependencyError(PlantarError):
     Args:
         library: Name of the library as it is imported.
         extra: Name of the Plantar extra that brings it.
-        reason: Why it cannot be loaded where it is installed; None where it is not.
+        reason: Why an installed one cannot be loaded; None if missing.
     """
 
     def __init__(self, library: str, extra: str, reason: str | None = None) -> None:
@@ -93,5 +93,5 @@ class DependencyError(PlantarError):
         self.reason = reason
 
     def __reduce__(self) -> tuple[type[DependencyError], tuple[str, str, str | None]]:
-        """Rebuild from the arguments, so that the error crosses to another process."""
+        """Rebuild from the arguments, in another process."""
         return type(self), (self.library, self.extra, self.reason)

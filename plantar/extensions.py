@@ -1,4 +1,4 @@
-"""Parts that other packages bring: what they name as entry points of a group, such as `plantar.terrain`."""
+"""Parts of other packages, from entry points such as `plantar.terrain`."""
 
 from __future__ import annotations
 
@@ -19,14 +19,13 @@ def extensions(group: str, kind: type[T]) -> dict[str, T]:
 
     Args:
         group: The group, for example "plantar.terrain".
-        kind: Class that each part has to be an instance of; a class that it has to extend where the parts are classes
-            (`type[...]` is not needed: a part that is a class is compared as one).
+        kind: Class that each part is an instance of, or, if it is a class, extends.
 
     Returns:
-        The parts by the names of their entry points; empty where no package brings one.
+        The parts by the names of their entry points.
 
     Raises:
-        InputError: If one cannot be loaded or is of another kind; the message names it.
+        InputError: If one cannot be loaded or is of another kind.
 
     Example:
         >>> extensions("plantar.no_such_group", object)

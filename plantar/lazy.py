@@ -1,4 +1,4 @@
-"""Members of an object that are computed when they are first asked for, and kept; arrays among them read-only."""
+"""Members of an object that are computed at first use and kept; arrays among them read-only."""
 
 from __future__ import annotations
 

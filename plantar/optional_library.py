@@ -1,4 +1,4 @@
-"""Loading an optional library; distinguishes one that is missing, one that is broken, and a user who interrupts."""
+"""Imports of optional libraries; distinguishes missing, broken and interrupted."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ _INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 
 @contextmanager
 def optional_library(library: str, extra: str) -> Iterator[None]:
-    """Guard the import of an optional library; nothing but imports belongs into the block.
+    """Guard the import of an optional library; only imports belong into the block.
 
-    Only the absence of that very module is "not installed"; a library that cannot be loaded is named with the
-    reason. Ctrl-C waits until it is loaded, since native modules turn it into an import error or crash.
+    Only the absence of that very module is "not installed". Ctrl-C waits until it is loaded, since native modules turn
+    it into an import error or crash.
 
     Args:
         library: Name of the module as it is imported.
         extra: Name of the Plantar extra that brings it.
 
     Yields:
-        Nothing.
+        None.
 
     Raises:
         DependencyError: If the library is not installed or cannot be loaded.
@@ -50,7 +50,7 @@ def optional_library(library: str, extra: str) -> Iterator[None]:
 
 
 def need_libraries(extra: str, *libraries: str) -> None:
-    """Refuse to go on where an optional library is missing or cannot be loaded.
+    """Raise an error unless all optional libraries can be loaded.
 
     Args:
         extra: Name of the Plantar extra that brings them.
@@ -71,7 +71,7 @@ def need_libraries(extra: str, *libraries: str) -> None:
 
 @contextmanager
 def _interrupts_held_back() -> Iterator[None]:
-    """Deliver a signal that comes within the block after it; a second one of its kind at once."""
+    """Deliver a signal that arrives within the block after it; a second one of its kind at once."""
     if threading.current_thread() is not threading.main_thread():  # signals reach the main thread only
         yield
         return
@@ -95,9 +95,7 @@ def _interrupts_held_back() -> Iterator[None]:
 
 
 def unheard(text: str) -> None:
-    """Catches a library's warnings.
-
-    MuJoCo prints each, and writes MUJOCO_LOG.TXT into the working directory.
+    """Ignores a library's warnings; MuJoCo prints each, and writes MUJOCO_LOG.TXT.
 
     Args:
         text: The warning.

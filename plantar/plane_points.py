@@ -1,4 +1,4 @@
-"""Points of the plane as callers hand them over, checked once where they come in."""
+"""Checks of points of the plane from callers."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -
     """Points of the plane; an empty list is no points.
 
     Args:
-        value: What a caller handed over.
-        name: What it is, the subject of an error.
+        value: The argument.
+        name: Its name in an error.
         finite: Refuse NaN, inf, and what is beyond `LARGEST`.
 
     Returns:
-        Points (k, 2), not copied where they are an array of float64.
+        Points (k, 2), not copied if float64.
 
     Raises:
         InputError: If these are not (k, 2) real numbers, or not finite where they have to be.
@@ -52,8 +52,8 @@ def plane_point(value: object, name: str = "point") -> tuple[float, float]:
     """One point of the plane, NaN or not.
 
     Args:
-        value: What a caller handed over.
-        name: What it is, the subject of an error.
+        value: The argument.
+        name: Its name in an error.
 
     Returns:
         Its x and y.

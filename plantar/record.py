@@ -1,21 +1,27 @@
-"""Records that one room hands to the next at each control tick: fields by name, cheap to make, not to be changed.
+"""Records that pass from room to room at each control tick: named fields, immutable, cheap to make.
 
 A tick makes some twenty. A named tuple takes 0.24 us, a frozen dataclass 0.7 to 0.9, this 0.06.
 """
 
 from __future__ import annotations
 
-from typing import Any, Self
+import inspect
+from typing import (
+    Any,
+    Self,
+    TypeVar,
+)
 
 import msgspec
 
-__all__ = ["Record"]
+__all__ = [
+    "Record",
+    "constructed_by_kernel",
+]
 
 
 class Record(msgspec.Struct, frozen=True):
-    """Base class of records; each names `frozen=True` again, which type checkers go by.
-
-    Unlike a tuple it has no order to be unpacked by.
+    """Base class of records; each repeats `frozen=True` for type checkers.
 
     Example:
         >>> class Place(Record, frozen=True):
@@ -26,12 +32,38 @@ class Record(msgspec.Struct, frozen=True):
     """
 
     def changed(self, **fields: Any) -> Self:
-        """A copy with other values in some fields.
+        """A copy with other values of some fields; a TypeError for a name that is not a field.
 
         Args:
             fields: Their values by name.
-
-        Raises:
-            TypeError: If there is no field of that name.
         """
         return msgspec.structs.replace(self, **fields)
+
+
+_Class = TypeVar("_Class")
+
+
+def constructed_by_kernel(cls: type[_Class]) -> type[_Class]:
+    """Construct a class by the kernel that it inherits from, with the signature of its own `__init__`.
+
+    Args:
+        cls: The class; its `__init__` has typed parameters, and no body.
+
+    Returns:
+        The class.
+
+    Example:
+        >>> class Fields:
+        ...     def __init__(self, time):
+        ...         self.time = time
+        >>> @constructed_by_kernel
+        ... class Instant(Fields):
+        ...     def __init__(self, time: float) -> None: ...
+        >>> Instant(0.5).time, str(inspect.signature(Instant))
+        (0.5, "(time: 'float') -> 'None'")
+    """
+    told = inspect.signature(vars(cls)["__init__"])
+    parameters = list(told.parameters.values())[1:]
+    cls.__signature__ = told.replace(parameters=parameters)  # type: ignore[attr-defined]
+    del cls.__init__
+    return cls

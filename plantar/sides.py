@@ -1,4 +1,4 @@
-"""Left and right: the names of a foot's side, in the order in which both are gone through."""
+"""Left and right: the names of a foot's side, in order."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def other_side(side: Side) -> Side:
     """The side of the other foot.
 
     Args:
-        side: Which foot.
+        side: "left" or "right".
 
     Returns:
         The other one.

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from plantar import SoleLayout, hex_layout
+from plantar import SoleLayout, hex_layout, kernels
 
 # MuJoCo looks for it when it is first imported, and an introduced robot is drawn. What tests start says so itself.
 if "MUJOCO_GL" not in os.environ and find_spec("mujoco") is not None:
@@ -24,6 +24,11 @@ if "MUJOCO_GL" not in os.environ and find_spec("mujoco") is not None:
     import_module("mujoco")
     del os.environ["MUJOCO_GL"]
 
+
+# For its doctests pytest loads a module from the source; a kernel that was not yet loaded would stay interpreted and
+# lack what compiled ones share among themselves.
+for kernel in kernels.KERNELS:
+    import_module(f"plantar.kernels.{kernel}")
 
 SLOW = ("tests/sim/", "tests/shoes/", "tests/test_", "tests/gait/analysis/", "tests/plantar/formats/")
 """Where files lie of which some take half a minute: they simulate, build solids, or start processes."""

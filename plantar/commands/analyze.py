@@ -8,9 +8,8 @@ from typing import Annotated, Any, cast
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, Output, end_command, file_lines
+from plantar.console.command import Command, Json, Output, end_command, file_lines, with_option_groups
 from plantar.console.ending import print_note
-from plantar.console.option_group import with_option_groups
 from plantar.console.progress import progress_bar
 from plantar.errors import InputError
 
@@ -27,12 +26,7 @@ def _option(default: Any, text: str, *names: str, metavar: str | None = None) ->
 
 @dataclass(frozen=True)
 class FileOrder:
-    """What the user knows of a file that it does not contain.
-
-    Example:
-        >>> FileOrder(side="left").unit is None
-        True
-    """
+    """Options for facts that a file does not contain."""
 
     format: str | None = _option(None, "Name of the format, where recognition fails: see plantar list formats.")
     layout: Path | None = _option(  # noqa: RUF009
@@ -52,8 +46,7 @@ class FileOrder:
     mm_per_pixel: float | None = _option(None, "Footprint images: size of a pixel in mm.")
 
     def options(self, mass: float | None) -> Any:
-        """The `plantar.formats.ReadOptions` of this order for a body of `mass` in kg; an InputError if a value is not
-        allowed."""
+        """The `ReadOptions` of this order for a body of `mass` in kg; an InputError if a value is not allowed."""
         from plantar.formats import ReadOptions
         from plantar.formats.side import sides_of_plates
 
@@ -71,12 +64,7 @@ class FileOrder:
 
 @dataclass(frozen=True)
 class AnalysisOrder:
-    """Which steps are measured, and facts about the person.
-
-    Example:
-        >>> AnalysisOrder(steps="steady").mass is None
-        True
-    """
+    """Options for the measured steps and the person."""
 
     steps: str | None = _option(None, "Steps of each foot in the means: 3-14, all, or steady (without start and stop).")
     begin: float | None = _option(None, "Time in s before which no step is in the means.", "--from")
@@ -93,14 +81,14 @@ class AnalysisOrder:
     foot_length: float | None = _option(None, "Length of the foot in m, for the report's heading.")
 
     def choices(self) -> Any:
-        """Which steps and events count: `plantar.gait.analysis.options.AnalysisOptions`."""
+        """The `AnalysisOptions`: which steps and events count."""
         from plantar.gait.analysis.options import AnalysisOptions, steps_of_text
 
         steps = steps_of_text(self.steps)
         return AnalysisOptions(steps, self.begin, self.end, self.segment, cast(Any, self.baseline), self.events)
 
     def subject(self) -> Any:
-        """The person: `plantar.gait.analysis.subject.Subject`."""
+        """The person."""
         from plantar.gait.analysis.subject import Subject
 
         return Subject(self.participant, self.mass, self.foot_length)
@@ -188,7 +176,6 @@ def analyze(
 def _analyze_one(
     recording: Path, export: list[str], file: FileOrder, order: AnalysisOrder, output: Path, figures: bool
 ) -> dict[str, Any]:
-    """Measure one recording."""
     from plantar.gait.analysis.analyse_one import analyse_recording
     from plantar.gait.analysis.exports import exporter
 
@@ -210,7 +197,6 @@ def _analyze_one(
 
 
 def _compare(pair: tuple[Path, Path], file: FileOrder, order: AnalysisOrder, output: Path) -> dict[str, Any]:
-    """Measure two recordings and compare them."""
     from plantar.gait.analysis.compare import compare_recordings
 
     if file.mm_per_pixel is not None:
@@ -223,7 +209,7 @@ def _compare(pair: tuple[Path, Path], file: FileOrder, order: AnalysisOrder, out
 
 
 def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
-    """Print what was found of each recording, then what had to be assumed."""
+    """Print the results of each recording, then the assumptions."""
     from plantar.gait.analysis.pages.report import analysis_text
 
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())
@@ -239,7 +225,7 @@ def _end(result: dict[str, Any], parts: dict[str, Any], as_json: bool) -> None:
 def _analyze_study(
     folder: Path, participants: Path | None, file: FileOrder, order: AnalysisOrder, output: Path, as_json: bool
 ) -> None:
-    """Measure a folder of recordings; one that cannot be read is listed and is no error of the command."""
+    """Measure a folder of recordings; one that cannot be read is listed, without failing the command."""
     from plantar.gait.analysis.analyse_one import with_layout
     from plantar.gait.analysis.study.run_study import run_study
     from plantar.gait.analysis.subject import Subject

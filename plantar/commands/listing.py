@@ -48,7 +48,7 @@ def list_(
             raise InputError(f"'list {what}' takes no {words}, got '{given}'; allowed: plantar list settings NAME")
     if what == "settings":
         need_libraries("sim", "mujoco")
-        from plantar.settings.setting_text import setting_rows, setting_text
+        from plantar.settings.overrides import setting_rows, setting_text
         from plantar.sim.run.setting_list import settings_of_robot
 
         found = settings_of_robot(name, robot)
@@ -60,7 +60,6 @@ def list_(
 
 
 def _print_names(kind: str, found: dict[str, str], as_json: bool) -> None:
-    """Print names with their descriptions."""
     width = max((len(name) for name in found), default=0)
     text = "\n".join(f"{name:{width}}  {text}".rstrip() for name, text in found.items())
     end_command({kind: [{"name": name, "description": text} for name, text in found.items()]}, as_json, text)

@@ -64,7 +64,7 @@ def robot(
 
 
 def _refuse_other(output: Path, description: str) -> None:
-    """Refuse a folder that holds another robot, whose files would stay among this one's."""
+    """Refuse a folder that holds another robot, whose files would mix with this one's."""
     from plantar.files.structured_text import read_toml
 
     file = output / "robot.toml"

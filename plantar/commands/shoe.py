@@ -8,8 +8,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from plantar.console.command import Command, Json, Output, end_command
-from plantar.console.option_group import with_option_groups
+from plantar.console.command import Command, Json, Output, end_command, with_option_groups
 from plantar.console.progress import part_of, progress_bar
 from plantar.errors import InputError
 from plantar.shoes.order import FootSource, ShoeOrder

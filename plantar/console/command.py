@@ -1,20 +1,50 @@
-"""What all commands share: running the one that is named, the options of its output, and printing what it found."""
+"""Common parts of commands: running the named one, output options, and printing the result."""
 
 from __future__ import annotations
 
+import functools
+import inspect
 import json
 import os
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import (
+    Callable,
+    Iterable,
+    Mapping,
+)
+from dataclasses import (
+    fields,
+    is_dataclass,
+)
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, cast
+from typing import (
+    Annotated,
+    Any,
+    NamedTuple,
+    TypeVar,
+    cast,
+    get_type_hints,
+)
 
 import typer
 
-from plantar.console.ending import BAD_INPUT, one_line, plain_lines
+from plantar.console.ending import (
+    BAD_INPUT,
+    one_line,
+    plain_lines,
+)
 from plantar.errors import InputError
 
-__all__ = ["Command", "Json", "Output", "end_command", "file_lines", "run_command"]
+__all__ = [
+    "Command",
+    "Json",
+    "Output",
+    "end_command",
+    "file_lines",
+    "run_command",
+    "with_option_groups",
+]
+
 
 Output = Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")]
 """The option for where a command writes."""
@@ -31,10 +61,10 @@ class Command(NamedTuple):
     """A command of the command line.
 
     Attributes:
-        function: What runs; its parameters are the command's, as typer reads them.
+        function: Its parameters are the command's, as typer reads them.
         summary: One line for the list of commands.
         place: Place in that list, ascending.
-        name: What it is called; the function's name where empty.
+        name: The function's name if empty.
     """
 
     function: Callable[..., None]
@@ -46,20 +76,11 @@ class Command(NamedTuple):
 def run_command(app: typer.Typer) -> int:
     """Run the command that the process's arguments name.
 
-    Typer's own way to run it would print several lines for a wrong argument, and end with 1 where no one reads stdout.
+    Typer would print several lines for a wrong argument, and exit with 1 if stdout is closed.
 
     Raises:
-        InputError: If an argument is wrong; the message names which help shows more.
+        InputError: If an argument is wrong; the message names the help to read.
         KeyboardInterrupt: If the user stopped it.
-
-    Example:
-        >>> app = typer.Typer()
-        >>> @app.command()
-        ... def nothing() -> None: ...
-        >>> arguments, sys.argv = sys.argv, ["plantar"]
-        >>> run_command(app)
-        0
-        >>> sys.argv = arguments
     """
     usage_error = cast(type[Exception], typer.BadParameter.__base__)  # typer exports it under no public name
     command = typer.main.get_command(app)
@@ -83,7 +104,7 @@ def run_command(app: typer.Typer) -> int:
 
 
 def _command_path(command: Any) -> str:
-    """The command that the process's arguments name: the error of an option without its value lacks it."""
+    """The command in the process's arguments, which the error of an option without value lacks."""
     first = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
     return f"plantar {first}" if first in getattr(command, "commands", {}) else "plantar"
 
@@ -91,21 +112,17 @@ def _command_path(command: Any) -> str:
 def end_command(
     result: Mapping[str, Any], as_json: bool, text: str, failures: Iterable[str] = (), failed: bool = False
 ) -> None:
-    """Show what a command found: one JSON object or words on stdout, what failed on stderr.
+    """Print a command's result: JSON or text on stdout, failures on stderr.
 
     Args:
-        result: What was found.
-        as_json: Whether a program reads it.
-        text: The same for people.
-        failures: What failed, a line each.
+        result: The result.
+        as_json: Print it as one JSON object.
+        text: The result for people.
+        failures: A line for each failure.
         failed: Whether the command failed as a whole.
 
     Raises:
         typer.Exit: With exit code 1, if it failed.
-
-    Example:
-        >>> end_command({"steps": 4}, True, "4 steps")
-        {"steps": 4}
     """
     print(json.dumps(result) if as_json else plain_lines(text))
     for line in failures:
@@ -115,13 +132,79 @@ def end_command(
 
 
 def file_lines(names: Iterable[str]) -> str:
-    """Names of files, each in its own line below what was found.
+    """Names of files, each in a line of its own, with a line end before each."""
+    return "".join(f"\n  {name}" for name in names)
+
+
+T = TypeVar("T")
+
+
+def with_option_groups(command: Callable[..., T]) -> Callable[..., T]:
+    """Replace each parameter of a command that is annotated with a dataclass by that dataclass's options.
+
+    Typer reads a command's signature and knows no groups. A field is an option if its metadata has "help"; "metavar" is
+    shown for its value, and "names" replaces the option's names. So the dataclass needs no typer.
+
+    Args:
+        command: The function; all fields of its dataclasses have defaults.
 
     Returns:
-        The lines, with a line end before each.
+        A function of single options, in order, which calls the command with the groups.
+
+    Raises:
+        TypeError: If two parameters or fields have one name.
 
     Example:
-        >>> "made:" + file_lines(["a.csv"])
-        'made:\\n  a.csv'
+        >>> from dataclasses import dataclass, field
+        >>> @dataclass(frozen=True)
+        ... class Size:
+        ...     length: float = field(default=1.0, metadata={"help": "Length in m."})
+        ...     width: float = field(default=2.0, metadata={"help": "Width in m."})
+        >>> def area(size: Size, times: int = 1) -> float:
+        ...     return times * size.length * size.width
+        >>> with_option_groups(area)(length=3.0, times=2)
+        12.0
     """
-    return "".join(f"\n  {name}" for name in names)
+    hints = get_type_hints(command, include_extras=True)
+    groups: dict[str, type[Any]] = {}
+    options: list[inspect.Parameter] = []
+    for parameter in inspect.signature(command).parameters.values():
+        kind = hints[parameter.name]
+        if isinstance(kind, type) and is_dataclass(kind):
+            groups[parameter.name] = kind
+            options += _options_of(kind)
+        else:
+            options.append(parameter.replace(annotation=kind, kind=inspect.Parameter.KEYWORD_ONLY))
+    names = [option.name for option in options]
+    if len(set(names)) < len(names):
+        raise TypeError(f"{command.__name__} has an option twice: {', '.join(names)}")
+
+    @functools.wraps(command)
+    def of_single_options(**given: Any) -> T:
+        made = {
+            name: kind(**{f.name: given.pop(f.name) for f in fields(kind) if f.name in given})
+            for name, kind in groups.items()
+        }
+        return command(**made, **given)
+
+    of_single_options.__signature__ = inspect.Signature(options)  # type: ignore[attr-defined]
+    of_single_options.__annotations__ = {option.name: option.annotation for option in options}
+    return of_single_options
+
+
+def _options_of(group: type[Any]) -> list[inspect.Parameter]:
+    """A parameter for each field of a dataclass that is an option."""
+    hints = get_type_hints(group)
+    return [
+        inspect.Parameter(
+            f.name,
+            inspect.Parameter.KEYWORD_ONLY,
+            default=f.default,
+            annotation=Annotated[
+                hints[f.name],
+                typer.Option(*f.metadata.get("names", ()), help=f.metadata["help"], metavar=f.metadata.get("metavar")),
+            ],
+        )
+        for f in fields(group)
+        if "help" in f.metadata
+    ]

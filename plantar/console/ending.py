@@ -51,10 +51,10 @@ _ENDED_BY = {"SIGTERM": "ended (SIGTERM)", "SIGHUP": "ended: its terminal was cl
 
 
 class Terminated(SystemExit):
-    """The process was asked to end; raised where it is, so that what is open is closed and temporaries are removed.
+    """The process was asked to end; raised, so that open files are closed and temporaries removed.
 
     Args:
-        text: What to show; None for what the signal means.
+        text: Text to show; None for the signal's meaning.
 
     Example:
         >>> Terminated(signal.SIGTERM).code
@@ -67,7 +67,7 @@ class Terminated(SystemExit):
 
 
 def one_line(text: object) -> str:
-    """A text as one line that any terminal can show: line ends, control and broken characters are written as escapes.
+    """A text as one line that any terminal can show: line ends, control and broken characters escaped.
 
     Args:
         text: The text, for example an error that names a file.
@@ -80,10 +80,10 @@ def one_line(text: object) -> str:
 
 
 def plain_lines(text: object) -> str:
-    """A text of several lines that any terminal can show: no character of it moves the cursor or sets a colour.
+    """A text of several lines without characters that move a terminal's cursor or set a color.
 
     Args:
-        text: The text, for example what a recording's metadata hold.
+        text: The text, for example a recording's metadata.
 
     Example:
         >>> plain_lines("name: \x1b[2Jred\\nsecond")
@@ -98,10 +98,7 @@ def print_note(text: object) -> None:
 
 
 def leave_at_interrupt() -> None:
-    """Let Ctrl-C end the process at once while it loads, when nothing is open yet; `run` takes over.
-
-    An interruption that Python raises within an import may be lost, in a callback that ignores exceptions.
-    """
+    """Let Ctrl-C end the process at once while it loads, before `run`: Python may lose one raised within an import."""
     with suppress(ValueError):  # not the main thread
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, _leave)
@@ -172,10 +169,10 @@ def run(command: Callable[[], int | None]) -> int:
 
 @contextmanager
 def ignore_further_interrupts() -> Iterator[None]:
-    """Ignore signals that follow the one which interrupted the block: its line is still to be printed.
+    """Ignore signals after the one that interrupted the block: its line is still to be printed.
 
     Yields:
-        Nothing.
+        None.
 
     Example:
         >>> with ignore_further_interrupts():
@@ -197,7 +194,7 @@ def _ended(text: object, code: int) -> int:
 
 
 def _prepare_streams() -> None:
-    """Streams that take any text, whatever the terminal can show, and a stderr that never turns into stdout."""
+    """Streams that accept any text, and a stderr that never becomes stdout."""
     if sys.stderr is None:  # closed by the caller: print() would take stdout instead
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  for the rest of the process
     reconfigure = getattr(sys.stdout, "reconfigure", None)
@@ -206,7 +203,7 @@ def _prepare_streams() -> None:
 
 
 def _drop_output() -> None:
-    """Discard what stdout still holds: the interpreter would try again to write it when it ends."""
+    """Discard the rest of stdout, which the interpreter would try to write again at exit."""
     with suppress(OSError, ValueError, AttributeError):
         null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(null, sys.stdout.fileno())
@@ -215,7 +212,7 @@ def _drop_output() -> None:
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Raise `Terminated` at signals that would end the process on the spot, unless another handler takes them."""
+    """Raise `Terminated` at signals that would end the process, unless another handler takes them."""
     numbers = [signal.Signals[name] for name in _ENDED_BY if hasattr(signal, name)]
     ours = []
     if threading.current_thread() is threading.main_thread():

@@ -15,14 +15,10 @@ Progress = Callable[[float, str], None]
 
 @contextmanager
 def progress_bar() -> Iterator[Progress]:
-    """Show a progress bar on stderr; silent where stderr is no terminal.
+    """Show a progress bar on stderr, if that is a terminal.
 
     Yields:
-        What moves the bar: takes the fraction done, 0..1, and what is being done.
-
-    Example:
-        >>> with progress_bar() as show:
-        ...     show(0.5, "half of it")
+        Moves the bar: takes the fraction done, 0..1, and a text.
     """
     from rich.console import Console  # 0.1 s, which `plantar --help` need not wait for
     from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
@@ -40,9 +36,9 @@ def part_of(whole: Progress, start: float, share: float, name: str = "") -> Prog
 
     Args:
         whole: Progress of the whole.
-        start: Fraction of the whole that is done when the part begins.
-        share: Fraction of the whole that the part is.
-        name: Text put before the part's texts.
+        start: Fraction done when the part begins.
+        share: Fraction of the part.
+        name: Text before the part's texts.
 
     Returns:
         Progress of the part.

@@ -1,4 +1,4 @@
-"""What straight lines leave of a sole's cells."""
+"""Cells of a sole clipped by straight lines."""
 
 from __future__ import annotations
 
@@ -16,21 +16,17 @@ __all__ = ["CellCutter", "half_planes"]
 
 
 def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
-    """Half-planes as a caller hands them over; an empty list is none.
+    """Half-planes from a caller; an empty list is none.
 
     Args:
         lines: Half-planes (m, 3) n . x <= h.
-        name: What they are, the subject of an error.
+        name: Their name in an error.
 
     Returns:
-        Half-planes (m, 3), not copied where they are an array of float64.
+        Half-planes (m, 3), not copied if float64.
 
     Raises:
         InputError: If these are not (m, 3) finite numbers.
-
-    Example:
-        >>> half_planes([]).shape, half_planes([[1, 0, 0.5]]).tolist()
-        ((0, 3), [[1.0, 0.0, 0.5]])
     """
     if isinstance(lines, list | tuple) and not len(lines):
         return np.empty((0, 3))
@@ -38,7 +34,7 @@ def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
 
 
 class CellCutter:
-    """Clips the cells of one sole by half-planes; keeps the room that the kernel works in.
+    """Clips the cells of one sole by half-planes, in the kernel's own work arrays.
 
     Args:
         layout: The sole, n cells, convex or not.
@@ -56,25 +52,13 @@ class CellCutter:
 
     @classmethod
     def of_polygons(cls, polygons: Sequence[NDArray[np.float64]]) -> Self:
-        """A cutter of other cells than a layout's.
-
-        Args:
-            polygons: Corners (k, 2) of each cell in m, counter-clockwise.
-
-        Returns:
-            The cutter.
-
-        Example:
-            >>> square = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
-            >>> CellCutter.of_polygons([square, square + 1.0]).cut([[1.0, 0.0, 0.5]])[0][:, 0].tolist()
-            [0.5, 0.0]
-        """
+        """A cutter of cells given by corners (k, 2) in m, counter-clockwise."""
         cutter = cls.__new__(cls)
         cutter._set(np.concatenate(polygons), np.cumsum([0, *map(len, polygons)]))
         return cutter
 
     def _set(self, points: NDArray[np.float64], start: NDArray[np.integer[Any]]) -> None:
-        """Take over the corners (m, 2) of all cells and where each cell's begin (n + 1,)."""
+        """Take corners (m, 2) of all cells and offsets (n + 1,) of each cell's."""
         self.points = np.ascontiguousarray(points)
         self._start = start.astype(np.intp)
         self._make_room(int(np.diff(self._start).max(initial=3)) + 4)
@@ -86,8 +70,8 @@ class CellCutter:
             lines: Half-planes (m, 3) n . x <= h in the sole frame: outward normal of length 1, and h in m.
 
         Returns:
-            Area in m^2 of what is left of each cell and its first moments in m^3 about the sole frame's origin, (n, 3),
-            and the chords (n, m, 3) along which lines cut: length in m, and middle (x, y) in m.
+            For each cell, the area left in m^2 and its first moments in m^3 about the sole frame's origin (n, 3), and
+            the chords (n, m, 3) of the cuts: length in m, and middle (x, y) in m.
 
         Raises:
             InputError: If these are not (m, 3) finite numbers.

@@ -7,12 +7,21 @@ Convex polygons in either direction, with repeated or collinear vertices; corner
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import (
+    ArrayLike,
+    NDArray,
+)
 
-from plantar.geometry.convex_shapes import convex_shapes
+from plantar.kernels import is_compiled
+from plantar.kernels.geometry.shapes import ConvexShapes
 from plantar.plane_points import plane_points
 
-__all__ = ["bounding_box", "enclosing_parallelogram", "oriented_box"]
+__all__ = [
+    "bounding_box",
+    "convex_shapes",
+    "enclosing_parallelogram",
+    "oriented_box",
+]
 
 
 def bounding_box(points: ArrayLike) -> NDArray[np.float64]:
@@ -40,8 +49,7 @@ def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
         polygon: Convex polygon (k, 2) in m.
 
     Returns:
-        Corners (4, 2) in m, the first side along an edge of the polygon; its area is exact to 1e-12 of it. A polygon
-        without area gives the box without area around it.
+        Corners (4, 2) in m, the first side along an edge of the polygon; area exact to 1e-12.
 
     Example:
         >>> box = oriented_box([[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0]])
@@ -58,8 +66,7 @@ def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
         polygon: Convex polygon (k, 2) in m.
 
     Returns:
-        Corners (4, 2) in m; its area is exact to 1e-12 of it. A polygon without area gives the parallelogram without
-        area around it.
+        Corners (4, 2) in m; area exact to 1e-12.
 
     Example:
         >>> corners = enclosing_parallelogram([[0.0, 0.0], [2.0, 0.0], [3.0, 1.0], [1.0, 1.0]])
@@ -67,3 +74,11 @@ def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
         [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [3.0, 1.0]]
     """
     return np.asarray(convex_shapes().parallelogram_around(plane_points(polygon)))
+
+
+_SHARED = ConvexShapes(False) if is_compiled("shapes") else None
+
+
+def convex_shapes() -> ConvexShapes:
+    """The kernels with their work arrays: shared ones if compiled, where calls follow each other, else new ones."""
+    return _SHARED if _SHARED is not None else ConvexShapes(True)

@@ -1,8 +1,7 @@
 """Largest shapes inside the contact: triangle, parallelogram, circle and rectangles (T 4.2.5, T 4.4.4).
 
-Convex polygons (k, 2) in m in either direction, with repeated or collinear vertices; others are refused. Corners in
-m, counter-clockwise: none (0, 2) for an empty polygon, a shape without area for one without area. They may be outside
-by rounding.
+Convex polygons (k, 2) in m in either direction, with repeated or collinear vertices; others are refused. Corners in m,
+counter-clockwise and inside up to rounding: none (0, 2) for an empty polygon, a shape without area for one without.
 """
 
 from __future__ import annotations
@@ -10,13 +9,26 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import (
+    Literal,
+    NamedTuple,
+)
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import (
+    ArrayLike,
+    NDArray,
+)
 
-from plantar.arguments import integer
-from plantar.geometry.convex_shapes import convex_shapes
+from plantar.arguments import (
+    integer,
+    number,
+)
+from plantar.errors import InputError
+from plantar.geometry.enclosing import (
+    bounding_box,
+    convex_shapes,
+)
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import convex_ring
 
@@ -30,6 +42,7 @@ __all__ = [
     "inscribed_triangle",
     "rectangle_in_outline",
     "rectangle_in_outline_any_angle",
+    "safe_rectangle",
 ]
 
 
@@ -42,7 +55,7 @@ _PROVEN = 1e-6  # share of the area that is not looked for
 
 
 class Circle(NamedTuple):
-    """A circle: centre (2,) in m and radius in m.
+    """A circle: center (2,) in m and radius in m.
 
     Example:
         >>> Circle(np.array([0.0, 0.0]), 0.05).radius
@@ -54,7 +67,7 @@ class Circle(NamedTuple):
 
 
 class BoundedRectangle(NamedTuple):
-    """A rectangle and how much larger any other may be: corners (4, 2) in m, none (0, 2) of an empty outline.
+    """A rectangle's corners (4, 2) in m, none (0, 2) of an empty outline, and by which share any other may be larger.
 
     Example:
         >>> BoundedRectangle(np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]), 1e-6).gap
@@ -68,8 +81,7 @@ class BoundedRectangle(NamedTuple):
 def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
     """Triangle of most area in a convex polygon (T 4.2.5, [173]).
 
-    For every first corner the third one walks on as the second does, in O(k^2); the walk in O(k) of [173] misses
-    the largest one on some polygons.
+    For every first corner the third one walks on with the second, in O(k^2); the O(k) walk of [173] misses some.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
@@ -87,14 +99,14 @@ def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
 def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
     """Parallelogram of most area in a convex polygon (T 4.2.5, [174]).
 
-    From every vertex one side walks once round the boundary, in O(k) pieces on which the area is a parabola (Jin
-    and Matulef 2011): exact, in O(k^2).
+    From every vertex one side walks once round, in O(k) pieces on which the area is a parabola (Jin and Matulef 2011):
+    exact, in O(k^2).
 
     Args:
         polygon: Convex polygon (k, 2) in m.
 
     Returns:
-        Corners (4, 2) in m; its area is exact to 1e-12 of it.
+        Corners (4, 2) in m; area exact to 1e-12.
 
     Example:
         >>> corners = inscribed_parallelogram([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
@@ -113,8 +125,8 @@ def inscribed_circle(polygon: ArrayLike) -> Circle | None:
         polygon: Convex polygon (k, 2) in m.
 
     Returns:
-        Centre and radius in m, the radius exact to 1e-12 of it; where several circles fit, as in a long rectangle, one
-        of them. Radius 0 at the middle of a polygon without area; None for an empty polygon.
+        Center and radius in m, the radius exact to 1e-12; any of several that fit. Radius 0 at the middle of a polygon
+        without area; None for an empty polygon.
 
     Example:
         >>> circle = inscribed_circle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
@@ -128,18 +140,17 @@ def inscribed_circle(polygon: ArrayLike) -> Circle | None:
 
 
 def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.float64]:
-    """Rectangle of most area in a convex polygon whose sides stand at a given angle (T 4.4.4, [189]).
+    """Rectangle of most area in a convex polygon, at a given angle (T 4.4.4, [189]).
 
-    The height that a width allows is concave and piecewise linear; cuts (tangents) find the best width and its
-    place.
+    The height over the width is concave and piecewise linear; cuts (tangents) find the best width and its place.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
-        angle: Angle of the first side against x in rad; 0 for a rectangle along the axes.
+        angle: Angle of the first side against x in rad.
 
     Returns:
-        Corners (4, 2) in m from the lower left one at angle 0; its area is exact to 1e-12 of it, and to 1e-8 where
-        edges lie within 1e-3 rad of the sides' directions without lying on them.
+        Corners (4, 2) in m from the lower left one at angle 0; area exact to 1e-12, and to 1e-8 where edges are within
+        1e-3 rad of the sides' directions but not on them.
 
     Example:
         >>> inscribed_rectangle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()
@@ -171,17 +182,17 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
 
 
 def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.float64]:
-    """Rectangle of most area in a concave outline whose sides stand at a given angle.
+    """Rectangle of most area in a concave outline, at a given angle.
 
     The outline is cut into trapezoids; branch and bound over the first and last one of a rectangle.
 
     Args:
         outline: Outline with islands and holes in m.
-        angle: Angle of the first side against x in rad; 0 for a rectangle along the axes.
+        angle: Angle of the first side against x in rad.
 
     Returns:
-        Corners (4, 2) in m; its area is exact to 1e-12 of it, and to 1e-7 where edges lie within 1e-3 rad of the sides'
-        directions without lying on them. No corners (0, 2) for an empty outline.
+        Corners (4, 2) in m; area exact to 1e-12, and to 1e-7 where edges are within 1e-3 rad of the sides' directions
+        but not on them. No corners (0, 2) for an empty outline.
 
     Example:
         >>> corner = Outline.of_rings([[[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]]])
@@ -195,19 +206,19 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
 
 
 def rectangle_in_outline_any_angle(outline: Outline, looks: int = _LOOKS) -> BoundedRectangle:
-    """Largest rectangle in a concave outline that a scan of angles finds, and the proven bound on all others.
+    """Largest rectangle in a concave outline by a scan of angles, and a proven bound on all others.
 
     A rectangle turned by t holds one of d^2 sin(2 t) / 2 less at the angle before, d its diagonal: the largest
-    rectangle at one angle bounds those near it. The interval of the largest bound is measured and halved, again
-    and again; the best angle is refined.
+    rectangle at one angle bounds those near it. The interval of the largest bound is halved repeatedly; the best angle
+    is refined.
 
     Args:
         outline: Outline with islands and holes in m.
         looks: Number of angles in the scan; more of them never give a larger gap.
 
     Returns:
-        Corners (4, 2) in m and gap: no rectangle is larger by more than that share of its area. No corners (0, 2) and
-        no gap for an empty outline.
+        Corners (4, 2) in m and gap: no rectangle is larger by more than that share. No corners (0, 2) and gap 0 for an
+        empty outline.
 
     Raises:
         InputError: If there is not at least one look.
@@ -271,7 +282,7 @@ def _climb(
     corners: NDArray[np.float64],
     least: float,
 ) -> tuple[float, NDArray[np.float64]]:
-    """Area and corners at the local maximum near an angle, found by ever smaller turns."""
+    """Area and corners at the local maximum near an angle, by ever smaller turns."""
     width = 0.25 * _QUARTER / _FIRST
     while width > least:
         for turned in (angle - width, angle + width):
@@ -286,6 +297,42 @@ def _climb(
 
 
 def _area(corners: NDArray[np.float64]) -> float:
-    """Area in m^2 of a rectangle's corners."""
     first, second = corners[1] - corners[0], corners[2] - corners[1]
     return float(math.hypot(*first) * math.hypot(*second))
+
+
+def safe_rectangle(
+    polygon: ArrayLike, offset: float, method: Literal["inscribed", "bounding"] = "inscribed"
+) -> NDArray[np.float64]:
+    """Axis-aligned rectangle that replaces the contact in the wrench cone (T 4.32-4.41, corrected).
+
+    Its sides move inwards by a safety offset. The bounding box is faster and reaches beyond the contact (T 4.4.4).
+
+    Args:
+        polygon: Convex support polygon (k, 2) in the contact frame in m.
+        offset: How far each side moves inwards in m, 0 or more; T uses 0.01.
+        method: "inscribed" or "bounding".
+
+    Returns:
+        Corners (4, 2) in m: row 0 is (Xmin, Ymin), row 2 (Xmax, Ymax). Sides that would pass each other meet in the
+        middle. No corners (0, 2) for an empty polygon.
+
+    Raises:
+        InputError: If polygon, offset or method is not valid.
+
+    Example:
+        >>> safe_rectangle([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]], 0.01).round(9).tolist()
+        [[0.01, 0.01], [0.19, 0.01], [0.19, 0.09], [0.01, 0.09]]
+    """
+    inwards = number(offset, "safety offset", nan=True)
+    if not 0.0 <= inwards < np.inf:
+        raise InputError(f"safety offset is {offset} m; allowed: finite, 0 or more")
+    if method not in ("inscribed", "bounding"):
+        raise InputError(f"method is {method!r}; allowed: inscribed, bounding")
+    box = inscribed_rectangle(polygon) if method == "inscribed" else bounding_box(polygon)
+    if len(box) == 0:
+        return box
+    low, high = box[0], box[2]
+    middle = 0.5 * (low + high)
+    (x1, y1), (x2, y2) = np.minimum(low + inwards, middle), np.maximum(high - inwards, middle)
+    return np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]])

@@ -27,17 +27,17 @@ _BOOL = np.dtype(np.bool_)
 
 
 class Outline(Rings):
-    """Rings around an area of the plane: rims of islands counter-clockwise, rims of holes clockwise. All is read-only.
+    """Rings around an area of the plane: rims of islands counter-clockwise, rims of holes clockwise. Read-only.
 
     Attributes:
-        points: Vertices (k, 2) of all rings in m, one ring after another, no ring with a repeated last point.
+        points: Vertices (k, 2) of all rings in m, one ring after another, without repeated last points.
         starts: Offsets (r + 1) of the rings in `points`.
         ring_areas: Signed area of each ring in m^2, below 0 for a hole.
-        area: Area in m^2, holes left out; exact to 1e-12 of it.
+        area: Area in m^2, holes left out; exact to 1e-12.
 
     Raises:
         InputError: If the points are not (k, 2) finite numbers, the offsets do not cut them into rings of 3 points or
-            more, or the areas are not those of the rings.
+            more, or the areas are wrong.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
@@ -73,23 +73,16 @@ class Outline(Rings):
 
     @classmethod
     def of_rings(cls, rings: Sequence[ArrayLike]) -> Outline:
-        """Outline of given rings.
+        """Outline of given rings (k, 2) in m, rims of islands counter-clockwise and of holes clockwise.
 
-        Args:
-            rings: Vertices (k, 2) of each ring in m, rims of islands counter-clockwise and of holes clockwise.
-
-        Returns:
-            The outline; rings without area are left out.
-
-        Raises:
-            InputError: If a ring is not (k, 2) finite numbers.
+        Rings without area are left out; an InputError if a ring is not (k, 2) finite numbers.
         """
         parts = [plane_points(ring, "ring") for ring in items(rings, "rings")]
         return cls._with_area(np.concatenate([np.empty((0, 2)), *parts]), [0, *accumulate(map(len, parts))])
 
     @classmethod
     def _with_area(cls, points: NDArray[np.float64], starts: Sequence[int]) -> Outline:
-        """Outline of rings one after another, in an array of no other owner; those without area are left out."""
+        """Outline of rings in an array of no other owner, without those without area."""
         areas = areas_of_rings(points, starts)
         if 0.0 in areas:
             kept = [(points[a:b], area) for (a, b), area in zip(pairwise(starts), areas, strict=True) if area != 0.0]
@@ -100,7 +93,7 @@ class Outline(Rings):
 
     @classmethod
     def _of(cls, points: NDArray[np.float64], starts: Sequence[int], areas: Sequence[float]) -> Outline:
-        """Outline of checked values, in an array that only it holds."""
+        """Outline of checked values in an array of no other owner."""
         made = cls.__new__(cls)
         Rings.__init__(made, read_only(points), tuple(starts), tuple(areas))
         return made
@@ -136,17 +129,17 @@ class Outline(Rings):
         return tuple(tuple(part) for part in parts.values())
 
     def moved(self, rotation: ArrayLike, translation: ArrayLike) -> Outline:
-        """The outline seen from another frame.
+        """The outline in another frame, seen from above where the rotation tilts it.
 
         Args:
-            rotation: Rotation (2, 2), or (3, 3) of which the plane's part counts: from this frame to the other.
+            rotation: Rotation (2, 2), or (3, 3) of which the plane's part counts, from this frame to the other.
             translation: Position (2,) or (3,) of this frame's origin in the other frame in m.
 
         Returns:
-            The outline in the other frame; seen from above where the rotation tilts it.
+            The outline.
 
         Raises:
-            InputError: If the shapes are others, a value is not finite, or the matrix is no part of a rotation.
+            InputError: If the shapes are wrong, a value is not finite, or the matrix is not part of a rotation.
         """
         whole = array(rotation, "rotation", ("2 or 3", "2 or 3"), finite=True)
         if whole.shape not in ((2, 2), (3, 3)) or np.abs(whole).max() > 1.0 + 1e-6:
@@ -170,8 +163,8 @@ def concave_outline(layout: SoleLayout, active: ArrayLike) -> Outline:
         active: Active taxels (n,).
 
     Returns:
-        Outline in the sole frame in m, its area exact to 1e-12 of it; empty without contact. Islands that meet in a
-        point are islands of their own.
+        Outline in the sole frame in m, its area exact to 1e-12; empty without contact. Islands that meet in a point
+        stay separate.
 
     Raises:
         ReadingError: If the mask is not one truth value a taxel.
@@ -207,13 +200,13 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
     """Outline of the contact of all feet in one frame (T 4.25, for the concave outline).
 
     Args:
-        outlines_in_world: Outline of each foot in the world frame in m; empty for a foot in the air.
+        outlines_in_world: Outline of each foot in the world frame in m; empty in the air.
 
     Returns:
-        All rings together; where the boxes of two feet overlap, the union as shapely gives it.
+        All rings together; where the boxes of two feet overlap, shapely's union.
 
     Raises:
-        InputError: If one is no outline.
+        InputError: If one is not an outline.
 
     Example:
         >>> left = Outline.of_rings([[[0.0, 0.1], [0.2, 0.1], [0.2, 0.2], [0.0, 0.2]]])
@@ -236,7 +229,7 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
 
 
 def _union(parts: Sequence[NDArray[np.float64] | tuple[NDArray[np.float64], ...]]) -> Outline:
-    """Union of polygons, each a ring or a rim with its holes, by shapely."""
+    """Union by shapely of polygons, each a ring or a rim with its holes."""
     import shapely
 
     shapes = [shapely.Polygon(p[0], p[1:]) if isinstance(p, tuple) else shapely.Polygon(p) for p in parts]
@@ -254,7 +247,7 @@ def _shortly(values: Sequence[float]) -> str:
 
 
 def _is_around(shell: NDArray[np.float64], hole: NDArray[np.float64]) -> bool:
-    """Whether a rim encloses a hole's: the middle of the hole's first edge lies inside or on it."""
+    """Whether a rim encloses the middle of the first edge of a hole's."""
     x, y = 0.5 * (hole[0] + hole[1])
     a, b = shell, np.roll(shell, -1, axis=0)
     crosses = (a[:, 1] > y) != (b[:, 1] > y)

@@ -37,8 +37,8 @@ _NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to eac
 def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
     """Convex hull by Andrew's monotone chain, without vertices on straight edges.
 
-    Every turn is decided exactly. A vertex out of the line of its neighbours by no more than rounding (4 units in
-    the last place, at most 1e-13 of the extent) is left out.
+    Every turn is decided exactly. A vertex within rounding of its neighbours' line (4 units in the last place, at most
+    1e-13 of the extent) is left out.
 
     Args:
         points: Points (n, 2) in m. Points that are not finite, or beyond 1e100 m, are left out.
@@ -60,13 +60,13 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
 
 
 def convex_ring(polygon: ArrayLike) -> NDArray[np.float64]:
-    """A convex polygon as it is handed over, checked; repeated and collinear vertices are allowed.
+    """A convex polygon from a caller; repeated and collinear vertices are allowed.
 
     Args:
         polygon: Polygon (k, 2) in m, either orientation.
 
     Returns:
-        Vertices (k, 2) in m, not copied where they are an array of float64.
+        Vertices (k, 2) in m, not copied if float64.
 
     Raises:
         InputError: If it is not (k, 2) finite numbers, or not convex.
@@ -134,16 +134,15 @@ def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
 def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] | None:
     """Point of a convex polygon that is closest to a given one (T Algorithm 1, corrected).
 
-    The printed test (d x l)_z > 0 holds for counter-clockwise vertices alone; here its sign follows the
-    polygon's.
+    The printed test (d x l)_z > 0 holds for counter-clockwise vertices alone; here its sign follows the polygon's.
 
     Args:
         polygon: Convex polygon (k, 2), either orientation.
         point: Point (2,) in m.
 
     Returns:
-        The point itself when it is inside, else the closest point (2,) on the boundary; None for an empty polygon;
-        NaN for a point that is not finite, to which nothing is closest.
+        The point itself inside, else the closest point (2,) on the boundary; None for an empty polygon; NaN for a point
+        that is not finite.
 
     Raises:
         InputError: If the polygon is not (k, 2) finite numbers or not convex, or the point not two numbers.
@@ -192,12 +191,12 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
         distance: Distance in m, 0 or more.
 
     Returns:
-        The smaller polygon (m, 2), counter-clockwise; where nothing is left, or for a distance that is NaN, the single
-        point that is deepest inside (1, 2), the middle for a polygon of 1 or 2 vertices; an empty polygon for an empty
-        one, and a copy for a distance of 0.
+        The smaller polygon (m, 2), counter-clockwise; if empty, or for a distance of NaN, the deepest point (1, 2), the
+        middle of 1 or 2 vertices; an empty polygon for an empty one, and a copy for a distance of 0.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers or not convex, or the distance is below 0 or no number.
+        InputError: If the polygon is not (k, 2) finite numbers or not convex, or the distance is below 0 or not a
+            number.
 
     Example:
         >>> inner_offset(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), 0.25).tolist()
@@ -217,7 +216,7 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
 
 
 def part_inside(polygon: NDArray[np.float64], nx: float, ny: float, h: float) -> NDArray[np.float64]:
-    """What of a convex polygon lies where n . x <= h, without near-duplicates where the line meets a corner.
+    """Part of a convex polygon where n . x <= h, without near-duplicates where the line meets a corner.
 
     Args:
         polygon: Convex polygon (k, 2) in m, counter-clockwise.
@@ -226,11 +225,7 @@ def part_inside(polygon: NDArray[np.float64], nx: float, ny: float, h: float) ->
         h: Distance in m of the line from the origin, along the normal.
 
     Returns:
-        Convex polygon (k, 2) in m, counter-clockwise; empty where nothing is left.
-
-    Example:
-        >>> part_inside(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), 1.0, 0.0, 0.5).tolist()
-        [[0.0, 0.0], [0.5, 0.0], [0.5, 1.0], [0.0, 1.0]]
+        Convex polygon (k, 2) in m, counter-clockwise; may be empty.
     """
     left = part_below(np.ascontiguousarray(polygon, dtype=np.float64), nx, ny, h)
     near = _NOISE * extent(polygon)

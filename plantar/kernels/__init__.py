@@ -64,7 +64,6 @@ def python_form(name: str) -> ModuleType:
 
 
 def _full(name: str) -> str:
-    """A kernel's name after its room's."""
     return name if "." in name else f"{_ROOM[name]}.{name}"
 
 

@@ -1,4 +1,4 @@
-"""Which cells of a sole share which edges, also where a neighbour's corner lies inside an edge."""
+"""Shared edges of a sole's cells, also where a neighbour's corner is inside an edge."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ WELD = 1e-6
 def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTable | None:
     """Table of the directed edges of cells that tile a part of the plane.
 
-    Corners of cells that share no vertices are one within WELD of a typical edge; an edge is cut where the corner
-    of another cell lies on it.
+    Corners of cells that share no vertices are one within WELD of a typical edge; an edge is cut where the corner of
+    another cell is on it.
 
     Args:
         vertices: Corner points (v, 2) in m.
@@ -33,7 +33,7 @@ def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTab
         The table; None where cells overlap, so that no walk along unshared edges gives their outline.
 
     Raises:
-        InputError: If the points are not (v, 2) finite numbers, or a cell names one that is not there.
+        InputError: If the points are not (v, 2) finite numbers, or an index is out of range.
 
     Example:
         >>> table = edge_table([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [2, 1]], [[0, 1, 2, 3], [1, 4, 5, 2]])
@@ -88,7 +88,6 @@ def _lone_edges(rings: Sequence[Sequence[int]]) -> list[tuple[int, int]]:
 def _weld(
     xy: NDArray[np.float64], rings: list[list[int]], lone: list[tuple[int, int]], tolerance: float
 ) -> list[list[int]]:
-    """Give corners of lone edges that lie within the tolerance of each other one index."""
     if tolerance <= 0.0:
         return rings
     where: dict[tuple[int, int], int] = {}
@@ -114,7 +113,7 @@ def _weld(
 def _cut_edges(
     xy: NDArray[np.float64], rings: list[list[int]], lone: list[tuple[int, int]], tolerance: float
 ) -> list[list[int]]:
-    """Cut each lone edge at the corners of other lone edges that lie on it (T-junctions)."""
+    """Cut each lone edge at the corners of others on it (T-junctions)."""
     ids = np.unique(np.array(lone))
     points = xy[ids]
     cuts: dict[tuple[int, int], list[int]] = {}
@@ -139,7 +138,7 @@ def _cut_edges(
 
 
 def cells_overlap(tail: NDArray[np.float64], head: NDArray[np.float64], tolerance: float) -> bool:
-    """Whether cells cover a place twice, recognised by the edges that they do not share.
+    """Whether cells cover a place twice, from the edges that they do not share.
 
     Args:
         tail: Where the b lone edges start (b, 2), the cell on their left, in m.
@@ -148,13 +147,6 @@ def cells_overlap(tail: NDArray[np.float64], head: NDArray[np.float64], toleranc
 
     Returns:
         True where cells overlap.
-
-    Example:
-        >>> square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-        >>> tail = np.vstack([square, square + 0.5])
-        >>> head = np.vstack([np.roll(square, -1, axis=0), np.roll(square, -1, axis=0) + 0.5])
-        >>> cells_overlap(tail, head, 1e-6), cells_overlap(tail[:4], head[:4], 1e-6)
-        (True, False)
     """
     d = head - tail
     length = np.hypot(d[:, 0], d[:, 1])

@@ -1,4 +1,4 @@
-"""Layouts of cells of any shape and size: insoles drawn cell by cell, and layouts put together from parts."""
+"""Layouts of cells of any shape and size, such as insoles, and layouts joined from parts."""
 
 from __future__ import annotations
 
@@ -34,25 +34,24 @@ def layout_of_cells(
 ) -> SoleLayout:
     """A layout of polygonal cells, mixed shapes and sizes allowed (T 4.5).
 
-    Corners that agree within a thousandth of a small cell's size become one vertex, and a corner on another
-    cell's edge becomes a vertex of that edge: cells that touch share edges, so outlines are exact.
+    Corners that agree within a thousandth of a small cell's size become one vertex, and a corner on another cell's edge
+    becomes a vertex of that edge, so that cells that touch share edges and outlines are exact.
 
     Args:
         cells: Corners (k, 2) of each cell in the sole frame in m, either orientation, not self-crossing.
         name: Name of the sole.
         side: "left" or "right".
-        outline: Outline (k, 2) of the sole in m; where None that of all cells together, or their convex hull where they
-            are not in one piece.
-        ids: Id of each cell; 0, 1, ... where None.
+        outline: Outline (k, 2) of the sole in m; if None that of all cells, or their convex hull if not in one piece.
+        ids: Id of each cell; 0, 1, ... if None.
         cell_shape: One of `plantar.layouts.layout.CELL_SHAPES`.
-        positions: Taxel centres (n, 2) in m; the cells' centroids where None.
-        rotations: Rotations (n, 3, 3) from each taxel's frame to the sole frame; those of level taxels where None.
+        positions: Taxel centers (n, 2) in m; the cells' centroids if None.
+        rotations: Rotations (n, 3, 3) from each taxel's frame to the sole frame; level if None.
 
     Returns:
         The layout; its `cell_area` is the median of the cells' areas.
 
     Raises:
-        LayoutError: If there is no cell, a cell is no simple polygon, two cells overlap, or a field is not valid.
+        LayoutError: If there is no cell, a cell is not a simple polygon, cells overlap, or a field is not valid.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [0.02, 0.0], [0.02, 0.02], [0.0, 0.02]])
@@ -106,16 +105,15 @@ def joined_layout(
 
     Args:
         parts: The layouts; their cells must not overlap.
-        name: Name of the sole; that of the first part where None.
+        name: Name of the sole; that of the first part if None.
         outline: Outline (k, 2) of the sole in m, as in `layout_of_cells`.
 
     Returns:
-        The layout: cells in the order of the parts with ids 0, 1, ..., their positions and rotations kept; what it
-        senses, its ranges and its thresholds are those of the first part.
+        The layout: cells in order with ids 0, 1, ..., positions and rotations kept; quantities, ranges and thresholds
+        of the first part.
 
     Raises:
-        LayoutError: If there is no part, a part is no layout, the parts are of both sides or not flat, or cells
-            overlap.
+        LayoutError: If there is no part, parts are not flat layouts of one side, or cells overlap.
 
     Example:
         >>> from plantar import grid_layout, hex_layout
@@ -161,10 +159,6 @@ def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArr
 
     Raises:
         InputError: If a ring is not (k, 2) finite numbers, or the tolerance not above 0.
-
-    Example:
-        >>> shared_vertices([[[0, 0], [1, 0], [0, 1]], [[1, 0], [1, 1], [0, 1 + 1e-9]]], 1e-6)[1]
-        [(0, 1, 2), (1, 3, 2)]
     """
     if not number(tolerance, "tolerance of corners", finite=True) > 0.0:
         raise InputError(f"tolerance of corners is {tolerance} m; allowed: above 0")
@@ -200,10 +194,6 @@ def edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], 
 
     Raises:
         InputError: If a cell is no list of indices.
-
-    Example:
-        >>> edge_neighbours([(0, 1, 2), (1, 3, 2), (3, 4, 5)])
-        ((1,), (0,), ())
     """
     owners: dict[tuple[int, int], list[int]] = {}
     rows = [integers(ring, f"cell {i}", ("k",)).tolist() for i, ring in enumerate(items(corners, "cells"))]
@@ -253,7 +243,7 @@ def _check_overlap(polygons: NDArray[np.object_]) -> None:
 def _with_touching_vertices(
     vertices: NDArray[np.float64], corners: list[tuple[int, ...]], tolerance: float
 ) -> list[tuple[int, ...]]:
-    """Put vertices that lie on an edge between its ends, so that cells that touch share whole edges."""
+    """Insert vertices that are on an edge, so that touching cells share whole edges."""
     import shapely
 
     edges = [(a, b) for ring in corners for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)]

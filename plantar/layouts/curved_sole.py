@@ -1,4 +1,4 @@
-"""Laying a flat layout over a curved sole: every taxel gets a height and an orientation of its own."""
+"""A flat layout laid over a curved sole."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ _STEP = 1e-5
 
 
 def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
-    """A layout on a curved sole z(x, y), seen from above as before (soleT_i of T 4.23).
+    """A layout on a curved sole z(x, y), unchanged seen from above (soleT_i of T 4.23).
 
     Each taxel turns the shortest way that brings its z axis onto the surface's normal.
 
     Args:
         layout: The flat layout.
-        surface: Height of the sole's outer face in m; smooth. It is called with arrays.
+        surface: Height of the sole's outer face in m; smooth, called with arrays.
 
     Returns:
         The layout with positions and vertices on the surface, rotations R_i, and the cells' areas on the surface.
 
     Raises:
-        LayoutError: If the layout is not flat, or the surface gives what is no finite height for each point.
+        LayoutError: If the layout is not flat, or a height is not finite.
 
     Example:
         >>> from plantar import hex_layout
@@ -89,10 +89,6 @@ def rotations_to_normals(normals: ArrayLike) -> NDArray[np.float64]:
 
     Raises:
         LayoutError: If these are not (n, 3) finite numbers, or a direction does not point up.
-
-    Example:
-        >>> rotations_to_normals(np.array([[0.0, 0.0, 2.0]])).tolist()
-        [[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]]
     """
     given = array(normals, "directions", ("n", 3), LayoutError, finite=True)
     if not (given[:, 2] > 0.0).all():
@@ -110,6 +106,6 @@ def rotations_to_normals(normals: ArrayLike) -> NDArray[np.float64]:
 
 
 def _fan(centre: NDArray[np.float64], ring: NDArray[np.float64]) -> float:
-    """Area in m^2 of the triangles from a cell's centre to its edges."""
+    """Area in m^2 of the triangles from a cell's center to its edges."""
     arm = ring - centre
     return 0.5 * float(np.linalg.norm(np.cross(arm, np.roll(arm, -1, axis=0)), axis=1).sum())

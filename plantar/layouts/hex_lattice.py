@@ -1,12 +1,12 @@
 """Hexagonal lattice in axial coordinates, with integer vertex keys.
 
-A cell (q, r) of a lattice whose rows run along x has its centre at
+A cell (q, r) of a lattice whose rows run along x has its center at
 
     x = w (q + r / 2)        w = flat-to-flat width
     y = 3/2 s r              s = side length = w / sqrt(3)
 
-so cells that meet share corners with the same integer key and bit-identical coordinates; corners computed cell by
-cell differ in the last bit, and unions of them leak slivers.
+so cells that meet share corners with the same key and identical coordinates; corners computed cell by cell differ in
+the last bit, and unions of them leak slivers.
 """
 
 from __future__ import annotations
@@ -35,16 +35,10 @@ _CORNER_OFFSETS: tuple[tuple[int, int], ...] = ((1, -1), (1, 1), (0, 2), (-1, 1)
 
 
 def hexagon_side(area: float) -> float:
-    """Side length of a regular hexagon.
+    """Side length s in m of a regular hexagon, from area = 3 sqrt(3) / 2 s^2.
 
     Args:
-        area: Area in m^2, above 0.
-
-    Returns:
-        Side length s in m, from area = 3 sqrt(3) / 2 s^2.
-
-    Raises:
-        InputError: If the area is not a positive finite number.
+        area: Area in m^2, above 0 (else an InputError).
 
     Example:
         >>> round(hexagon_side(691e-6) * 1e3, 3)
@@ -62,7 +56,7 @@ class HexLattice:
 
     Attributes:
         area: Area of one cell in m^2.
-        origin: Position (2,) of the centre of cell (0, 0) in m.
+        origin: Position (2,) of the center of cell (0, 0) in m.
         angle: Rotation of the rows against the x axis in rad.
 
     Raises:
@@ -93,20 +87,14 @@ class HexLattice:
 
     @property
     def width(self) -> float:
-        """Flat-to-flat width of a cell in m: the distance of neighbouring centres."""
+        """Flat-to-flat width of a cell in m: the distance of neighbouring centers."""
         return math.sqrt(3.0) * self.side
 
     def position_of_keys(self, keys: ArrayLike) -> NDArray[np.float64]:
-        """Positions of lattice points given by integer keys.
+        """Positions (..., 2) in m in the sole plane of lattice points by integer keys.
 
         Args:
-            keys: Integers (..., 2): multiples of (half width, half side).
-
-        Returns:
-            Positions (..., 2) in m in the sole plane.
-
-        Raises:
-            InputError: If these are not (..., 2) whole numbers.
+            keys: Integers (..., 2): multiples of (half width, half side); else an InputError.
         """
         whole = integers(keys, "keys", (..., 2))
         u = whole[..., 0] * (0.5 * self.width)
@@ -136,14 +124,14 @@ class HexLattice:
         return self.position_of_keys(self.corner_keys(axial))
 
     def cells_near(self, lower: ArrayLike, upper: ArrayLike) -> NDArray[np.int64]:
-        """Axial coordinates (n, 2) of every cell whose centre lies within one cell of a box.
+        """Axial coordinates (n, 2) of every cell whose center is within one cell of a box, sorted by row r, then q.
 
         Args:
             lower: Lower corner (2,) of the box in m.
             upper: Upper corner (2,) of the box in m.
 
         Returns:
-            Cells sorted by row r, then q.
+            The cells.
 
         Raises:
             InputError: If a corner is not two finite numbers, or the box reaches farther than 3000 sides from its

@@ -58,22 +58,22 @@ DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * GRAVITY, "proximity":
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SoleLayout:
-    """The taxels of one sole. Arrays, lists and mappings are copied in, and read-only; n taxels, v vertices.
+    """The taxels of one sole. Arrays, lists and mappings are copied, and read-only; n taxels, v vertices.
 
     Attributes:
-        name: Name of the sole, for example of the robot that wears it.
+        name: Name of the sole.
         side: "left" or "right".
-        positions: Taxel centres (n, 3) in the sole frame in m.
+        positions: Taxel centers (n, 3) in the sole frame in m.
         rotations: Rotations (n, 3, 3) from each taxel's frame to the sole frame.
         vertices: Corner points (v, 3) in the sole frame in m, shared between cells that meet.
-        corners: For each taxel the indices of its corners in `vertices`, counter-clockwise seen from above.
-        neighbours: For each taxel the indices of the taxels that share an edge with it.
+        corners: Indices of each taxel's corners in `vertices`, counter-clockwise seen from above.
+        neighbours: Indices of the taxels that share an edge with each.
         areas: Cell areas (n,) in m^2.
         outline: Outline (k, 2) of the sole in m, counter-clockwise.
         ids: Taxel ids (n,), unique.
         cell_shape: One of CELL_SHAPES.
-        cell_area: Area of one whole cell in m^2 (the median where sizes are mixed).
-        modalities: What each taxel senses, out of MODALITIES.
+        cell_area: Area of one whole cell in m^2 (the median of mixed sizes).
+        modalities: Sensed quantities, out of MODALITIES.
         ranges: Sensing range (low, high) of each modality in SI.
         thresholds: Activation threshold of each modality in SI.
 
@@ -202,22 +202,22 @@ class SoleLayout:
 
     @cached_property
     def force_threshold(self) -> float:
-        """Force in N at which a taxel counts as active (epsilon_f of T 4.22)."""
+        """Force in N at which a taxel is active (epsilon_f of T 4.22)."""
         return float(self.thresholds.get("force", DEFAULT_THRESHOLDS["force"]))
 
     @cached_property
     def force_limit(self) -> float:
-        """Force in N from which a taxel is saturated: the upper end of its range; inf where the range is not stated."""
+        """Force in N from which a taxel is saturated, the upper end of its range; inf without a range."""
         return float(self.ranges["force"][1]) if "force" in self.ranges else math.inf
 
     @property
     def proximity_threshold(self) -> float:
-        """Distance in m below which a taxel counts as near (epsilon_p of T 4.2.7)."""
+        """Distance in m below which a taxel is near (epsilon_p of T 4.2.7)."""
         return float(self.thresholds.get("proximity", DEFAULT_THRESHOLDS["proximity"]))
 
     @property
     def proximity_range(self) -> float:
-        """Distance in m up to which proximity senses (d_range of T 3.30)."""
+        """Sensing range in m of proximity (d_range of T 3.30)."""
         return float(self.ranges.get("proximity", DEFAULT_RANGES["proximity"])[1])
 
     @property
@@ -253,13 +253,13 @@ class SoleLayout:
 
     @cached_property
     def wrench_map(self) -> NDArray[np.float64]:
-        """Matrix (6, n) that takes taxel normal forces to the wrench at the sole frame's origin (T 4.23)."""
+        """Matrix (6, n) from taxel normal forces to the wrench at the sole frame's origin (T 4.23)."""
         normal = self.rotations[:, :, 2]
         return read_only(np.vstack([normal.T, np.cross(self.positions, normal).T]))
 
     @cached_property
     def kernel(self) -> SoleKernel:
-        """What the kernels of loads and support polygons keep of this sole."""
+        """The kernels' data of this sole, for loads and support polygons."""
         return SoleKernel(
             self.positions,
             self.rotations[:, :, 2],
@@ -272,21 +272,21 @@ class SoleLayout:
         )
 
     def cell_polygon(self, taxel: int) -> NDArray[np.float64]:
-        """Corners (k, 2) of one cell in the sole plane in m, counter-clockwise; taxels are counted from 0."""
+        """Corners (k, 2) of one cell, counted from 0, in the sole plane in m, counter-clockwise."""
         return self.vertices[list(self.corners[integer(taxel, "taxel", 0, len(self.corners) - 1)]), :2]
 
 
 def mirrored(layout: SoleLayout) -> SoleLayout:
-    """The same sole for the other foot: y changes sign, ids stay.
+    """The same sole for the other foot: y changes sign, taxels and ids keep their order.
 
     Args:
         layout: Layout of one side.
 
     Returns:
-        Layout of the other side; taxel i of one is the mirror image of taxel i of the other.
+        Layout of the other side.
 
     Raises:
-        InputError: If the layout is none.
+        InputError: If it is not a layout.
 
     Example:
         >>> from plantar import hex_layout
@@ -317,7 +317,6 @@ def mirrored(layout: SoleLayout) -> SoleLayout:
 
 
 def _index_rows(name: str, rows: object) -> tuple[tuple[int, ...], ...]:
-    """Rows of indices, as they are kept."""
     try:
         return tuple(tuple(map(operator.index, row)) for row in rows)  # type: ignore[attr-defined]
     except TypeError:
@@ -325,7 +324,6 @@ def _index_rows(name: str, rows: object) -> tuple[tuple[int, ...], ...]:
 
 
 def _named(name: str, values: object) -> ItemsView[str, Any]:
-    """What a mapping by modality holds."""
     if not isinstance(values, Mapping) or not all(isinstance(key, str) for key in values):
         raise LayoutError(f"layout field '{name}' is no mapping of names; expected values by modality")
     return values.items()

@@ -7,18 +7,32 @@ import os
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, cast
+from typing import (
+    Any,
+    cast,
+)
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.arguments import instance
 from plantar.atomic import write_text
 from plantar.errors import LayoutError
 from plantar.files.structured_text import read_json
-from plantar.layouts.cell_checks import check_cells
-from plantar.layouts.layout import Side, SoleLayout
+from plantar.layouts.layout import (
+    Side,
+    SoleLayout,
+)
 
-__all__ = ["SCHEMA", "layout_from_dict", "layout_to_dict", "read_layout", "write_layout"]
+__all__ = [
+    "SCHEMA",
+    "check_cells",
+    "layout_from_dict",
+    "layout_to_dict",
+    "read_layout",
+    "write_layout",
+]
+
 
 SCHEMA = "plantar.layout/1"
 """Schema name and version that a layout file states."""
@@ -27,19 +41,13 @@ _UNITS = "m, N, degC; sole frame: x forward, y left, z up, on the outer contact 
 
 
 def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
-    """A layout as plain JSON values, SI units, sole frame.
+    """A layout as plain JSON values, SI units, sole frame; `layout_from_dict` reads them without loss.
 
     Args:
         layout: The layout.
 
     Returns:
-        A dict that `layout_from_dict` reads back without loss.
-
-    Example:
-        >>> from plantar import grid_layout
-        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05), name="mat")
-        >>> layout_to_dict(layout)["name"]
-        'mat'
+        The dict.
     """
     instance(layout, SoleLayout, "layout")
     return {
@@ -97,24 +105,17 @@ def _numbers(value: Any, shape: tuple[int | None, ...], field: str, where: str) 
 
 
 def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLayout:
-    """A layout from plain JSON values.
+    """A checked layout from plain JSON values.
 
     Args:
-        source: What `layout_to_dict` gave.
+        source: The result of `layout_to_dict`.
         where: Name of the source, for error messages.
 
     Returns:
-        The checked layout.
+        The layout.
 
     Raises:
-        LayoutError: If a field is missing or wrong, the units are not SI, or cells contradict themselves; the message
-            names it.
-
-    Example:
-        >>> from plantar import grid_layout
-        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05), name="mat")
-        >>> layout_from_dict(layout_to_dict(layout)).name
-        'mat'
+        LayoutError: If a field is missing or wrong, the units are not SI, or cells contradict themselves.
     """
     if not isinstance(source, Mapping):
         raise LayoutError(f"{where}: not a JSON object")
@@ -182,16 +183,16 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
 
 
 def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
-    """Read a layout file.
+    """Read and check a layout file.
 
     Args:
-        path: A JSON file as `write_layout` makes it.
+        path: A JSON file as of `write_layout`.
 
     Returns:
-        The checked layout.
+        The layout.
 
     Raises:
-        LayoutError: If the file cannot be read, is no JSON, or has a bad field; the message names file and field.
+        LayoutError: If the file cannot be read, is not JSON, or has a bad field; the message names file and field.
 
     Example:
         >>> import tempfile
@@ -214,13 +215,48 @@ def write_layout(layout: SoleLayout, path: str | os.PathLike[str]) -> Path:
 
     Returns:
         The path.
-
-    Example:
-        >>> import tempfile
-        >>> from plantar import grid_layout
-        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05), name="mat")
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     write_layout(layout, f"{folder}/mat.json").name
-        'mat.json'
     """
     return write_text(path, json.dumps(layout_to_dict(layout), indent=1) + "\n")
+
+
+_AREA = 0.1  # of a cell's area: round cells are written as polygons, curved ones seen from above
+_OFF = 0.5  # of a cell's size: how far a taxel may be next to its own cell
+
+
+def check_cells(layout: SoleLayout) -> None:
+    """Refuse cells that contradict themselves.
+
+    Args:
+        layout: The layout.
+
+    Raises:
+        LayoutError: If a cell crosses itself or is clockwise, its area is not that of its corners, its taxel is off the
+            cell, or a taxel faces out of the body.
+    """
+    import shapely
+
+    if not len(layout):
+        return
+    facing = layout.rotations[:, 2, 2] <= 0.0
+    if facing.any():
+        raise LayoutError(f"field 'rotation_taxel_to_sole' of taxel {_first(layout, facing)} points out of the body")
+    cells = np.array([shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))])
+    crossed = ~shapely.is_valid(cells)
+    if crossed.any():
+        raise LayoutError(f"field 'corners' of taxel {_first(layout, crossed)} or 'vertices' makes a cell cross itself")
+    turned = ~shapely.is_ccw(shapely.get_exterior_ring(cells))
+    if turned.any():
+        raise LayoutError(f"field 'corners' of taxel {_first(layout, turned)} goes round 'vertices' clockwise")
+    seen, flat = layout.areas * layout.rotations[:, 2, 2], shapely.area(cells)  # both from above
+    wrong = np.abs(flat - seen) > _AREA * np.maximum(flat, seen)
+    if wrong.any():
+        i = int(np.flatnonzero(wrong)[0])
+        stated = f"field 'area' of taxel {layout.ids[i]} is {layout.areas[i]:.3g} m^2"
+        raise LayoutError(f"{stated}; its corners in 'vertices' enclose {flat[i]:.3g} m^2")
+    off = shapely.distance(cells, shapely.points(layout.positions[:, :2])) > _OFF * np.sqrt(flat)
+    if off.any():
+        raise LayoutError(f"field 'position' of taxel {_first(layout, off)} lies beside its cell of 'vertices'")
+
+
+def _first(layout: SoleLayout, mask: NDArray[np.bool_]) -> int:
+    return int(layout.ids[np.flatnonzero(mask)[0]])

@@ -1,4 +1,4 @@
-"""What callers hand over for the taxels of one layout: readings and masks, checked once where they come in.
+"""Checks of readings and masks from callers for the taxels of one layout.
 
 A taxel that reads NaN or inf is dead: left out of every sum, no error.
 """
@@ -23,15 +23,14 @@ def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
     Args:
         layout: The sole, n taxels.
-        values: What a caller handed over.
-        name: What it is, the subject of an error.
+        values: The argument.
+        name: Its name in an error.
 
     Returns:
-        Values (n,), NaN where a taxel is dead; not copied where they are an array of float64.
+        Values (n,), NaN where a taxel is dead; not copied if float64.
 
     Raises:
-        ReadingError: If these are not n real numbers.
-        InputError: If the layout is none.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import grid_layout
@@ -55,21 +54,14 @@ def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
     Args:
         layout: The sole, n taxels.
-        values: What a caller handed over.
-        name: What it is, the subject of an error.
+        values: The argument.
+        name: Its name in an error.
 
     Returns:
-        Values (n,) or (frames, n), NaN where a taxel is dead; not copied where they are an array of float64.
+        Values (n,) or (frames, n), NaN where a taxel is dead; not copied if float64.
 
     Raises:
-        ReadingError: If these are not (n,) or (frames, n) real numbers.
-        InputError: If the layout is none.
-
-    Example:
-        >>> from plantar import grid_layout
-        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
-        >>> taxel_frames(layout, [[1, 2], [3, 4], [5, 6]]).shape
-        (3, 2)
+        ReadingError, InputError: If an argument is not valid.
     """
     instance(layout, SoleLayout, "layout")
     given = numbers(values, name, ReadingError)
@@ -83,21 +75,14 @@ def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArra
 
     Args:
         layout: The sole, n taxels.
-        values: What a caller handed over.
-        name: What it is, the subject of an error.
+        values: The argument.
+        name: Its name in an error.
 
     Returns:
-        Mask (n,), not copied where it is an array of bool.
+        Mask (n,), not copied if bool.
 
     Raises:
-        ReadingError: If these are not n truth values.
-        InputError: If the layout is none.
-
-    Example:
-        >>> from plantar import grid_layout
-        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
-        >>> taxel_mask(layout, [0, 1]).tolist()
-        [False, True]
+        ReadingError, InputError: If an argument is not valid.
     """
     if not isinstance(layout, SoleLayout):
         instance(layout, SoleLayout, "layout")
@@ -108,17 +93,10 @@ def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArra
 
 
 def without_dead(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Readings with 0 where a taxel is dead.
+    """Readings with 0 where a taxel is dead; the array itself if none is.
 
     Args:
         values: Readings of any shape.
-
-    Returns:
-        The very array where no taxel is dead.
-
-    Example:
-        >>> without_dead(np.array([1.0, np.nan, np.inf])).tolist()
-        [1.0, 0.0, 0.0]
     """
     return values if is_finite(values) else np.where(np.abs(values) <= LARGEST, values, 0.0)
 

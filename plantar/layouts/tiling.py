@@ -1,4 +1,4 @@
-"""Laying a lattice of hexagons or rectangles over a sole: which cells fit, clipped to the outline or whole."""
+"""A lattice of hexagons or rectangles laid over a sole, clipped to the outline or whole."""
 
 from __future__ import annotations
 
@@ -42,20 +42,18 @@ def hex_layout(
         name: Name of the sole.
         side: "left" or "right".
         cell_area: Area of a whole cell in m^2.
-        origin: Centre of lattice cell (0, 0) in m.
+        origin: Center of lattice cell (0, 0) in m.
         angle: Rotation of the lattice rows against x in rad.
         clip: Cut cells that cross the outline; False keeps whole cells inside only.
-        minimum_fraction: With clip, a cut cell is kept when at least this fraction of it is inside, 0..1; slivers below
-            a thousandth of a cell never are. Where an outline cuts a cell in several parts, the largest counts.
-        cells: Axial coordinates (m, 2) to take instead; these are kept whole, even across the outline.
+        minimum_fraction: Least fraction inside of a kept cut cell, 0..1; at least a thousandth. Of a cell cut in
+            several parts, the largest counts.
+        cells: Axial coordinates (m, 2) to use instead; kept whole, even across the outline.
 
     Returns:
-        The layout; a clipped cell's position is the centroid of what is left of it.
+        The layout; a clipped cell's position is its centroid.
 
     Raises:
-        LayoutError: If the outline is not a simple polygon, or no cell fits, or more than MOST_TAXELS would.
-        InputError: If the cell area is not above 0 and up to 1 m^2, the minimum fraction not within 0 to 1, the origin
-            not within 50 m, the angle not finite, or the cells are not (m, 2) whole numbers.
+        LayoutError, InputError: If an argument is not valid.
 
     Example:
         >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)
@@ -98,22 +96,20 @@ def grid_layout(
     """Lay a grid of squares or rectangles over a sole and keep the cells that fit.
 
     Args:
-        outline: Outline (k, 2) of the sole in m in the sole frame, either orientation, not self-crossing.
+        outline: As in `hex_layout`.
         name: Name of the sole.
         side: "left" or "right".
         pitch: Size of a cell along the grid's rows and across them in m.
         origin: A corner of the grid in m.
         angle: Rotation of the grid's rows against x in rad.
-        clip: Cut cells that cross the outline; False keeps whole cells inside only.
-        minimum_fraction: With clip, a cut cell is kept when at least this fraction of it is inside, 0..1.
+        clip: As in `hex_layout`.
+        minimum_fraction: As in `hex_layout`.
 
     Returns:
-        The layout; a clipped cell's position is the centroid of what is left of it.
+        The layout; a clipped cell's position is its centroid.
 
     Raises:
-        LayoutError: If the outline is not a simple polygon, or no cell fits, or more than MOST_TAXELS would.
-        InputError: If a pitch is not a finite value above 0, a cell not up to 1 m^2, the origin not within 50 m, the
-            angle not finite, or the minimum fraction not within 0 to 1.
+        LayoutError, InputError: If an argument is not valid.
 
     Example:
         >>> layout = grid_layout([[0, 0], [0.1, 0], [0.1, 0.06], [0, 0.06]], pitch=(0.02, 0.01))
@@ -145,7 +141,6 @@ def grid_layout(
 
 
 def _sole_polygon(outline: ArrayLike, cell_area: float, minimum_fraction: float, limited: bool = True) -> Any:
-    """The outline as a polygon, counter-clockwise, after a check of all that does not depend on the lattice."""
     import shapely  # 0.2 s: only where a layout is made
 
     if not 0.0 <= number(minimum_fraction, "minimum fraction of a cut cell", nan=True) <= 1.0:
@@ -175,7 +170,6 @@ def _sole_polygon(outline: ArrayLike, cell_area: float, minimum_fraction: float,
 
 
 def _checked_origin(origin: tuple[float, float]) -> tuple[float, float]:
-    """The origin of a lattice."""
     x, y = plane_point(origin, "origin")
     if not (abs(x) <= LARGEST_COORDINATE and abs(y) <= LARGEST_COORDINATE):
         raise InputError(
@@ -192,7 +186,7 @@ def _cells_within(
     minimum_fraction: float | None,
     grain: float,
 ) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
-    """Rings and centres of the cells inside an outline; cut ones too where a minimum fraction is given."""
+    """Rings and centers of the cells inside an outline; cut ones too if a minimum fraction is given."""
     import shapely
 
     cells = shapely.polygons(candidates)
@@ -222,8 +216,7 @@ def _cells_within(
 
 
 def _on_lattice(ring: NDArray[np.float64], corners: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
-    """A cut cell's corners, those that are the whole cell's put back from GEOS's grid to where they were: cells that
-    are shifted copies of each other stay so, to the last digits."""
+    """A cut cell's corners, with the whole cell's put back from GEOS's grid, so that copies stay exact."""
     gap = np.hypot(*(ring[:, None] - corners).transpose(2, 0, 1))
     nearest = gap.argmin(axis=1)
     return np.where(gap.min(axis=1, keepdims=True) <= tolerance, corners[nearest], ring)

@@ -1,1 +1,1 @@
-"""Mechanics below gait and whole-body tasks: rotations, wrenches, contacts, wrench cones, pendulum, ZMP, base state."""
+"""Rotations, wrenches, contacts, wrench cones, pendulum, ZMP and base state."""

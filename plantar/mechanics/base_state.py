@@ -1,4 +1,4 @@
-"""State of a floating base with its contacts, as an estimator gives it to all who plan and balance."""
+"""Estimated state of a floating base with its contacts."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class BaseState(Record, frozen=True):
         position_base: Base position (3,) in m.
         com: CoM (3,) in m.
         com_velocity: CoM velocity (3,) in m/s.
-        zmp: Composite ZMP (2,) in m of what the contacts carry, or None without load.
+        zmp: Composite ZMP (2,) in m of the contacts, or None without load.
         loads: Vertical force on each contact in N, less its tare.
-        positions_sole: Contact frame's origin (3,) of each, for example a sole's, in m.
+        positions_sole: Origin (3,) of each contact frame in m.
         rotations_sole: Rotation (3, 3) from each contact frame to the world frame.
     """
 

@@ -1,7 +1,4 @@
-"""Contacts of a robot with the world: feet, hands, any touches; each with a name, any number of them.
-
-Several come as a mapping from name to contact, whose order results keep.
-"""
+"""Contacts of a robot with the world: feet, hands or others, as mappings by name whose order results keep."""
 
 from __future__ import annotations
 
@@ -20,15 +17,14 @@ __all__ = ["Contact", "Contacts"]
 
 @dataclass(frozen=True)
 class Contact:
-    """A contact of a flat part of the robot. Give the same object while nothing changes: programs keep what it made.
+    """A contact of a flat part of the robot. Reuse the object while it does not change: programs keep its data.
 
     Attributes:
-        position: Origin (3,) of the contact frame in the world in m, for example the sole frame's.
+        position: Origin (3,) of the contact frame in the world in m.
         rotation: Rotation (3, 3) from the contact to the world frame.
         rectangle: The contact area in the contact frame.
         friction: Coefficient of the friction pyramid, above 0.
-        preferred: Point (x, y) of the contact frame in m at which it prefers its centre of pressure; the rectangle's
-            middle where None.
+        preferred: Preferred center of pressure (x, y) in the contact frame in m; the rectangle's middle if None.
     """
 
     position: NDArray[np.float64]
@@ -39,12 +35,12 @@ class Contact:
 
     @property
     def limits(self) -> tuple[Rectangle, float, tuple[float, float] | None]:
-        """What does not depend on where the contact is."""
+        """Constraints that do not depend on the pose."""
         return self.rectangle, self.friction, self.preferred
 
     @lazy
     def center_in_world(self) -> tuple[float, float, float]:
-        """The preferred centre of pressure in the world frame in m."""
+        """The preferred center of pressure in the world frame in m."""
         x, y = self.preferred or self.rectangle.center
         (px, py, pz), (dx, dy, dz) = self.position.tolist(), self.rotation.dot(np.array((x, y, 0.0))).tolist()
         return px + dx, py + dy, pz + dz

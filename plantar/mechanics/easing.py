@@ -1,4 +1,4 @@
-"""How a share goes from 0 to 1 without a jump."""
+"""Smooth transitions from 0 to 1."""
 
 from __future__ import annotations
 

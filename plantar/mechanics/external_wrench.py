@@ -1,12 +1,11 @@
 """A wrench on the body in the dynamics of the divergent component of motion (K 6-12, corrected).
 
-The pendulum of height g / w^2 stands with its ZMP at u_ref and is pushed by a wrench about its CoM: a horizontal force
-F and a moment tau that the body, kept upright, hands on to the ground. Moments about the ZMP give
+The pendulum of height g / w^2 has its ZMP at u_ref; a wrench pushes its CoM with a horizontal force F and a moment tau
+that the upright body passes to the ground. Moments about the ZMP give
 
     x'' = w^2 (x - u_ref) + F / m + w^2 [tau_y, -tau_x] / (m g) = w^2 (x - u),    u = u_ref - (u_F + u_tau),
 
-so both parts push the CoM away from where a force above it leans (printed: u_F - u_tau). The vertical force is left
-out, as in K.
+so both parts push the CoM away (printed: u_F - u_tau). The vertical force is left out, as in K.
 """
 
 from __future__ import annotations
@@ -28,19 +27,17 @@ def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float
     """Offset u_w = u_F + u_tau of the VRP by a wrench on the body: u = u_ref - u_w (K 9-11 corrected).
 
     Args:
-        wrench: Wrench (..., 6) about the CoM in axes with z up in N and N m, exerted by the world on the robot; one
-            that holds NaN or inf gives such an offset.
+        wrench: Wrench (..., 6) about the CoM in axes with z up in N and N m, by the world on the robot; NaN or inf give
+            such an offset.
         mass: Mass of the robot in kg, above 0.
         omega: Pendulum frequency sqrt(g / z) in rad/s, above 0.
-        virtual_mass: nu of K 10-11: the share of its mass with which the robot answers a push; 1 is its own body, a
-            smaller one gives way more.
+        virtual_mass: nu of K 10-11: share of the mass that answers a push; a smaller one yields more.
 
     Returns:
-        Offset (..., 2) in m: where the ZMP would have to go for the CoM not to be accelerated by the wrench.
+        Offset (..., 2) in m: the ZMP at which the wrench would not accelerate the CoM.
 
     Raises:
-        InputError: If the wrench is not (..., 6) numbers, or mass, frequency or share of the mass not a finite number
-            above 0.
+        InputError: If the wrench is not (..., 6) numbers, or another argument not a finite number above 0.
 
     Example:
         >>> hip = vrp_offset([50.0, 0.0, 0.0, 0.0, 0.0, 0.0], 86.0, 3.44)
@@ -65,7 +62,7 @@ def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float
 def external_acceleration(
     wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0
 ) -> NDArray[np.float64]:
-    """Horizontal acceleration of the CoM by a wrench on the body, at a ZMP that stays (K 12 with its moment).
+    """Horizontal acceleration w^2 u_w (..., 2) in m/s^2 of the CoM by a wrench on the body, at a fixed ZMP (K 12).
 
     Args:
         wrench: Wrench (..., 6) as in `vrp_offset`.
@@ -74,7 +71,7 @@ def external_acceleration(
         virtual_mass: nu as in `vrp_offset`.
 
     Returns:
-        Acceleration (..., 2) in m/s^2: w^2 u_w.
+        The acceleration.
 
     Raises:
         InputError: As `vrp_offset`.
@@ -89,20 +86,19 @@ def external_acceleration(
 
 
 def push_of_dcm(impulse: ArrayLike, mass: float, omega: float, height: float = 0.0) -> NDArray[np.float64]:
-    """By how much a short push moves the DCM: J (1 + w^2 height / g) / (m w).
+    """Displacement of the DCM by a short push: J (1 + w^2 height / g) / (m w).
 
     Args:
         impulse: Horizontal impulse (..., 2) on the robot in N s.
         mass: Mass of the robot in kg, above 0.
         omega: Pendulum frequency in rad/s, above 0.
-        height: How far above the CoM the push acts in m, below 0 where it acts below.
+        height: Height of the push above the CoM in m.
 
     Returns:
-        Displacement (..., 2) of the DCM in m.
+        Displacement (..., 2) in m.
 
     Raises:
-        InputError: If the impulse is not (..., 2) numbers, mass or frequency not a finite number above 0, or the height
-            not finite.
+        InputError: If an argument is not valid.
 
     Example:
         >>> push_of_dcm([0.0, 20.0], 86.0, 3.44).round(4).tolist()
@@ -116,11 +112,6 @@ def push_of_dcm(impulse: ArrayLike, mass: float, omega: float, height: float = 0
 
 
 def _positive(value: float, name: str, unit: str) -> float:
-    """A number above 0 that is finite.
-
-    Raises:
-        InputError: If it is not.
-    """
     given = number(value, name, nan=True)
     if not 0.0 < given < math.inf:
         raise InputError(f"{name} is {value} {unit}; allowed: a finite value above 0")

@@ -1,7 +1,7 @@
 """Rotations in space, SO(3): exponential and logarithm, heading, level rotations, orthonormalisation.
 
 A rotation is a matrix (3, 3); R_a_to_b takes vectors of frame a into frame b. A rotation vector (3,) is the unit axis
-times the angle in rad; its exponential is the rotation (Rodrigues), and the logarithm leads back.
+times the angle in rad.
 """
 
 from __future__ import annotations
@@ -49,13 +49,10 @@ def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def sine_vector(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Axis times sine of the angle: the antisymmetric part of a rotation, its logarithm to first order.
+    """Axis times sine of the angle (3,): the antisymmetric part of a rotation, its logarithm to first order.
 
     Args:
         rotation: Rotation (3, 3).
-
-    Returns:
-        Vector (3,), of length 1 for a quarter turn and 0 again for a half turn.
 
     Example:
         >>> sine_vector(level_rotation(np.pi / 2)).tolist()
@@ -94,9 +91,9 @@ def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Error of a rotation as a vector of the frame that both lead to, for feedback and Newton steps.
+    """Error of a rotation as a vector (3,) of the common frame, for feedback and Newton steps.
 
-    Along the axis of the shortest way from `actual` to `wanted`; as long as the sine of the angle up to a quarter
+    Along the axis of the shortest turn from `actual` to `wanted`; its length is the sine of the angle up to a quarter
     turn, 1 beyond.
 
     Args:
@@ -104,7 +101,7 @@ def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> 
         actual: Rotation (3, 3) to the same frame.
 
     Returns:
-        Vector (3,) in the common frame.
+        The error.
 
     Example:
         >>> rotation_error(level_rotation(0.1), level_rotation(-3.0)).round(9).tolist()
@@ -155,12 +152,7 @@ def rotation_from_angles(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> N
 
 
 def orthonormalised(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """One Newton step towards the nearest rotation, R (3 I - R^T R) / 2: an error e becomes 1.5 e^2.
-
-    Args:
-        rotation: Matrix (3, 3), almost a rotation.
-
-    Returns:
-        Matrix (3, 3), nearer to one.
+    """One Newton step towards the nearest rotation, R (3 I - R^T R) / 2, of a matrix (3, 3): an error e becomes 1.5
+    e^2.
     """
     return np.asarray(rotation.dot(_THREE_HALVES - 0.5 * rotation.T.dot(rotation)))

@@ -18,13 +18,13 @@ _SOFT = 8  # daqp's word for a limit that may give way
 
 
 class Box(NamedTuple):
-    """Limits low <= rows y <= high; the first `hard` give way last where nothing keeps them all.
+    """Limits low <= rows y <= high; if they conflict, the first `hard` yield last.
 
     Attributes:
         rows: Rows (m, n), each of size 1.
         low: Lower ends (m,); -inf for none.
         high: Upper ends (m,); inf for none.
-        hard: How many are hard.
+        hard: Number of hard rows.
     """
 
     rows: NDArray[np.float64]
@@ -42,7 +42,7 @@ class Box(NamedTuple):
         low: NDArray[np.float64],
         high: NDArray[np.float64],
     ) -> Self:
-        """Scale two sets of rows.
+        """Both sets of rows together, each row scaled to size 1.
 
         Args:
             hard: Rows (h, n) of hard limits.
@@ -53,7 +53,7 @@ class Box(NamedTuple):
             high: Their upper ends (s,).
 
         Returns:
-            Both together, each row of size 1.
+            The box.
         """
         rows = np.vstack([hard, soft])
         sizes = np.maximum(np.sqrt(np.einsum("ij,ij->i", rows, rows)), np.finfo(float).tiny)
@@ -68,18 +68,18 @@ def nearest_within(
     target: NDArray[np.float64],
     weights: NDArray[np.float64],
 ) -> tuple[Box, NDArray[np.float64]]:
-    """What is nearest to the target in the directions `own` of what is left, so that some of the rest keeps the limits.
+    """Nearest point to the target in the directions `own` of what is left, such that some of the rest keeps the limits.
 
     Args:
         box: The limits of y.
-        y: What is settled already (n,).
+        y: The settled part (n,).
         left: Orthonormal basis (n, k) of what may still be added to it.
         own: Orthonormal directions (r, k) in this basis.
-        target: What is wanted along them (r,).
+        target: Wanted along them (r,).
         weights: Weight (r,) of a squared miss along each.
 
     Returns:
-        The limits, widened by as little as it takes where nothing keeps them, and what is reached along `own` (r,).
+        The limits, widened as little as needed, and the result (r,) along `own`.
     """
     reached = box.rows @ y
     rows, low, high = box.rows @ left, box.low - reached, box.high - reached
@@ -110,7 +110,7 @@ def nearest_within(
 
 
 def _widened(box: Box, y: NDArray[np.float64], left: NDArray[np.float64]) -> Box:
-    """Limits that can be kept: those of accelerations give way, and those of torques where this is not enough."""
+    """Feasible limits: those of accelerations yield first, then those of torques."""
     reached, least = box.rows @ y, _LEAST * np.eye(left.shape[1])
     for hard in (box.hard, 0):
         soft = np.where(np.arange(len(box.rows)) < hard, 0, _SOFT).astype(np.int32)
@@ -126,6 +126,6 @@ def _widened(box: Box, y: NDArray[np.float64], left: NDArray[np.float64]) -> Box
 def _miss(
     rows: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64], z: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """By how much each row misses its limits; negative within them."""
+    """By how much each row misses its limits; negative within."""
     at = rows @ z
     return np.asarray(np.maximum(low - at, at - high))

@@ -1,4 +1,4 @@
-"""Wrenches: force and moment together, and how they go from one frame to another.
+"""Wrenches and their change of frame.
 
 A wrench is an array [fx, fy, fz, tx, ty, tz] in N and N m about its frame's origin, exerted BY the world ON the robot.
 """
@@ -16,15 +16,7 @@ __all__ = ["Wrench", "wrench_at", "wrench_in_frame"]
 
 
 class Wrench(NamedTuple):
-    """A wrench with named components, where one reads better than an array; numpy takes it for one.
-
-    Attributes:
-        fx: Force along x in N.
-        fy: Force along y in N.
-        fz: Force along z in N.
-        tx: Moment about x in N m.
-        ty: Moment about y in N m.
-        tz: Moment about z in N m.
+    """A wrench with named components, forces in N and moments in N m; numpy accepts it as an array.
 
     Example:
         >>> Wrench.of([0.0, 0.0, 100.0, 5.0, -2.0, 0.0]).center_of_pressure
@@ -50,17 +42,17 @@ class Wrench(NamedTuple):
 
 
 def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
-    """The same wrench with its moment taken about another point.
+    """The same wrench (..., 6) with its moment about another point: tau_p = tau_o - p x f.
 
     Args:
-        wrench: Wrench (..., 6) about the frame's origin; one that holds NaN or inf gives such moments.
+        wrench: Wrench (..., 6) about the frame's origin; NaN or inf give such moments.
         point: New reference point (3,) in the same frame in m.
 
     Returns:
-        Wrench (..., 6) about `point`: tau_p = tau_o - p x f.
+        The wrench.
 
     Raises:
-        InputError: If the shapes are others, or the point is not finite.
+        InputError: If a shape is wrong, or the point is not finite.
 
     Example:
         >>> wrench_at(np.array([0.0, 0.0, 10.0, 0.0, -2.0, 0.0]), np.array([0.2, 0.0, 0.0])).tolist()

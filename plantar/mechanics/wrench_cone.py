@@ -1,4 +1,4 @@
-"""The wrenches that a rectangular contact can take without slipping, tipping or twisting (T 4.32-4.41, corrected)."""
+"""The wrenches of a rectangular contact without slipping, tipping or twisting (T 4.32-4.41, corrected)."""
 
 from __future__ import annotations
 
@@ -15,14 +15,7 @@ __all__ = ["Rectangle", "cone_rows", "wrench_cone"]
 
 
 class Rectangle(NamedTuple):
-    """Axis-aligned rectangle in the contact frame, signed coordinates in m.
-
-    Attributes:
-        x_min: Xmin, the rear edge.
-        x_max: Xmax, the front edge.
-        y_min: Ymin, the right edge.
-        y_max: Ymax, the left edge.
-    """
+    """Axis-aligned rectangle in the contact frame: rear, front, right and left edge, signed coordinates in m."""
 
     x_min: float
     x_max: float
@@ -39,19 +32,19 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
     """Facets of the contact wrench cone of a rectangle (T 4.32-4.41, corrected).
 
     The wrench w = [fx, fy, fz, tx, ty, tz] is exerted by the world on the robot, about the origin of the contact frame.
-    The cone is the span of a friction pyramid at each of the four corners; its 16 facets are |fx| <= mu fz and
-    |fy| <= mu fz, the centre of pressure inside the rectangle, and eight limits of the yaw moment, in which the
-    coordinates of the edges are signed. (The printed 4.40-4.41 and the split form mix the signs.)
+    The cone is the span of a friction pyramid at each corner; its 16 facets are |fx| <= mu fz and |fy| <= mu fz, the
+    center of pressure inside the rectangle, and eight limits of the yaw moment, in which the coordinates of the edges
+    are signed. (The printed 4.40-4.41 and the split form mix the signs.)
 
     Args:
-        rectangle: The contact; it may lie anywhere, and may have shrunk to a line or a point.
+        rectangle: The contact, anywhere, possibly a line or a point.
         friction: Coefficient mu of each corner's friction pyramid, above 0.
 
     Returns:
         Matrix (16, 6); w is in the cone where C w <= 0 in every row. Rows: fx, fy, tx, ty (two each), tz (eight).
 
     Raises:
-        InputError: If a number is not finite, the rectangle's edges have changed sides, or mu is not above 0.
+        InputError: If a number is not finite, the rectangle's edges are swapped, or mu is not above 0.
 
     Example:
         >>> cone = wrench_cone(Rectangle(-0.1, 0.1, -0.05, 0.05), 0.6)
@@ -72,7 +65,7 @@ def cone_rows(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
     """The rows (16, 6) of `wrench_cone` without its checks, for a control loop.
 
     Args:
-        rectangle: The contact; edges that have changed sides leave no wrench but 0.
+        rectangle: The contact; swapped edges allow no wrench but 0.
         friction: Coefficient mu.
 
     Returns:
@@ -103,8 +96,7 @@ def cone_rows(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=16)
 def _rows_of_friction(mu: float) -> NDArray[np.float64]:
-    """What of `cone_rows` (16, 6) does not depend on the rectangle, which fills the first three columns from the fifth
-    row on."""
+    """`cone_rows` (16, 6) for a friction; the rectangle fills the first three columns from the fifth row on."""
     return np.array(
         [
             [1.0, 0.0, -mu, 0.0, 0.0, 0.0],

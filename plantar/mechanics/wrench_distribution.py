@@ -5,12 +5,11 @@ the world frame and e = sum J_i w_i - w_d the error of the net wrench, it minimi
 
     net |e|^2 + ankle sum |m_i|^2 + pressure sum_(i<j) (s_j fz_i - s_i fz_j)^2 + friction sum (fx_i^2 + fy_i^2 + tz_i^2)
 
-with m_i the moment (x, y) about the point of contact i at which it prefers its centre of pressure, s_i its wanted share
-of the normal force, forces in body weights and moments in body weights times 0.1 m. By Lagrange's identity the sum over
-pairs is |s|^2 |fz|^2 - (s . fz)^2: it is 0 where the normal forces stand in the wanted proportion, for any sum;
-of two feet it is the ((1 - r) fz_1 - r fz_2)^2 of Caron et al. Each w_i stays in its wrench cone, its normal force at
-or above a minimum; one contact alone has no moment or share to choose. Cones live in the contact frames, so where the
-robot stands and heads only turns and shifts the costs: results 10 m away are the same.
+with m_i the moment (x, y) about the preferred center of pressure of contact i, s_i its wanted share of the normal
+force, forces in body weights and moments in body weights times 0.1 m. By Lagrange's identity the sum over pairs is
+|s|^2 |fz|^2 - (s . fz)^2: 0 where the normal forces are in the wanted proportion; of two feet the ((1 - r) fz_1 - r
+fz_2)^2 of Caron et al. Each w_i stays in its wrench cone, its normal force at or above a minimum. As cones are in the
+contact frames, results do not depend on where the robot is.
 """
 
 from __future__ import annotations
@@ -56,11 +55,11 @@ class DistributionState(StrEnum):
 
 @dataclass(frozen=True)
 class DistributionWeights:
-    """Weights of the cost, dimensionless; only their ratios matter.
+    """Weights of the cost, of which only ratios matter.
 
     Attributes:
         net: Of the error of the net wrench.
-        ankle: Of the moments about the preferred centres of pressure (foot compliance).
+        ankle: Of the moments about the preferred centers of pressure (foot compliance).
         pressure: Of the deviation from the wanted proportion of the normal forces.
         friction: Of tangential forces and yaw moments; makes the share unique.
     """
@@ -78,14 +77,13 @@ class DistributionWeights:
 
 
 class WrenchShare(Record, frozen=True):
-    """What each contact should take.
+    """The wrenches of a distribution.
 
     Attributes:
         state: How the distribution ended.
-        wrenches: Wrench (6,) of each contact by its name, in its frame about that frame's origin, by the world on the
-            robot.
+        wrenches: Wrench (6,) of each contact by name, in its frame about its origin, by the world on the robot.
         error: Their sum minus the wanted net wrench (6,) in the world frame, about the middle of the contacts.
-        violation: By how much the worst constraint is violated in N; 0 unless infeasible.
+        violation: Violation in N of the worst constraint; 0 unless infeasible.
     """
 
     state: DistributionState
@@ -94,7 +92,7 @@ class WrenchShare(Record, frozen=True):
     violation: float
 
     def center_of_pressure(self, name: str) -> NDArray[np.float64] | None:
-        """Centre of pressure (2,) of one contact in its frame in m; None without load (below 1 mN)."""
+        """Center of pressure (2,) of one contact in its frame in m; None without load (below 1 mN)."""
         return zmp_of_wrench(self.wrenches[name], 1e-3)
 
 
@@ -107,7 +105,7 @@ class Program:
         gradient: f (n,).
         constraints: A (m, n).
         upper: b (m,).
-        unit: What v = 1 means (n,) in N and N m.
+        unit: Unit (n,) of v in N and N m.
     """
 
     hessian: NDArray[np.float64]
@@ -118,7 +116,7 @@ class Program:
 
 
 class _Workspace:
-    """Arrays and solver for one number of contacts; filled in place, and only where something has changed."""
+    """Arrays and solver for one number of contacts, filled in place where something has changed."""
 
     def __init__(self, count: int, weight: float, length: float, weights: DistributionWeights) -> None:
         n = 6 * count
@@ -141,12 +139,12 @@ class _Workspace:
         self.program = WrenchProgram(scales, self.unit, self.jacobian, *filled)
 
     def forget(self) -> None:
-        """Start afresh: a request with numbers that are not finite leaves nothing behind."""
+        """Drop the state, after a request that is not finite."""
         self.contacts, self.solver = [None] * len(self.contacts), None
 
 
 class WrenchDistribution:
-    """Distributes net wrenches over contacts. One instance a controller: it keeps what does not change.
+    """Distributes net wrenches over contacts. One instance a controller.
 
     Args:
         weight: Weight of the robot in N; the unit of forces inside the program.
@@ -192,13 +190,13 @@ class WrenchDistribution:
         point: NDArray[np.float64] | Sequence[float],
         shares: Mapping[str, float] | None = None,
     ) -> WrenchShare:
-        """Share a net wrench. A request that cannot be met is no error: see `DistributionState`.
+        """Share a net wrench; an infeasible request is no error, see `DistributionState`.
 
         Args:
             contacts: The contacts by name, in order; none, one or several.
             wrench: Wanted net wrench (6,) in the world frame about `point`, by the world on the robot.
             point: Point (3,) of the world frame in m.
-            shares: Share of the normal force that each contact should carry, 0 to 1; equal shares where None.
+            shares: Share of the normal force of each contact, 0 to 1; equal if None.
 
         Returns:
             The share.
@@ -229,7 +227,6 @@ class WrenchDistribution:
         return WrenchShare(state, wrenches, error, violation)
 
     def _workspace(self, count: int) -> _Workspace:
-        """The workspace for a number of contacts, made at its first use."""
         work = self._workspaces.get(count)
         if work is None:
             work = self._workspaces[count] = _Workspace(count, self.weight, self.length, self.weights)
@@ -242,16 +239,16 @@ class WrenchDistribution:
         point: NDArray[np.float64] | Sequence[float],
         shares: Mapping[str, float] | None = None,
     ) -> Program:
-        """The program that `solve` solves, for checks against other solvers.
+        """A copy of the program that `solve` solves, to check it with other solvers.
 
         Args:
             contacts: One or more contacts.
-            wrench: Wanted net wrench (6,), as in `solve`.
-            point: Its point (3,).
-            shares: Their shares, as in `solve`.
+            wrench: As in `solve`.
+            point: As in `solve`.
+            shares: As in `solve`.
 
         Returns:
-            A copy of its matrices.
+            Its matrices.
 
         Raises:
             InputError: If there is no contact, the shares are not theirs, or the request is invalid.
@@ -345,7 +342,7 @@ class WrenchDistribution:
         return np.asarray(daqp.solve(work.hessian, work.gradient, work.constraints, relaxed, work.lower)[0])
 
     def _rest(self, contacts: Contacts, shares: tuple[float, ...]) -> WrenchShare:
-        """The body's weight, by the shares where they are some, at the preferred points."""
+        """The body's weight by the shares, at the preferred points."""
         parts = [max(0.0, share) for share in shares]
         total = sum(parts)
         if not (math.isfinite(sum(shares)) and total > 0.0):
@@ -359,7 +356,6 @@ class WrenchDistribution:
 
 
 def _plain(numbers: NDArray[np.float64] | Sequence[float]) -> Sequence[float]:
-    """Plain numbers: a tuple, as control loops hand over, is some already."""
     if type(numbers) is tuple:
         return numbers
     plain: list[float] = np.asarray(numbers, dtype=float).tolist()
@@ -367,7 +363,7 @@ def _plain(numbers: NDArray[np.float64] | Sequence[float]) -> Sequence[float]:
 
 
 def _in_order(contacts: Contacts, shares: Mapping[str, float] | None) -> tuple[float, ...]:
-    """The shares in the order of the contacts; equal ones where none are given."""
+    """The shares in the order of the contacts; equal if None."""
     if shares is None:
         return (1.0 / len(contacts),) * len(contacts)
     found = [shares[name] for name in contacts if name in shares]

@@ -20,9 +20,7 @@ __all__ = ["centroidal_moment_pivot", "zero_moment_wrench", "zmp_in_plane", "zmp
 
 
 def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 0.0) -> NDArray[np.float64] | None:
-    """Zero moment point of a wrench in a plane z = height (T 4.5-4.6).
-
-    There the wrench has no moment about x and y: p = [(h fx - ty) / fz, (h fy + tx) / fz].
+    """Zero moment point in a plane z = height (T 4.5-4.6): p = [(h fx - ty) / fz, (h fy + tx) / fz].
 
     Args:
         wrench: Wrench (6,) about the frame's origin.
@@ -30,10 +28,10 @@ def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 
         minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
 
     Returns:
-        Position (2,) in m, or None where the vertical force is below `minimum_force` or not above 0, or NaN.
+        Position (2,) in m, or None where the vertical force is below `minimum_force`, not above 0, or NaN.
 
     Raises:
-        InputError: If the wrench is not 6 numbers, or the height or least force no number.
+        InputError: If the wrench is not 6 numbers, or height or least force not a number.
 
     Example:
         >>> zmp_in_plane([10.0, 0.0, 100.0, 5.0, -2.0, 0.0], height=0.1).tolist()
@@ -44,7 +42,6 @@ def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 
 
 
 def _zero_moment_point(wrench: list[float], height: float, minimum_force: float) -> tuple[float, float] | None:
-    """`zmp_in_plane` of a wrench in plain numbers."""
     fx, fy, fz, tx, ty, _ = wrench
     height, minimum_force = _levels(height, minimum_force)
     if not (fz >= minimum_force and 0.0 < fz < math.inf):
@@ -61,19 +58,19 @@ def _levels(height: float, minimum_force: float) -> tuple[float, float]:
 def zero_moment_wrench(
     wrench: ArrayLike, height: float = 0.0, minimum_force: float = 0.0
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    """The ground reaction force with zero moment: the wrench transferred to its ZMP (T 4.2.4, after 4.23).
+    """The wrench transferred to its ZMP (T 4.2.4, after 4.23).
 
     Args:
         wrench: Wrench (6,) about the frame's origin.
         height: Height of the plane of the ZMP in m.
-        minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
+        minimum_force: As in `zmp_in_plane`.
 
     Returns:
-        The point (3,) in m and the wrench (6,) about it: the same force, moments 0 about x and y, and the twist about
-        z that is left; None without load.
+        The point (3,) in m and the wrench (6,) about it: the same force, moments 0 about x and y, and the remaining
+        twist about z; None without load.
 
     Raises:
-        InputError: If the wrench is not 6 numbers, or the height or least force no number.
+        InputError: As `zmp_in_plane`.
 
     Example:
         >>> point, moved = zero_moment_wrench([10.0, 0.0, 100.0, 5.0, -2.0, 0.3])
@@ -92,10 +89,9 @@ def zero_moment_wrench(
 def centroidal_moment_pivot(
     force: ArrayLike, com: ArrayLike, height: float = 0.0, minimum_force: float = 0.0
 ) -> NDArray[np.float64] | None:
-    """Centroidal moment pivot: where the line of the ground reaction force, put through the CoM, meets the ground.
+    """Where the line of the ground reaction force through the CoM meets the ground (Popovic, Goswami and Herr 2005).
 
-    It is the ZMP where the wrench has no moment about the CoM that tips the robot (Popovic, Goswami and Herr
-    2005).
+    It is the ZMP where the wrench has no tipping moment about the CoM.
 
     Args:
         force: Ground reaction force (3,) or wrench (6,) of all feet in N.
@@ -107,7 +103,7 @@ def centroidal_moment_pivot(
         Position (2,) in m, or None without load.
 
     Raises:
-        InputError: If the force is not 3 or 6 numbers, the CoM not 3, or the height or least force no number.
+        InputError: If force, CoM, height or least force are not valid.
 
     Example:
         >>> centroidal_moment_pivot([50.0, 0.0, 500.0], [0.0, 0.1, 0.8]).round(9).tolist()
@@ -157,12 +153,11 @@ def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[fl
         vertical_forces: Vertical force of each foot in N.
 
     Returns:
-        Position (2,) in the common frame in m, or None where no foot carries load. A foot cannot pull: one whose force
-        is NaN, 0 or less is left out.
+        Position (2,) in the common frame in m, or None without load. A foot whose force is NaN, 0 or less is left out.
 
     Raises:
-        InputError: If there are not as many points as forces, one is not numeric or not finite, or a foot that carries
-            load has no point.
+        InputError: If there are not as many points as forces, one is not a finite number, or a loaded foot has no
+            point.
 
     Example:
         >>> zmp_of_feet([np.array([0.0, 0.1]), np.array([0.0, -0.1])], [300.0, 100.0]).tolist()

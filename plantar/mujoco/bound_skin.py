@@ -30,14 +30,14 @@ _MOST_DATA = 4096
 
 
 class SkinReading(Reading):
-    """A `Reading`, and what of a contact only a simulation knows. All in the sole frame; n taxels.
+    """A `Reading` with what only a simulation knows of a contact. All in the sole frame; n taxels.
 
     Attributes:
         force: Force (n,) along each taxel's axis in N, as in every `Reading`.
         vectors: Force (n, 3) on each taxel in N; their sum and moment are those of `wrench` where `carried`.
-        wrench: Wrench (6,) of MuJoCo's contacts about the sole frame's origin, exerted on the body, in N and N m.
-        depth: How deep (n,) the geoms overlap at each taxel in the contact in m, 0 elsewhere.
-        carried: Whether the taxels have the whole wrench. False where its centre of pressure lies beyond the outermost
+        wrench: Wrench (6,) of MuJoCo's contacts on the body about the sole frame's origin in N and N m.
+        depth: Overlap (n,) of the geoms at each taxel in m, 0 elsewhere.
+        carried: Whether the taxels have the whole wrench. False where its center of pressure is beyond the outermost
             taxels, or the contacts pull: then the forces add up to the load alone.
     """
 
@@ -48,7 +48,7 @@ class SkinReading(Reading):
 
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Centre of pressure (2,) of the contacts at z = 0 in m, also beyond the taxels; None without load."""
+        """Center of pressure (2,) of the contacts at z = 0 in m, also beyond the taxels; None without load."""
         fz = float(self.wrench[2])
         return np.array([-self.wrench[4] / fz, self.wrench[3] / fz]) if fz > 0.0 else None
 
@@ -58,7 +58,7 @@ class SkinReading(Reading):
 
 
 class BoundSkin:
-    """A skin in a model; `plantar.mujoco.Skin.bind` makes it. Reading it changes nothing in the simulation.
+    """A skin in a model, made by `plantar.mujoco.Skin.bind`. Reading it does not change the simulation.
 
     Attributes:
         model: The MjModel.
@@ -67,8 +67,8 @@ class BoundSkin:
         geom_ids: Ids of the geoms that can touch.
         position_in_body: Origin (3,) of the sole frame in the body's frame in m.
         rotation_to_body: Rotation (3, 3) from the sole frame to the body's.
-        reach: Gap in m up to which a contact that carries nothing counts as near.
-        static: Places, axes, areas and widths of the taxels and the hull of the places, as `TaxelLoad` takes them.
+        reach: Gap in m up to which a contact without load counts as near.
+        static: Places, axes, areas and widths of the taxels and the hull of the places, as in `TaxelLoad`.
     """
 
     def __init__(
@@ -108,17 +108,7 @@ class BoundSkin:
         return len(self.layout)
 
     def __call__(self, data: Any) -> SkinReading:
-        """Read the skin.
-
-        Args:
-            data: An MjData of the model after `mj_step` or `mj_forward`.
-
-        Returns:
-            The reading, whose arrays are its own.
-
-        Raises:
-            InputError: If the data are of another model.
-        """
+        """Read the skin from an MjData of the model after `mj_step` or `mj_forward`; InputError for another model."""
         view = self._views.get(id(data))
         if view is None:
             view = self._look_in(data)
@@ -135,11 +125,11 @@ class BoundSkin:
         )
 
     def percept(self, data: Any) -> Percept:
-        """The skin's reading with everything that Plantar computes of it, see `plantar.Percept`."""
+        """The skin's reading as a `plantar.Percept`."""
         return Percept(self.layout, self(data))
 
     def pose(self, data: Any) -> SolePose:
-        """Where the sole frame is in the world."""
+        """The sole frame in the world."""
         turn = data.xmat[self.body].reshape(3, 3)
         return SolePose(turn @ self.rotation_to_body, data.xpos[self.body] + turn @ self.position_in_body)
 
@@ -148,7 +138,7 @@ class BoundSkin:
 
         Args:
             datas: MjData of the model, each after `mj_step` or `mj_forward`.
-            threads: How many threads share them.
+            threads: Number of threads.
 
         Returns:
             Force (b, n, 3) on each taxel in N and wrench (b, 6), in the sole frame.
@@ -167,20 +157,18 @@ class BoundSkin:
     def rollout(
         self, states: NDArray[np.float64], controls: NDArray[np.float64] | None = None, threads: int = 1
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Read the skin along trajectories as `mujoco.rollout` returns them.
-
-        Each state is set and passed through `mj_forward`.
+        """Read the skin along trajectories as of `mujoco.rollout`; each state passes `mj_forward`.
 
         Args:
             states: Full physics states (..., nstate), of `mujoco.mjtState.mjSTATE_FULLPHYSICS`.
-            controls: Controls (..., nu) at these states; as the states' data have them where None.
-            threads: How many threads share the trajectories; MuJoCo's part runs in parallel.
+            controls: Controls (..., nu) at these states; the default ones if None.
+            threads: Number of threads; MuJoCo's part runs in parallel.
 
         Returns:
             Force (..., n, 3) on each taxel in N and wrench (..., 6), in the sole frame.
 
         Raises:
-            InputError: If states or controls have another size than the model's.
+            InputError: If states or controls do not have the model's size.
         """
         kind = mujoco.mjtState.mjSTATE_FULLPHYSICS
         given = np.asarray(states, dtype=np.float64)
@@ -213,7 +201,7 @@ class BoundSkin:
         return vectors.reshape(*lead, len(self), 3), wrenches.reshape(*lead, 6)
 
     def _look_in(self, data: Any) -> _View:
-        """What is kept for reading an MjData again."""
+        """The view of an MjData, kept for the next reading."""
         if not isinstance(data, mujoco.MjData):
             raise InputError(f"a skin is read from a mujoco.MjData; got a {type(data).__name__}")
         shapes = (data.qpos.size, data.qvel.size, len(data.xpos), len(data.geom_xpos))
@@ -226,8 +214,7 @@ class BoundSkin:
         return view
 
     def _distances(self, view: _View) -> NDArray[np.float64]:
-        """Distance (n,) from each taxel along its outward axis to the nearest geom of another body in m; inf beyond the
-        range."""
+        """Distance (n,) from each taxel outwards to the nearest geom of another body in m; inf beyond the range."""
         axes = self.static[1] @ view.rotation.T
         starts = view.origin + self.static[0] @ view.rotation.T + _LIFT * axes
         geom = np.empty(1, dtype=np.int32)
@@ -254,7 +241,7 @@ class _View:
         self._seen.look_from(self.origin, self.rotation)
 
     def load(self) -> TaxelLoad:
-        """What the taxels carry now; the same object each time."""
+        """The load of the taxels now; the same object each time."""
         foot: FootContacts = self._reader.read()[0]
         np.dot(self._turn, self._rotation, self.rotation)
         np.dot(self._turn, self._position, self.origin)
@@ -278,7 +265,6 @@ def _made(
 
 
 def _shared(work: Any, threads: int) -> None:
-    """Run some work once for each thread."""
     if threads == 1:
         work(0)
         return

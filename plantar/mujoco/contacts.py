@@ -19,7 +19,7 @@ _ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
 
 
 class ContactReader:
-    """Gathers the contacts of several feet of one simulation again and again.
+    """Gathers the contacts of several feet of one simulation.
 
     Args:
         model: The MjModel, whose friction cones stay as they are.
@@ -37,8 +37,7 @@ class ContactReader:
         self._lists: dict[int, ContactList] = {}
 
     def read(self) -> tuple[FootContacts, ...]:
-        """The contacts of each foot as the last `mj_step` or `mj_forward` left them; the same objects each time, which
-        the next reading changes."""
+        """Each foot's contacts after the last `mj_step` or `mj_forward`, in objects that the next reading changes."""
         data, n = self._data, self._data.ncon
         if not n:
             for foot in self._feet:
@@ -51,7 +50,6 @@ class ContactReader:
         return self._feet
 
     def _list(self) -> ContactList:
-        """Where MuJoCo lists so many contacts as there are now."""
         c = self._data.contact
         friction = None if self._elliptic else c.friction
         return ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim, friction)

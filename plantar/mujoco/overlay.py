@@ -1,4 +1,4 @@
-"""Taxels, centre of pressure and support polygon drawn into a MuJoCo scene, in a viewer or a video."""
+"""Taxels, center of pressure and support polygon drawn into a MuJoCo scene, in a viewer or a video."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def draw_skin(scene: Any, feel: BoundSkin, data: Any, *, full: float | None = No
     """Add a skin to a scene: for example to `viewer.user_scn`, or to a renderer's `scene` after `update_scene`.
 
     Args:
-        scene: The `mujoco.MjvScene`; geoms are added after those that it has, as long as there is room.
+        scene: The `mujoco.MjvScene`; geoms are added while there is room.
         feel: The skin.
         data: The MjData.
-        full: Force in N of a taxel that is drawn in full colour; the largest one of the reading where None.
-        lift: How far in m outside the sole it is drawn.
+        full: Force in N of a taxel in full color; the largest one of the reading if None.
+        lift: Distance in m outside the sole.
 
     Returns:
-        How many geoms were added.
+        Number of added geoms.
     """
     reading, pose = feel(data), feel.pose(data)
     turn = pose.rotation_sole_to_world

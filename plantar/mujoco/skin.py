@@ -1,4 +1,4 @@
-"""`Skin`: what a plantar skin is to be on which body of a MuJoCo model, and the checks that it can be there."""
+"""`Skin`: a plantar skin for a body of a MuJoCo model, and the checks that it fits."""
 
 from __future__ import annotations
 
@@ -38,25 +38,23 @@ _NEAR = 0.004  # m: how far a site may be from the face
 class Skin:
     """A plantar skin for a body of any MuJoCo model.
 
-    The sole's face is the lowest one of the body's collision shapes in the reference pose (first keyframe, or
-    `qpos0`); its origin lies below the body's, x is the world's x there. Wrong set-ups that geometry shows are
-    refused.
+    The sole's face is the lowest one of the body's collision shapes in the reference pose (first keyframe, or `qpos0`);
+    its origin is below the body's, x is the world's x there. Set-ups that contradict the geometry are refused.
 
     Args:
         layout: Layout, or path of a layout file; None fits hexagons to the body's shapes.
         body: Name of the body, for example "left_ankle_roll_link".
-        geoms: Names of the geoms that can touch; every colliding one of the body and of what is fixed to it where None.
-        site: Name of a site that is the sole frame, if the model has one; it is checked against the shapes.
-        outward: Which way (3,) the sole faces in the body's frame; down in the reference pose where None.
-        forward: Which way (3,) is forward in the body's frame; the world's x in the reference pose where None.
-        cell_area: Area of a fitted cell in m^2; 691 mm^2, or a thirtieth of a small sole, where None.
+        geoms: Names of the geoms that can touch; every colliding one of the body and of parts fixed to it if None.
+        site: Name of a site that is the sole frame; it is checked against the shapes.
+        outward: Direction (3,) of the sole in the body's frame; down in the reference pose if None.
+        forward: Forward direction (3,) in the body's frame; the world's x in the reference pose if None.
+        cell_area: Area of a fitted cell in m^2; if None 691 mm^2, or a thirtieth of a small sole.
         partial: Whether a layout may cover a small part of the sole.
         proximity: Range in m of proximity sensors; None for none.
-        reach: Gap in m up to which a contact that carries nothing still counts as near.
+        reach: Gap in m up to which a contact without load counts as near.
 
     Raises:
-        InputError: If an argument is not what it should be.
-        LayoutError: If the layout or its file is not valid, or a taxel does not face the ground.
+        InputError, LayoutError: If an argument is not valid.
     """
 
     def __init__(
@@ -96,10 +94,8 @@ class Skin:
         self.reach = number(reach, "reach", finite=True)
 
     def edit(self, spec: Any) -> None:
-        """Add a site that shows the sole frame, "BODY_skin", to a `mujoco.MjSpec`; the physics stay as they are.
-
-        Args:
-            spec: The specification, before it is compiled.
+        """Add a site at the sole frame, "BODY_skin", to a `mujoco.MjSpec` before it is compiled; the physics do not
+        change.
 
         Raises:
             RobotError: As `bind`.
@@ -112,17 +108,14 @@ class Skin:
         body.add_site(name=f"{self.body}_skin", pos=shape.position, quat=quat, size=[0.005] * 3, group=4)
 
     def bind(self, model: Any) -> BoundSkin:
-        """Place the skin in a compiled model.
-
-        Args:
-            model: The MjModel.
+        """Place the skin in a compiled MjModel.
 
         Returns:
-            What reads the skin: call it with an `MjData` after `mj_step` or `mj_forward`.
+            The reader: call it with an `MjData` after `mj_step` or `mj_forward`.
 
         Raises:
-            RobotError: If the model has no such body, geom or site, the body has no shape that collides, or the layout
-                or the site cannot be right: turned, tilted, upside down, scaled, mirrored, or another body's.
+            RobotError: If the model has no such body, geom or site, the body has no colliding shape, or the layout or
+                the site is wrong: turned, tilted, upside down, scaled, mirrored, or another body's.
         """
         geoms, shape = self._place(model)
         layout = self.layout or self._fitted(shape)
@@ -134,7 +127,6 @@ class Skin:
         )
 
     def _place(self, model: Any) -> tuple[list[int], SoleShape]:
-        """The geoms that can touch, and the sole that they make."""
         if not isinstance(model, mujoco.MjModel):
             raise InputError(f"a skin is bound to a mujoco.MjModel; got a {type(model).__name__}")
         body = _found(model, "body", self.body)
@@ -156,7 +148,7 @@ class Skin:
         return geoms, shape if self.site is None else self._at_site(model, body, shape)
 
     def _at_site(self, model: Any, body: int, shape: SoleShape) -> SoleShape:
-        """The sole with a site as its frame, which has to lie on the face and look the same way."""
+        """The sole with a site as its frame, which has to be on the face, facing the same way."""
         site = _found(model, "site", str(self.site))
         owner = int(model.site_bodyid[site])
         if owner != body:
@@ -183,7 +175,6 @@ class Skin:
         return shape._replace(position=position, rotation=rotation, outline=(outline @ rotation)[:, :2])
 
     def _fitted(self, shape: SoleShape) -> SoleLayout:
-        """Hexagons on the body's own sole."""
         import shapely
 
         area = self.cell_area or min(_CELL_AREA, shapely.Polygon(shape.outline).area / _CELLS)
@@ -197,7 +188,6 @@ class Skin:
         )
 
     def _check(self, layout: SoleLayout, shape: SoleShape) -> None:
-        """Refuse a layout that cannot be this body's."""
         import shapely
 
         side = _side_in(self.body)
@@ -244,14 +234,13 @@ class Skin:
 
 
 def _cells(layout: SoleLayout) -> Any:
-    """The area that the cells cover, as one shape."""
     import shapely
 
     return shapely.union_all([shapely.Polygon(layout.cell_polygon(i)).buffer(1e-6) for i in range(len(layout))])
 
 
 def _fit(cells: Any, sole: Any) -> float:
-    """Share of cells and sole together that both cover."""
+    """Share of the union of cells and sole that both cover."""
     return float(cells.intersection(sole).area / cells.union(sole).area)
 
 
@@ -260,14 +249,13 @@ def _diameter(points: NDArray[np.float64]) -> float:
 
 
 def _side_in(name: str) -> str | None:
-    """The side that a body's name holds as a word, or None."""
+    """The side that a body's name contains as a word, or None."""
     words = re.split(r"[^a-z]+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower())
     sides = {"left" for w in words if w in ("left", "l")} | {"right" for w in words if w in ("right", "r")}
     return sides.pop() if len(sides) == 1 else None
 
 
 def _found(model: Any, kind: str, name: str) -> int:
-    """Id of an object of the model."""
     what = {"body": mujoco.mjtObj.mjOBJ_BODY, "geom": mujoco.mjtObj.mjOBJ_GEOM, "site": mujoco.mjtObj.mjOBJ_SITE}[kind]
     found = int(mujoco.mj_name2id(model, what, name))
     if found < 0:

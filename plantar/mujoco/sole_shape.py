@@ -1,4 +1,4 @@
-"""The sole of a body in a MuJoCo model, found from its collision geoms: which face it has, and its outline."""
+"""Face and outline of a body's sole in a MuJoCo model, from its collision geoms."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class SoleShape(NamedTuple):
     """A sole, in the frame of its body.
 
     Attributes:
-        position: Origin (3,) of the sole frame: where the body's own origin meets the face, along its normal.
+        position: Origin (3,) of the sole frame: the body's origin projected onto the face.
         rotation: Rotation (3, 3) from the sole frame to the body's; columns forward, left, and into the body.
         outline: Convex outline (k, 2) in the sole frame, counter-clockwise.
         side: "left" where the body is to the left of the world's x axis in the reference pose, else "right".
-        is_flat: Whether the geoms have a face there; else the sole is round, and its frame is the world's.
+        is_flat: Whether the geoms have a face; else the sole is round, and its frame is the world's.
     """
 
     position: NDArray[np.float64]
@@ -38,14 +38,14 @@ class SoleShape(NamedTuple):
 
 
 def rigid_geoms(model: Any, body: int) -> list[int]:
-    """Geoms that can collide, of a body and of those that are fixed to it.
+    """Ids of the geoms that can collide, of a body and of those fixed to it.
 
     Args:
         model: The MjModel.
         body: Id of the body.
 
     Returns:
-        Ids of the geoms.
+        The ids.
     """
     fixed = {body}
     for child in range(body + 1, model.nbody):
@@ -66,20 +66,20 @@ def sole_shape(
     outward: NDArray[np.float64] | None = None,
     forward: NDArray[np.float64] | None = None,
 ) -> SoleShape:
-    """Find a body's sole: the face of its geoms that is lowest in the model's reference pose.
+    """Find a body's sole: the lowest face of its geoms in the model's reference pose.
 
     Args:
-        model: The MjModel; its reference pose is the first keyframe, or `qpos0` where it has none.
+        model: The MjModel; its reference pose is the first keyframe, or else `qpos0`.
         body: Id of the body.
         geoms: Ids of the geoms that can touch.
-        outward: Which way (3,) the sole faces, in the body's frame; where gravity points in the reference pose if None.
-        forward: Which way (3,) is forward, in the body's frame; the world's x in the reference pose if None.
+        outward: Direction (3,) of the sole in the body's frame; gravity's in the reference pose if None.
+        forward: Forward direction (3,) in the body's frame; the world's x in the reference pose if None.
 
     Returns:
         The sole.
 
     Raises:
-        RobotError: If the geoms have no extent, or the direction that is forward is the one that the sole faces.
+        RobotError: If the geoms have no extent, or both directions are the same.
     """
     data = mujoco.MjData(model)
     if model.nkey:
@@ -108,8 +108,9 @@ def sole_shape(
 
 
 class _Part(NamedTuple):
-    """Points (m, 3) on the surface of a geom in the frame of its body; the radius of a round one, whose centres
-    (c, 3) are its exact shape."""
+    """Points (m, 3) on a geom's surface in its body's frame; a round one's radius, and centers (c, 3) as its exact
+    shape.
+    """
 
     points: NDArray[np.float64]
     centres: NDArray[np.float64] | None = None
@@ -158,13 +159,12 @@ def _ball() -> NDArray[np.float64]:
 
 
 def _exact(part: _Part, down: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points of a part in which a face can lie: its corners, or of a round one those that are lowest."""
+    """Points of a part in which a face can lie: its corners, or the lowest ones if round."""
     return part.points if part.centres is None else part.centres + part.radius * down
 
 
 def _face(parts: list[_Part], down: NDArray[np.float64], model: Any) -> tuple[NDArray[np.float64], bool]:
-    """Outward normal (3,) of the large face that is nearest to a direction, and True; the direction, and False, where
-    there is none."""
+    """Normal (3,) of the large face nearest to a direction, and True; else the direction, and False."""
     from scipy.spatial import ConvexHull, QhullError
 
     start = down
@@ -205,7 +205,7 @@ def _triangle(corners: NDArray[np.float64]) -> float:
 
 
 def _area_across(points: NDArray[np.float64], axis: NDArray[np.float64]) -> float:
-    """Area in m^2 of the hull of points seen along an axis."""
+    """Area in m^2 of the hull of points projected along an axis."""
     import shapely
 
     first = np.cross(axis, [1.0, 0.0, 0.0] if abs(axis[0]) < 0.9 else [0.0, 1.0, 0.0])
@@ -214,7 +214,7 @@ def _area_across(points: NDArray[np.float64], axis: NDArray[np.float64]) -> floa
 
 
 def _outline(parts: list[_Part], position: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Hull (k, 2) of what lies within `_DEPTH` of the lowest point, in the sole frame."""
+    """Hull (k, 2) of the points within `_DEPTH` of the lowest one, in the sole frame."""
     import shapely
     from scipy.spatial import ConvexHull, QhullError
 

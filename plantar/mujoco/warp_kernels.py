@@ -1,8 +1,8 @@
 # mypy: ignore-errors
-"""What `plantar.kernels.contacts.taxel_load` computes, for many worlds at once by NVIDIA Warp, a thread a world.
+"""`plantar.kernels.contacts.taxel_load` for many worlds at once by NVIDIA Warp, a thread a world.
 
-The steps and names are those of the kernel, where they are explained. Numbers are float64; MuJoCo Warp's contacts that
-they are computed from are float32. `wp.int32(0)` declares a variable that a loop changes.
+Steps and names are those of that kernel. Numbers are float64, computed from MuJoCo Warp's float32 contacts.
+`wp.int32(0)` declares a variable that a loop changes.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Contacts:
 
 @_struct
 class Work:
-    """Contacts of the sole in each world in the sole frame, and arrays that a world's thread works in."""
+    """Contacts of each world in the sole frame, and work arrays of a world's thread."""
 
     size: wp.array(dtype=wp.int32)
     pair: wp.array2d(dtype=wp.vec2i)
@@ -87,7 +87,7 @@ class Work:
 
 @_kernel
 def gather(sole: Sole, contacts: Contacts, work: Work):
-    """Put each contact of the sole into its world's list, in the sole frame; one thread a contact.
+    """Add each contact of the sole to its world's list, in the sole frame; one thread a contact.
 
     Args:
         sole: The sole.
@@ -415,7 +415,7 @@ def press(sole: Sole, work: Work):
 
     Args:
         sole: The sole.
-        work: Holds the lists of `gather`; receives forces, wrench and whether it is carried.
+        work: Lists of `gather`; receives forces, wrench and whether it is carried.
     """
     w = wp.tid()
     count = wp.min(work.size[w], work.gap.shape[1])

@@ -1,4 +1,4 @@
-"""A plantar skin in many worlds of MuJoCo Warp at once, on a GPU or, with the same numbers, on the CPU."""
+"""A plantar skin in many worlds of MuJoCo Warp at once, on a GPU or the CPU, with the same numbers."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ class WarpSkin:
     """Reads a bound skin in the worlds of a `mujoco_warp.Data`.
 
     Args:
-        skin: The skin, bound to the MjModel that the worlds are of.
+        skin: The skin, bound to the worlds' MjModel.
         worlds: Number of worlds.
-        contacts: Most contacts that the sole has in one world.
-        elliptic: Whether the model has elliptic friction cones; as the MjModel where None.
+        contacts: Most contacts of the sole in one world.
+        elliptic: Whether the model has elliptic friction cones; as the MjModel if None.
 
     Attributes:
         vectors: Force (worlds, n) of vec3d on each taxel in the sole frame in N; the same Warp array at each reading.
@@ -33,8 +33,7 @@ class WarpSkin:
         carried: 1 for each world (worlds,) whose taxels have the whole wrench, else 0.
 
     Raises:
-        DependencyError: If Warp is not installed.
-        InputError: If a number is below 1.
+        DependencyError, InputError: If an argument is not valid.
     """
 
     def __init__(self, skin: BoundSkin, worlds: int, contacts: int = _CONTACTS, elliptic: bool | None = None) -> None:
@@ -59,7 +58,6 @@ class WarpSkin:
         self.vectors, self.wrench, self.carried = self._work.vectors, self._work.wrench, self._work.carried
 
     def _room(self, count: int, room: int) -> Any:
-        """The arrays that the worlds work in."""
         wp, b = self._wp, self._worlds
         work: Any = warp_kernels.Work()
         work.size, work.carried = wp.zeros(b, dtype=wp.int32), wp.zeros(b, dtype=wp.int32)
@@ -74,13 +72,11 @@ class WarpSkin:
         return work
 
     def read(self, data: Any) -> None:
-        """Read the skin in all worlds: `vectors`, `wrench` and `carried` hold it afterwards.
+        """Read the skin in all worlds into `vectors`, `wrench` and `carried`.
 
         Args:
-            data: A `mujoco_warp.Data` of the worlds after a step or `forward`.
-
-        Raises:
-            InputError: If it has another number of worlds.
+            data: A `mujoco_warp.Data` of the worlds after a step or `forward`; an InputError for another number of
+                worlds.
         """
         if data.xpos.shape[0] != self._worlds:
             raise InputError(f"data have {data.xpos.shape[0]} worlds; the skin was made for {self._worlds}")
@@ -101,5 +97,5 @@ class WarpSkin:
         wp.launch(warp_kernels.press, dim=self._worlds, inputs=[self._sole, self._work])
 
     def numpy(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-        """What was read last: force (worlds, n, 3), wrench (worlds, 6) and whether it is carried (worlds,)."""
+        """The last reading: force (worlds, n, 3), wrench (worlds, 6) and whether it is carried (worlds,)."""
         return self.vectors.numpy(), self.wrench.numpy(), self.carried.numpy().astype(bool)

@@ -1,1 +1,1 @@
-"""Everything that a sole, or both, perceive of one reading, each computed when it is asked for."""
+"""Everything that one sole or both perceive in one reading, computed on demand."""

@@ -1,4 +1,4 @@
-"""Activation, wrench, contact area and centre of pressure of forces in arrays of any library: torch, JAX, CuPy, numpy.
+"""Activation, wrench, contact area and center of pressure of forces in arrays of torch, JAX, CuPy or numpy.
 
 Arrays of the array API standard, and torch's, keep library, device and type. Sums are differentiable in the forces of
 active taxels. On a CPU `plantar.batch` is faster.
@@ -19,7 +19,7 @@ __all__ = ["ArrayLoads", "active", "loads"]
 
 
 class ArrayLoads(NamedTuple):
-    """What forces sum up to; "..." are their dimensions before the taxels.
+    """Sums of forces; "..." are their dimensions before the taxels.
 
     Attributes:
         wrench: Ground reaction wrench (..., 6) about the sole frame's origin in N and N m (T 4.23).
@@ -33,18 +33,18 @@ class ArrayLoads(NamedTuple):
 
 
 def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> Any:
-    """Which taxels are active (T 4.22): above the threshold and below the layout's force limit; a dead one never is.
+    """Active taxels (T 4.22): above the threshold and below the layout's force limit, not dead.
 
     Args:
         layout: The sole, n taxels.
         force: Normal forces (..., n) in N, an array of real floating point numbers.
-        threshold: Activation threshold in N; the layout's own where None.
+        threshold: Activation threshold in N; the layout's if None.
 
     Returns:
         Mask (..., n) of the same library.
 
     Raises:
-        ReadingError: If the forces have another shape, are no such numbers, or of a library without a namespace.
+        ReadingError: If the forces have another shape or type, or their library has no namespace.
 
     Example:
         >>> from plantar import grid_layout
@@ -63,11 +63,11 @@ def loads(layout: SoleLayout, force: Any, threshold: float | None = None) -> Arr
 
     Args:
         layout: The sole, n taxels.
-        force: Normal forces (..., n) in N, an array of real floating point numbers.
-        threshold: Activation threshold in N; the layout's own where None.
+        force: As in `active`.
+        threshold: As in `active`.
 
     Returns:
-        The sums, of the same library, device and type of numbers. The derivative of a CoP without load is 0.
+        The sums, of the same library, device and type. The derivative of a CoP without load is 0.
 
     Raises:
         ReadingError: As `active`.
@@ -112,7 +112,7 @@ def _namespace(layout: SoleLayout, force: Any) -> Any:
 
 
 def _constant(xp: Any, values: Any, like: Any) -> Any:
-    """A constant of the sole with the forces' their library, type of numbers and device."""
+    """A constant of the sole in the forces' library, type and device."""
     if not hasattr(like, "__array_namespace__"):
         return xp.as_tensor(values, dtype=like.dtype, device=like.device)
     # Where a library has several devices, what is not on the default one has to be stated; JAX moves it by itself.

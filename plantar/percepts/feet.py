@@ -1,4 +1,4 @@
-"""What two feet feel together, in the world frame; each member computed at first use and kept."""
+"""The joint percept of two feet in the world frame, each member computed at first use."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
 from plantar.mechanics.zmp import zmp_in_plane
 from plantar.percepts.percept import Percept
-from plantar.percepts.sole_pose import SolePose, wrench_of_feet
-from plantar.percepts.support import feet_support_polygon
+from plantar.percepts.sole_pose import SolePose, feet_support_polygon, wrench_of_feet
 
 __all__ = ["FeetPercept"]
 
@@ -27,10 +26,10 @@ class FeetPercept:
     Args:
         percepts: Percept of each sole.
         poses: Pose of each sole in the world.
-        ground_height: Height in m of the horizontal plane that the ZMP lies in.
+        ground_height: Height in m of the ZMP's horizontal plane.
 
     Raises:
-        InputError: If there are not as many poses as percepts, or none, or one of them is something else.
+        InputError: If there are not as many poses as percepts, or none, or one is of another class.
 
     Example:
         >>> from plantar import Reading, hex_layout, mirrored
@@ -60,7 +59,7 @@ class FeetPercept:
 
     @lazy
     def positions_cop_in_world(self) -> tuple[NDArray[np.float64] | None, ...]:
-        """CoP (3,) of each sole on its surface, in the world in m; None for a sole without load (T 4.21)."""
+        """CoP (3,) of each sole on its surface, in the world in m; None without load (T 4.21)."""
         return tuple(
             None if p.surface_cop_in_sole is None else pose.to_world(p.surface_cop_in_sole)
             for p, pose in zip(self.percepts, self.poses, strict=True)
@@ -85,7 +84,7 @@ class FeetPercept:
 
     @lazy
     def preemptive_polygon_in_world(self) -> NDArray[np.float64] | None:
-        """Convex polygon (k, 2) of all near cells in m (T 4.2.7, Fig. 37-g); None where no sole has proximity."""
+        """Convex polygon (k, 2) of all near cells in m (T 4.2.7, Fig. 37-g); None without proximity."""
         known = [
             pose.polygon_to_world(polygon if p.layout.is_level else _corners(p.layout, p.near))
             for p, pose in zip(self.percepts, self.poses, strict=True)

@@ -1,4 +1,4 @@
-"""What a walking controller needs of a foot at every tick, in one call: for loops at 1 kHz and faster."""
+"""One foot for a walking controller at every tick, in one call, for loops at 1 kHz and faster."""
 
 from __future__ import annotations
 
@@ -61,16 +61,15 @@ def walking_tick(
     Args:
         layout: The sole, n taxels.
         force: Normal forces (n,) in N.
-        aim: Point in the sole frame in m that should be clamped to the safe polygon, for example a desired ZMP.
-        offset: Safety distance in m that the safe polygon keeps from the support polygon's edges.
-        threshold: Activation threshold in N; the layout's own where None.
+        aim: Point in the sole frame in m to clamp to the safe polygon, for example a desired ZMP.
+        offset: Distance in m of the safe polygon from the support polygon's edges.
+        threshold: Activation threshold in N; the layout's if None.
 
     Returns:
         The foot's percept.
 
     Raises:
-        ReadingError: If the forces are not numeric, or their number is not that of the taxels.
-        InputError: If the offset is below 0, or it, the threshold or the aim's two are no numbers.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import hex_layout

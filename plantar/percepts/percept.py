@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import instance, number
 from plantar.errors import ReadingError
-from plantar.kernel_class import constructed_by_kernel
 from plantar.kernels.base.vectors import close
 from plantar.kernels.skin.percept_fields import PerceptFields
 from plantar.layouts.layout import SoleLayout
@@ -21,9 +20,10 @@ from plantar.mechanics.zmp import zero_moment_wrench
 from plantar.percepts.percept_options import PerceptOptions
 from plantar.percepts.percept_shapes import ShapeMembers
 from plantar.percepts.percept_virtual import VirtualMembers
+from plantar.record import constructed_by_kernel
 from plantar.sensing.activation import active_taxels
+from plantar.sensing.force import scaled_by_area
 from plantar.sensing.health import TaxelHealth, fill_from_neighbours
-from plantar.sensing.pressure_wrench import scaled_by_area
 from plantar.sensing.reading import Reading
 
 __all__ = ["Percept"]
@@ -31,24 +31,22 @@ __all__ = ["Percept"]
 
 @constructed_by_kernel
 class Percept(ShapeMembers, VirtualMembers, PerceptFields):
-    """A reading seen through its layout.
+    """The percept of a reading through its layout.
 
-    Members are computed at first use, once, and read-only. An unloaded sole has no CoP (None), area 0, an empty
-    polygon and a zero wrench; a modality that the reading lacks gives None. Dead, saturated and stuck taxels are
-    left out of every sum; `health` lists them.
+    Members are computed at first use, once, and read-only. An unloaded sole has no CoP (None), area 0, an empty polygon
+    and a zero wrench; a modality that the reading lacks gives None. Dead, saturated and stuck taxels are left out of
+    every sum; `health` lists them.
 
     Args:
         layout: The sole, n taxels.
-        reading: What its taxels measured.
-        force_threshold: Activation threshold epsilon_f in N; the layout's own where None.
-        active: Mask (n,) of taxels to take as active, of a `TaxelActivation` with hysteresis; those above the threshold
-            where None.
-        stuck: Mask (n,) of stuck taxels, of a `StuckMonitor`; none where None.
-        options: Other options; the usual ones where None.
+        reading: The reading of its taxels.
+        force_threshold: Activation threshold epsilon_f in N; the layout's if None.
+        active: Mask (n,) of active taxels, of a `TaxelActivation` with hysteresis; those above the threshold if None.
+        stuck: Mask (n,) of stuck taxels, of a `StuckMonitor`; none if None.
+        options: Other options; the defaults if None.
 
     Raises:
-        ReadingError: If the reading or a mask has another number of taxels than the layout.
-        InputError: If another argument is not what it should be.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import Percept, Reading, hex_layout
@@ -95,7 +93,6 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         stuck: ArrayLike | None,
         options: PerceptOptions | None,
     ) -> tuple[Any, ...]:
-        """Threshold, masks and options, of what did not come as it usually does."""
         instance(layout, SoleLayout, "layout")
         instance(reading, Reading, "reading")
         if reading.force.shape[0] != len(layout.corners):
@@ -109,24 +106,16 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @classmethod
     def summed(cls, layout: SoleLayout, reading: Reading, loads: NDArray[np.float64]) -> Self:
-        """A percept whose loads are summed already, with its layout's threshold: nothing is checked.
+        """A percept with known loads and its layout's threshold, without checks.
 
         Args:
             layout: The sole, n taxels.
-            reading: What its taxels measured.
-            loads: Wrench, contact area and CoP (9,) that `layout.kernel.loads_above` gives of it, an array of no
-                other owner; closed to writing.
+            reading: The reading of its taxels.
+            loads: Its wrench, contact area and CoP (9,) by `layout.kernel.loads_above`, an array of no other owner;
+                closed to writing.
 
         Returns:
-            The percept, with vertical force, centre of pressure and wrench computed.
-
-        Example:
-            >>> from plantar import hex_layout
-            >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
-            >>> reading = Reading(time=0.0, force=np.full(len(layout), 2.0))
-            >>> loads = layout.kernel.loads_above(reading.force, layout.force_threshold, layout.force_limit)
-            >>> Percept.summed(layout, reading, loads).vertical_force == Percept(layout, reading).vertical_force
-            True
+            The percept.
         """
         close(loads)
         vertical = loads.item(2)
@@ -151,7 +140,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def health(self) -> TaxelHealth:
-        """Dead, saturated and stuck taxels; they are left out of every sum."""
+        """Dead, saturated and stuck taxels."""
         force = self.reading.force
         stuck = np.zeros(force.shape, dtype=bool) if self._stuck is None else self._stuck
         dead, saturated = self.layout.kernel.faults(force, self.layout.force_limit)
@@ -159,7 +148,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def sound_force(self) -> NDArray[np.float64]:
-        """Normal forces (n,) in N; a faulty taxel holds NaN or, with `fill`, what its neighbours' pressure makes it."""
+        """Normal forces (n,) in N; NaN of a faulty taxel, or with `fill` by its neighbours' pressure."""
         faulty = self.health.faulty
         if self.options.fill:
             return fill_from_neighbours(self.layout, self.reading.force, faulty, per_area=True)
@@ -167,7 +156,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def active(self) -> NDArray[np.bool_]:
-        """Active taxels (n,) (T 4.22); a faulty one is not, unless it is filled."""
+        """Active taxels (n,) (T 4.22); a faulty one is not, unless filled."""
         mask = self._active_above()
         if mask is not None:
             return mask
@@ -194,12 +183,12 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
     @lazy
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Centre of pressure (2,) in the sole frame in m, or None without load (T 4.21)."""
+        """Center of pressure (2,) in the sole frame in m, or None without load (T 4.21)."""
         return self._cop()
 
     @lazy
     def surface_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Centre of pressure (3,) on the sole's surface in the sole frame in m, or None without load.
+        """Center of pressure (3,) on the sole's surface in the sole frame in m, or None without load.
 
         Exact on a surface of second order, 0 on a flat one.
         """

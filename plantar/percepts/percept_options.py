@@ -19,16 +19,16 @@ CONTOUR_HEIGHTS: tuple[float, ...] = (0.01, 0.02, 0.03, 0.04, 0.05)
 
 @dataclass(frozen=True)
 class PerceptOptions:
-    """Options of a percept, checked when they are made; share one object between the percepts of a recording.
+    """Options of a percept; share one object between the percepts of a recording.
 
     Attributes:
-        fill: Let faulty taxels take the pressure of their sound neighbours, instead of leaving them out.
+        fill: Replace faulty taxels by the pressure of their sound neighbours, instead of leaving them out.
         proximity_gain: Repulsion k_p of a taxel in N/m (T 4.26).
         contour_heights: Heights of the contours of the ground in m (T 4.2.7), kept lowest first.
-        reference_area: Area xi in m^2 of the pressure-driven wrench (T 3.27); that of one cell where None.
+        reference_area: Area xi in m^2 of the pressure-driven wrench (T 3.27); that of one cell if None.
 
     Raises:
-        InputError: If one is not what it should be.
+        InputError: If one is not valid.
 
     Example:
         >>> PerceptOptions(contour_heights=(0.03, 0.01)).contour_heights

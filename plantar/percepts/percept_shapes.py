@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from plantar.geometry import enclosing as _enclosing
 from plantar.geometry import inscribed as _inscribed
-from plantar.geometry.contact_rectangle import safe_rectangle
-from plantar.geometry.inscribed import BoundedRectangle, Circle
+from plantar.geometry.inscribed import BoundedRectangle, Circle, safe_rectangle
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
@@ -19,15 +18,7 @@ __all__ = ["ShapeMembers"]
 
 
 class ShapeMembers:
-    """Shapes in and around the contact, in the sole frame in m; corners counter-clockwise, none (0, 2) without contact.
-
-    Example:
-        >>> from plantar import Percept, Reading, hex_layout
-        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
-        >>> empty = Percept(layout, Reading(time=0.0, force=np.zeros(len(layout))))
-        >>> len(empty.concave_outline_in_sole), empty.inscribed_circle_in_sole, empty.oriented_box_in_sole.shape
-        (0, None, (0, 2))
-    """
+    """Shapes in and around the contact in the sole frame in m: counter-clockwise corners, none (0, 2) without."""
 
     layout: SoleLayout
 

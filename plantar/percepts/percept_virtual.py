@@ -1,4 +1,4 @@
-"""Members of a percept that no contact makes: from proximity, temperature and acceleration."""
+"""Members of a percept without contact: from proximity, temperature and acceleration."""
 
 from __future__ import annotations
 
@@ -19,15 +19,7 @@ __all__ = ["VirtualMembers"]
 
 
 class VirtualMembers:
-    """Members of a `Percept` other than forces. A modality that the reading lacks gives None.
-
-    Example:
-        >>> from plantar import Percept, hex_layout
-        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
-        >>> blind = Percept(layout, Reading(time=0.0, force=np.zeros(len(layout))))
-        >>> blind.near, blind.ground_plane_in_sole, blind.temperature_wrench_in_sole
-        (None, None, None)
-    """
+    """Members of a `Percept` other than forces. A modality that the reading lacks gives None."""
 
     layout: SoleLayout
     reading: Reading

@@ -1,4 +1,4 @@
-"""Where a sole is in the world, and what two soles feel together."""
+"""Pose of a sole in the world, and joint wrench and ZMP of two soles."""
 
 from __future__ import annotations
 
@@ -7,19 +7,39 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import (
+    ArrayLike,
+    NDArray,
+)
 
-from plantar.arguments import instance, items, number
-from plantar.arrays import array, is_finite, numbers, own
+from plantar.arguments import (
+    instance,
+    items,
+    number,
+)
+from plantar.arrays import (
+    array,
+    is_finite,
+    numbers,
+    own,
+)
 from plantar.errors import InputError
 from plantar.geometry.outline import Outline
+from plantar.geometry.polygon import convex_hull
+from plantar.kernels.geometry import convex as _kernel
 from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
 from plantar.mechanics.rotation import level_rotation
 from plantar.mechanics.zmp import zmp_in_plane
-from plantar.percepts.support import polygon_in_world
+from plantar.plane_points import plane_points
 
-__all__ = ["SolePose", "wrench_of_feet", "zmp_of_soles"]
+__all__ = [
+    "SolePose",
+    "feet_support_polygon",
+    "polygon_in_world",
+    "wrench_of_feet",
+    "zmp_of_soles",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +79,8 @@ class SolePose:
 
     @classmethod
     def flat(cls, x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> SolePose:
-        """Pose of a sole that lies level.
+        """Pose of a level sole: x forward, y to the left and z up in m, turned left by yaw in rad; InputError unless
+        finite.
 
         Args:
             x: Position forward in m.
@@ -69,9 +90,6 @@ class SolePose:
 
         Returns:
             The pose.
-
-        Raises:
-            InputError: If one is not a finite number.
         """
         turn = number(yaw, "yaw", finite=True)
         place = [number(v, f"position {axis}", finite=True) for v, axis in zip((x, y, z), "xyz", strict=True)]
@@ -87,15 +105,16 @@ class SolePose:
         return np.asarray(turned)
 
     def polygon_to_world(self, polygon: ArrayLike) -> NDArray[np.float64]:
-        """A polygon seen from above in the world frame (k, 2) in m: one of the sole plane (k, 2), or points (k, 3) of a
-        curved sole."""
+        """A polygon (k, 2) of the sole plane, or points (k, 3) of a curved sole, seen from above in the world (k, 2) in
+        m.
+        """
         given = numbers(polygon, "polygon")
         if given.ndim == 2 and given.shape[1] == 3:
             return self.to_world(given)[:, :2]
         return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
 
     def outline_to_world(self, outline: Outline, layout: SoleLayout) -> Outline:
-        """A contact's outline seen from above in the world in m, its corners on the sole's own surface.
+        """A contact's outline seen from above in the world in m, its corners on the sole's surface.
 
         Args:
             outline: Outline in the sole frame in m, as of `concave_outline`.
@@ -120,7 +139,7 @@ class SolePose:
 
     @lazy
     def _wrench_maps(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """What a force (3,) from the left is multiplied by to be turned, and to give its moment about the origin."""
+        """Matrices that turn a force (3,), and give its moment about the origin."""
         turn = self.rotation_sole_to_world.T
         x, y, z = self.position_in_world.tolist()
         return turn, turn @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
@@ -134,11 +153,10 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
         poses: Pose of each sole.
 
     Returns:
-        Wrench (6,) or (frames, 6) in the world frame in N and N m, exerted by the world on the robot.
+        Wrench (6,) or (frames, 6) in the world frame in N and N m, by the world on the robot.
 
     Raises:
-        InputError: If there are not as many poses as wrenches, or none, a wrench is of another shape than the others,
-            or a pose is none.
+        InputError: If there are not as many poses as wrenches, or none, or one is of another shape or class.
 
     Example:
         >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]
@@ -149,7 +167,6 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
 
 
 def _turned(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) -> list[NDArray[np.float64]]:
-    """Each sole's wrench about the world's origin, checked."""
     wrenches, places = items(wrenches_in_sole, "wrenches"), items(poses, "poses")
     if len(wrenches) != len(places) or not places:
         raise InputError(f"{len(wrenches)} wrenches and {len(places)} poses; expected one pose a wrench")
@@ -162,10 +179,9 @@ def _turned(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) ->
 def zmp_of_soles(
     wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose], height: float = 0.0, minimum_force: float = 0.0
 ) -> NDArray[np.float64] | None:
-    """Composite ZMP of the soles in a horizontal plane of the world (T 4.7-4.8).
+    """Composite ZMP of the soles in a horizontal plane of the world (T 4.7-4.8), also tilted or at different heights.
 
-    On level soles the mean of the soles' ZMPs weighted with their vertical forces (T 4.7-4.8); also right for
-    soles that are tilted or at different heights. A sole that pulls is left out.
+    A sole that pulls is left out.
 
     Args:
         wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air.
@@ -177,7 +193,7 @@ def zmp_of_soles(
         Position (2,) in the world frame in m, or None without load.
 
     Raises:
-        InputError: If the wrenches are not (6,) numbers, one a pose, or the height or least force no number.
+        InputError: If the wrenches are not (6,) numbers, one a pose, or height or least force not a number.
 
     Example:
         >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]
@@ -188,3 +204,54 @@ def zmp_of_soles(
     if turned[0].shape != (6,):
         raise InputError(f"wrenches have shape {turned[0].shape}; expected (6,)")
     return zmp_in_plane(np.sum([w for w in turned if not w[2] <= 0.0] or [np.zeros(6)], axis=0), height, minimum_force)
+
+
+def polygon_in_world(
+    polygon_in_sole: ArrayLike,
+    rotation_sole_to_world: ArrayLike,
+    position_sole_in_world: ArrayLike,
+) -> NDArray[np.float64]:
+    """A polygon of the sole plane, seen from above in the world frame.
+
+    Args:
+        polygon_in_sole: Polygon (k, 2) in the sole frame in m.
+        rotation_sole_to_world: Rotation (3, 3).
+        position_sole_in_world: Position (3,) of the sole frame's origin in m.
+
+    Returns:
+        Polygon (k, 2) in m in the world's x-y plane.
+
+    Raises:
+        InputError: If a shape is wrong, or a value not finite.
+
+    Example:
+        >>> polygon_in_world(np.array([[1.0, 0.0]]), np.eye(3), np.array([0.0, 2.0, 5.0])).tolist()
+        [[1.0, 2.0]]
+    """
+    seen: NDArray[np.float64] = _kernel.seen_from_above(
+        plane_points(polygon_in_sole),
+        array(rotation_sole_to_world, "rotation", (3, 3), finite=True),
+        array(position_sole_in_world, "position", (3,), finite=True),
+    )
+    return seen
+
+
+def feet_support_polygon(polygons_in_world: Sequence[ArrayLike]) -> NDArray[np.float64]:
+    """Convex support polygon of all feet (T 4.25).
+
+    Args:
+        polygons_in_world: Support polygon (k, 2) of each foot in the world frame; empty for a foot in the air.
+
+    Returns:
+        Convex polygon (m, 2), counter-clockwise, empty where no foot has contact.
+
+    Raises:
+        InputError: If a polygon is not (k, 2) finite numbers.
+
+    Example:
+        >>> left = np.array([[0.0, 0.1], [0.2, 0.1], [0.2, 0.2], [0.0, 0.2]])
+        >>> feet_support_polygon([left, left * [1, -1]]).tolist()
+        [[0.0, -0.2], [0.2, -0.2], [0.2, 0.2], [0.0, 0.2]]
+    """
+    parts = [p for p in map(plane_points, items(polygons_in_world, "polygons")) if len(p)]
+    return convex_hull(np.concatenate(parts) if len(parts) != 1 else parts[0]) if parts else np.empty((0, 2))

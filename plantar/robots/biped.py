@@ -31,7 +31,7 @@ class BipedParameters:
     """Dimensions of a generated biped. Lengths in m, masses in kg, angles in degrees.
 
     Attributes:
-        total_mass: Mass with skin and shoes; the chest takes what the other links leave.
+        total_mass: Mass with skin and shoes; the chest has the rest.
         base_mass: Mass of the pelvis.
         com_height: Height of the CoM above the outer sole in the given posture; places the chest's mass.
         hip_offset: Left hip (3,) in the base frame.
@@ -48,7 +48,7 @@ class BipedParameters:
         armature: Reflected rotor inertia of a joint in kg m^2.
 
     Raises:
-        RobotError: If a dimension has another number of values, or one that is not finite.
+        RobotError: If a dimension has another number of values, or is not finite.
     """
 
     total_mass: float
@@ -69,13 +69,7 @@ class BipedParameters:
 
     @classmethod
     def from_table(cls, table: Mapping[str, Any], where: str) -> BipedParameters:
-        """Read the `[biped]` table of a robot file.
-
-        Takes `where`; returns the checked dimensions.
-
-        Raises:
-            RobotError: If a value is missing, unknown or of the wrong length.
-        """
+        """Read and check the `[biped]` table of a robot file, named `where` in a RobotError. Returns the dimensions."""
         fields = list(cls.__dataclass_fields__)
         refuse_unknown_keys(table, fields, f"{where}: [biped]", RobotError)
         missing = next((key for key in fields if key not in table), None)
@@ -105,7 +99,6 @@ _COUNTS: Mapping[str, int] = {
 
 
 def _dimension(value: Any, key: str) -> float | tuple[float, ...]:
-    """A dimension as floats: one, or as many as it has."""
     many = isinstance(value, (list, tuple))
     items = value if many else (value,)
     if many != (key in _COUNTS) or len(items) != _COUNTS.get(key, 1):
@@ -190,7 +183,7 @@ def _leg(side: Side, p: BipedParameters, sole: Mapping[str, Any], shoe_mass: flo
 
 
 def _chest_height(p: BipedParameters, posture: NDArray[np.float64], shoe_mass: float, thickness: float) -> float:
-    """Height of the chest's centre of mass above the base that puts the whole CoM at `com_height` in a posture."""
+    """Height of the chest's center of mass above the base that puts the whole CoM at `com_height`."""
     hip, knee = math.radians(posture[2]), math.radians(posture[3])
     hip_z = p.hip_offset[2]
     knee_z = hip_z - p.thigh_length * math.cos(hip)
@@ -227,8 +220,8 @@ def biped_mjcf(
     Args:
         p: Dimensions.
         name: Model name.
-        posture: Six joint angles of the left leg in degrees for which `com_height` holds.
-        sole_center: Centre (x, y) of the left sole's contact rectangle against the ankle in m.
+        posture: Six joint angles of the left leg in degrees for `com_height`.
+        sole_center: Center (x, y) of the left sole's contact rectangle against the ankle in m.
         sole_half_size: Half lengths (x, y) of the contact rectangle in m.
         shoe_thickness: Outer contact face below the bare sole in m.
         shoe_mass: Mass of one shoe in kg.

@@ -1,7 +1,4 @@
-"""A robot's walking controller with the kinematics of its legs, for your own control loop.
-
-No simulator is needed: what comes in are readings of the robot's sensors, what goes out are targets of its joints.
-"""
+"""A robot's walking controller with the kinematics of its legs, for your own control loop, without a simulator."""
 
 from __future__ import annotations
 
@@ -44,11 +41,11 @@ class RobotController:
 
     Attributes:
         robot: The robot.
-        legs: Kinematics of its legs (`plantar.robots.kinematics.leg_model.LegModel`).
+        legs: Kinematics of its legs.
         controller: The controller.
         joints: Names of the leg joints, in the order of every joint vector.
-        period: Control period in s; `step` expects to be called once in each.
-        stance: Joint angles and torques in which the robot waits for the start.
+        period: Control period in s; call `step` once in each.
+        stance: Joint angles and torques before the start.
         base_position: Position (3,) in m of the base in that stance, world frame.
 
     Example:
@@ -66,19 +63,13 @@ class RobotController:
     base_position: NDArray[np.float64] = field(repr=False)
 
     def step(self, sensors: Sensors) -> Command:
-        """One control tick.
-
-        Returns:
-            The command: CoM, torso orientation, and pose and force of each sole.
-        """
+        """One control tick; returns the command: CoM, torso orientation, and pose and force of each sole."""
         return self.controller.step(sensors)
 
     def joint_targets(self, command: Command) -> JointTargets:
-        """Inverse kinematics of a command.
+        """Inverse kinematics of a command, within joint limits; returns the targets.
 
-        Returns:
-            The targets, those of the command where motors are driven (`control.drives`). Angles stay within the joints'
-            limits; where a command is out of reach, the foot that carries no load misses its target first.
+        Those of the command where motors are driven (`control.drives`). Out of reach, the unloaded foot misses first.
         """
         if command.joints is not None:
             return command.joints
@@ -95,17 +86,17 @@ def load_controller(
 ) -> RobotController:
     """Load the walking controller of a robot.
 
-    Returns the controller, before its first tick.
-
     Args:
         robot: A built-in name (`plantar list robots`) or the path of a robot TOML.
         tables: Settings as the tables of a scene file: "walk" (steps or velocity), "control" (which parts run) and
             those of the controller's parts, such as "estimator" (`plantar list settings`). Default: 20 steps forward.
         seed: Draws the velocities of a walk that wanders.
 
+    Returns:
+        The controller, before its first tick.
+
     Raises:
-        RobotError: If the robot is unknown, or its file or model is not valid.
-        SceneError: If a setting is not valid or does not fit the robot; the message names it.
+        RobotError, SceneError: If an argument is not valid.
     """
     own = load_robot(robot)
     legs = build_leg_model(own)

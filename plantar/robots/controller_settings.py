@@ -32,7 +32,7 @@ _QUICK_HEIGHT = 1 / 12
 
 
 class Task(Protocol):
-    """What a controller is asked to do; a scene of the simulator is one."""
+    """A controller's task; a scene of the simulator is one."""
 
     @property
     def name(self) -> str:
@@ -68,8 +68,8 @@ def controller_settings(
     Args:
         scene: The scene, with its shares as those of the same body.
         robot: The robot.
-        body: How large it is: what is stated as a share of its body counts for this one.
-        ankles: Force-torque sensor of each ankle, where it has them.
+        body: Its size, for shares.
+        ankles: Force-torque sensor of each ankle, if any.
         limits: Where its weight may act on one foot (`plantar.robots.kinematics.ankle_limits`); None for anywhere.
         skin: Skin of its upper body, in the base frame; None without.
 
@@ -77,7 +77,7 @@ def controller_settings(
         The settings.
 
     Raises:
-        SceneError: If the scene sets something that it does not run, or asks for parts that need another one.
+        SceneError: If the scene sets something unused, or asks for parts that need another one.
     """
     walk = scene.walk
     _refuse_unused(scene, robot)
@@ -127,14 +127,11 @@ def controller_settings(
 
 
 def com_height_of(walk: Walk, robot: Robot) -> float:
-    """CoM height in m above the soles that a robot walks at, over footholds that carry the whole sole.
+    """CoM height in m above the soles for a gait, over footholds that carry the whole sole; returns it.
 
     Args:
         walk: The gait.
         robot: The robot, which crouches as far as it can.
-
-    Returns:
-        The height.
     """
     return robot.com_height - min(walk.crouch, robot.largest_crouch)
 
@@ -174,7 +171,6 @@ def _value(key: str, control: Control, tables: Mapping[str, Mapping[str, Any]]) 
 
 
 def _refuse_unused(scene: Task, robot: Robot) -> None:
-    """Refuse settings of parts that are switched off: they would do nothing."""
     tables = _given(scene, robot)
     for name, given in scene.controller.items():
         for kind in CONTROLLER_TABLES[name] if given else ():

@@ -1,8 +1,4 @@
-"""Shapes by which one leg collides with the other: the model's own where it has them, else capsules along the links.
-
-They touch the other leg's shapes only: neither the ground, which meets the soles' boxes only, nor their own leg.
-Their mass is zero, so a robot whose legs keep apart moves as it would without them.
-"""
+"""Collision shapes between the legs: the model's own, or else capsules along the links, without mass."""
 
 from __future__ import annotations
 
@@ -35,7 +31,7 @@ _KINDS = tuple(
 
 
 def add_leg_shapes(spec: Any, robot: Robot, own: Collection[str] = ()) -> None:
-    """Give both legs shapes that collide with the other leg's.
+    """Give both legs shapes that collide with the other leg's only.
 
     Takes `spec`, `robot` and `own`.
     """
@@ -60,8 +56,7 @@ def _links(spec: Any, robot: Robot, side: Side) -> list[Any]:
 
 
 def _add_capsule(body: Any, end: NDArray[np.float64], side: Side, least: float) -> None:
-    """A link's shape up to the next link at `end` (3,) in m of its frame; one shorter than `least` in m
-    has none."""
+    """A link's shape up to the next link at `end` (3,) in m of its frame; none if shorter than `least` in m."""
     length = float(np.linalg.norm(end))
     if length < least:
         return
@@ -73,7 +68,7 @@ def _add_capsule(body: Any, end: NDArray[np.float64], side: Side, least: float) 
 
 
 def _add_foot(spec: Any, side: Side, height: float) -> None:
-    """The foot from its sole's lower face up to a height in m above the shoe, as a box."""
+    """The foot from its sole's lower face to a height in m above the shoe, as a box."""
     sole = spec.geom(f"{side}_sole_box")
     half = np.array(sole.size)
     half[2] += 0.5 * height
@@ -91,9 +86,7 @@ def _collide(geom: Any, side: Side) -> None:
 
 
 def keep_apart(model: Any, robot: Robot) -> None:
-    """Shrink the legs' shapes until both legs are clear of each other in the robot's posture.
-
-    Feet stay as they are: how far apart they stand is the scene's. A shape that does not come clear collides no more.
+    """Shrink the legs' shapes, but not the feet, until they are apart in the robot's posture; disable those that fail.
 
     Takes `model`.
     """
@@ -111,8 +104,7 @@ def keep_apart(model: Any, robot: Robot) -> None:
 
 
 def _clear(model: Any, data: Any, pair: tuple[int, int], free: list[int], least: float) -> None:
-    """Shrink those of a pair of geoms that may shrink until they are `least` m apart; they collide no more where that
-    fails."""
+    """Shrink two geoms as far as allowed until they are `least` m apart; disable them if that fails."""
     for _ in range(_TRIES):
         if mujoco.mj_geomDistance(model, data, *pair, least, None) >= least:
             return

@@ -1,8 +1,8 @@
 """A robot from a model file (MJCF or URDF): its legs kept, its upper body welded, its soles and sensors added.
 
-What walks is the same for every robot: a free base, six or more leg joints a side with position servos, a shoe on each
-foot whose contact box is the sole layout's rectangle, and an IMU. Everything else of the file (other joints, actuators,
-sensors, keyframes, contacts, gravity and switches for its own simulation) does not take part.
+Every robot has a free base, six or more leg joints a side with position servos, a shoe on each foot whose contact box
+is the sole layout's rectangle, and an IMU. The rest of the file (other joints, actuators, sensors, keyframes, contacts
+and options) is dropped.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def _parsed(robot: Robot) -> Any:
 
 
 def forget_own_simulation(spec: Any) -> None:
-    """Take out what the file's author simulated with: without gravity or contacts no robot would walk."""
+    """Drop the file's own simulation options, such as no gravity or contacts."""
     for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
         for element in list(getattr(spec, part)):
             spec.delete(element)
@@ -76,7 +76,7 @@ def forget_own_simulation(spec: Any) -> None:
 
 
 def _without_collisions(spec: Any) -> list[Any]:
-    """Let no geom of the file collide; those that did are given back."""
+    """Disable collisions of all geoms; returns those that had them."""
     colliding = [geom for geom in spec.geoms if geom.contype or geom.conaffinity]
     for geom in spec.geoms:
         geom.contype = geom.conaffinity = 0
@@ -103,7 +103,7 @@ def _body(spec: Any, robot: Robot, name: str, field: str) -> Any:
 
 
 def _free_base(spec: Any, robot: Robot) -> None:
-    """The root of the torso floats: a free joint is added where the model has none (URDF)."""
+    """Add a free joint to the torso's root if missing (URDF)."""
     root = _body(spec, robot, robot.torso_body, "[torso] body")
     if root.parent is None:
         raise RobotError(f"robot '{robot.name}': [torso] body is '{root.name}', which is no part of the robot")
@@ -117,7 +117,7 @@ def _free_base(spec: Any, robot: Robot) -> None:
 
 
 def _clear_world(spec: Any, root: Any) -> None:
-    """Take out whatever else stands in the world (floors of ready-made scenes): it is not part of the robot."""
+    """Remove other bodies of the world, such as floors."""
     for body in list(spec.worldbody.bodies):
         if body.name != root.name:
             spec.delete(body)
@@ -144,7 +144,7 @@ def _check_joints(spec: Any, robot: Robot, wanted: set[str]) -> None:
 
 
 def _check_leg(spec: Any, robot: Robot, side: str, leg: LegNames) -> None:
-    """Refuse joints that do not move the foot, joints that are no hinges, and a torso or IMU that hangs on the leg."""
+    """Refuse joints that do not move the foot or are not hinges, and a torso or IMU below the leg."""
     where = f"robot '{robot.name}': [legs.{side}]"
     foot = _body(spec, robot, leg.foot_body, f"[legs.{side}] foot_body")
     chain = [j.name for body in reversed(_upwards(foot)) for j in body.joints if j.type != mujoco.mjtJoint.mjJNT_FREE]
@@ -166,7 +166,7 @@ def _joints_above(body: Any) -> list[str]:
 
 
 def _upwards(body: Any) -> list[Any]:
-    """A body and all that it hangs on, without the world; none for None."""
+    """A body and its ancestors, without the world; none for None."""
     chain = []
     while body is not None and body.parent is not None:
         chain.append(body)
@@ -175,7 +175,7 @@ def _upwards(body: Any) -> list[Any]:
 
 
 def _make_room(spec: Any, robot: Robot) -> None:
-    """Give another name to what the model calls as the shoes' parts are called."""
+    """Rename elements of the model that have the names of the shoes' parts."""
     for side in SIDES:
         for element in (
             spec.site(robot.legs[side].sole_site),
@@ -188,7 +188,7 @@ def _make_room(spec: Any, robot: Robot) -> None:
 
 
 def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
-    """A shoe as a body of its own: mass, the sole frame's site, and the contact box below the foot."""
+    """A shoe as a body: mass, the sole frame's site, and the contact box below the foot."""
     foot = _body(spec, robot, robot.legs[side].foot_body, f"[legs.{side}] foot_body")
     center, half = robot.sole_rectangle(side)
     ankle = f"{side}_ankle_force_torque"

@@ -53,11 +53,11 @@ class FootShape:
 
 @dataclass(frozen=True)
 class Arms:
-    """Arms that a robot may wear where a scene wants one that moves; else they are part of its chest.
+    """Arms that a robot may wear in a scene with moving ones; else they are part of its chest.
 
     Attributes:
         machine: Name or TOML file of the machine that has them (`plantar.sim.companion.machine`), with the same base.
-        chest: Body of the robot whose mass, centre and inertia count them in.
+        chest: Body of the robot whose mass, center and inertia include them.
         roots: First link of each arm in the machine.
     """
 
@@ -76,11 +76,11 @@ class Robot:
         kind: "biped" (generated from `biped`), "mjcf" or "urdf" (read from `model_file`).
         biped: Dimensions of a generated robot, else None.
         model_file: Path of the model file, else None.
-        foot: Shape of the bare foot, where the file gives it.
+        foot: Shape of the bare foot, if given.
         shoe_thickness: Outer contact face below the bare sole in m.
         shoe_mass: Mass of one shoe in kg.
-        rim_stiffness: Stiffness of the shoe next to its taxels over theirs (`plantar.sim.sensing.blind_rim`); 0 where
-            its pad is relieved.
+        rim_stiffness: Stiffness of the shoe next to its taxels over theirs (`plantar.sim.sensing.blind_rim`); 0 with a
+            relieved pad.
         contact_damping: Damping ratio of the shoe on the ground; 1 is critical for a sole that carries itself alone.
         sole_origins: Sole frame's origin (3,) of each foot in the frame of its body in m.
         sole_rotations: Rotation (3, 3) of each foot from the sole frame to the frame of its body.
@@ -92,24 +92,21 @@ class Robot:
         imu_site: Site of the IMU.
         posture: Joint angles of each leg in rad when standing.
         com_height: CoM height above the outer soles when walking in m.
-        stance_width: Distance of the sole frames' origins when the feet stand side by side in m.
-        leg_length: Length of a leg from hip over knee to ankle in m, which lengths of a gait are shares of; 0 leaves it
-            to the model (`plantar.robots.kinematics.body`).
+        stance_width: Distance of the sole frames' origins with the feet together in m.
+        leg_length: Length of a leg from hip over knee to ankle in m, for shares; 0 for the model's.
         largest_crouch: How much lower than `com_height` a scene may make the robot walk in m.
-        largest_crouch_partial: The same for a walk that stands on parts of its soles (`control.footholds`,
-            `control.conform`), where a centre of pressure at the heel loads the knee more.
+        largest_crouch_partial: The same for a walk on parts of its soles (`control.footholds`, `control.conform`),
+            where a center of pressure at the heel loads the knee more.
         trunk_lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
-        single_support: t_ss in s of a walk whose scene does not state; 0 takes the same number of beats of
-            the leg as for every robot (`plantar.robots.controller_settings`).
+        single_support: t_ss in s where the scene gives none; 0 for the same number of beats of the leg for every robot.
         double_support: t_ds likewise.
-        approach_support: Least t_ss in s of a walk whose swing comes down slowly (`walk.approach_height`) and so has to
-            reach its place in three fifths of it: for motors that are weak; 0 for those that are not.
-        ankle_reach: How far in m from the sole frame's origin, which is below the ankle, along the sole, the ankle's
-            motor bears the robot; no point farther off is loaded.
-        rocks: Whether it takes its steps in its own time and without a slow approach, regardless of what a scene asks
-            for: legs without ankle roll rock from foot to foot and cannot wait on one of them.
-        pace: Beats of the leg that a pace lasts, the unit of time of scenes that ask for quick steps
-            (`plantar.settings.body_scale`).
+        approach_support: Least t_ss in s of a walk with slow approach (`walk.approach_height`), whose swing has to
+            arrive in three fifths of it: for weak motors; else 0.
+        ankle_reach: Largest distance in m along the sole from its frame's origin, below the ankle, at which the ankle's
+            motor carries the robot.
+        rocks: Whether it steps in its own time and without a slow approach, whatever the scene asks: legs without ankle
+            roll rock from foot to foot and cannot wait on one.
+        pace: Beats of the leg that a pace lasts, the time unit of quick steps (`plantar.settings.body_scale`).
         stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.
         damping: Servo velocity gain of each leg joint in N m s/rad.
         own_stiffness: Position gain of each leg joint's own motor in N m/rad (`control.drives`).
@@ -117,7 +114,7 @@ class Robot:
         balance: Balance law and its gains.
         controller: Settings of the controller's other parts by table and name (`plantar.gait.controller_tables`).
         path: The TOML file.
-        arms: Arms that it may wear; None for a robot whose file names none.
+        arms: Arms that it may wear; None for none.
     """
 
     name: str
@@ -161,7 +158,7 @@ class Robot:
     arms: Arms | None = None
 
     def sole_rectangle(self, side: Side) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Bounding rectangle of a sole's outline: centre (x, y) and half size (x, y) in the sole frame in m."""
+        """Bounding rectangle of a sole's outline: center (x, y) and half size (x, y) in the sole frame in m."""
         outline = self.layouts[side].outline
         low, high = outline.min(axis=0), outline.max(axis=0)
         center, half = 0.5 * (low + high), 0.5 * (high - low)

@@ -11,22 +11,47 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError, LayoutError, RobotError
-from plantar.files.input_file import check_input, is_file
+from plantar.errors import (
+    InputError,
+    LayoutError,
+    RobotError,
+)
+from plantar.files.input_file import (
+    check_input,
+    is_file,
+)
 from plantar.files.model_files import named_file
-from plantar.files.structured_text import read_json, read_toml
+from plantar.files.structured_text import (
+    read_json,
+    read_toml,
+)
 from plantar.gait.balance.balance_laws import balance_gains
-from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
+from plantar.gait.controller_tables import (
+    CONTROLLER_TABLES,
+    check_controller_table,
+)
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.robots.biped import BipedParameters
-from plantar.robots.robot import Arms, FootShape, LegNames, Robot
-from plantar.robots.robot_tables import RobotTables
+from plantar.robots.robot import (
+    Arms,
+    FootShape,
+    LegNames,
+    Robot,
+)
 from plantar.settings.unknown_keys import refuse_unknown_keys
-from plantar.sides import SIDES, Side
+from plantar.sides import (
+    SIDES,
+    Side,
+)
 
-__all__ = ["builtin_robots", "load_robot"]
+__all__ = [
+    "RobotTables",
+    "builtin_robots",
+    "load_robot",
+]
+
 
 _FOLDER = Path(__file__).parent
 _LEAST_JOINTS = 4  # of a leg: hip roll and pitch, knee, ankle pitch; the ground chooses the sole's roll
@@ -98,19 +123,97 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
     return _RobotFile(read_toml(path, RobotError, f"robot file {path}"), path).robot()
 
 
+class RobotTables:
+    """The tables of a robot file."""
+
+    def __init__(self, source: Mapping[str, Any], where: str) -> None:
+        self.source = source
+        self.where = where
+
+    def place(self, *tables: str) -> str:
+        """Place of an error, for its message."""
+        return f"{self.where}: [{'.'.join(tables)}]" if tables else self.where
+
+    def table(self, *tables: str) -> Mapping[str, Any]:
+        """A table of the file, or a table in one; the file itself for no name."""
+        found = self.source
+        for i, name in enumerate(tables):
+            inner = found.get(name)
+            if not isinstance(inner, Mapping):
+                raise RobotError(f"{self.place(*tables[:i])}: table [{name}] is missing")
+            found = inner
+        return found
+
+    def text(self, field: str, *tables: str, default: str | None = None) -> str:
+        """A text that is not empty.
+
+        Args:
+            field: Its name.
+            tables: Names of its table, and of those around it; none for the file itself.
+            default: Default; required if None.
+
+        Returns:
+            The text.
+        """
+        value = self.table(*tables).get(field, default)
+        if not isinstance(value, str) or not value:
+            raise RobotError(f"{self.place(*tables)}: '{field}' is missing or not a text")
+        return value
+
+    def switch(self, field: str, table: str) -> bool:
+        """A truth value of a table, False by default.
+
+        Takes `field`; returns the value.
+        """
+        value = self.table(table).get(field, False)
+        if not isinstance(value, bool):
+            raise RobotError(f"{self.place(table)}: '{field}' is {value!r}; allowed: true, false")
+        return value
+
+    def number(self, field: str, table: str, low: float, high: float, default: float | None = None) -> float:
+        """A number of a table within limits.
+
+        Args:
+            field: Its name.
+            table: Name of its table.
+            low: Smallest allowed value.
+            high: Largest allowed value.
+            default: Default; required if None.
+
+        Returns:
+            The number.
+        """
+        return _checked_number(self.table(table).get(field, default), field, self.place(table), low, high)
+
+    def numbers(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:
+        """So many numbers of a table within limits.
+
+        Takes `field`, `count`, `low` and `high`; returns the numbers.
+        """
+        value = self.table(table).get(field)
+        if not isinstance(value, list) or len(value) != count:
+            raise RobotError(f"{self.place(table)}: '{field}' is {value!r}; allowed: a list of {count} numbers")
+        return tuple(_checked_number(v, field, self.place(table), low, high) for v in value)
+
+    def number_each(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:
+        """So many numbers of a table within limits, or one for all of them.
+
+        Takes `field`, `count`, `low` and `high`; returns the numbers.
+        """
+        if isinstance(self.table(table).get(field), list):
+            return self.numbers(field, table, count, low, high)
+        return (self.number(field, table, low, high),) * count
+
+
 class _RobotFile(RobotTables):
-    """A robot's TOML, and where it lies."""
+    """A robot's TOML, and its path."""
 
     def __init__(self, source: Mapping[str, Any], path: Path) -> None:
         super().__init__(source, str(path) if path.parent.parent != _FOLDER else f"robot '{path.parent.name}'")
         self.path = path
 
     def robot(self) -> Robot:
-        """The robot that it describes.
-
-        Raises:
-            RobotError: If a table or field is missing, unknown or outside what is allowed.
-        """
+        """The described robot; a RobotError for a wrong table or field."""
         self._refuse_unknown_fields()
         kind = self._kind()
         biped = BipedParameters.from_table(self.table("biped"), self.where) if kind == "biped" else None
@@ -170,7 +273,7 @@ class _RobotFile(RobotTables):
         )
 
     def _legs(self) -> dict[Side, LegNames]:
-        """The names of both legs, which have as many joints each and share none."""
+        """The joint names of both legs, as many each, shared by none."""
         legs = {side: self._leg(side) for side in SIDES}
         shared = set(legs["left"].joints) & set(legs["right"].joints)
         if shared:
@@ -200,7 +303,7 @@ class _RobotFile(RobotTables):
         return tuple(math.radians(v) for v in degrees)
 
     def _shoe(self, kind: str) -> dict[str, Any]:
-        """Layouts, and the shoe's mass, thickness and place: what `plantar shoe` wrote, or what the file states."""
+        """Layouts, and the shoe's mass, thickness and place, as written by `plantar shoe` or given in the file."""
         exported = _exported_shoe(self._layout_file("left"))
         places = self._sole_frames(kind)
         return {
@@ -214,8 +317,9 @@ class _RobotFile(RobotTables):
         }
 
     def _sole_frames(self, kind: str) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        """Origin (3,) in m and rotation (3, 3) of each sole frame in its foot's body; the right mirrors the left where
-        the file does not state otherwise."""
+        """Origin (3,) in m and rotation (3, 3) of each sole frame in its foot's body; by default the right mirrors the
+        left.
+        """
         if kind == "biped":
             return {side: (np.zeros(3), np.eye(3)) for side in SIDES}
         given = self.table("shoe")
@@ -232,7 +336,6 @@ class _RobotFile(RobotTables):
         return {"left": (origin, rotation(*angles)), "right": (right, rotation(*turned))}
 
     def _turn(self, field: str) -> tuple[float, ...]:
-        """Roll, pitch and yaw in degrees."""
         return self.numbers(field, "shoe", 3, -_LARGEST_ANGLE, _LARGEST_ANGLE)
 
     def _layout_file(self, side: Side) -> Path:
@@ -262,7 +365,7 @@ class _RobotFile(RobotTables):
         return {"torso_body": self.text("body", "torso"), "imu_site": imu_site}
 
     def _arms(self) -> Arms:
-        """Arms that it may wear: of a built-in machine, or of one whose file lies next to the robot's."""
+        """Arms that it may wear: of a built-in machine, or of a file next to the robot's."""
         machine = self.text("machine", "arms")
         if machine.endswith(".toml"):
             path = self.path.parent / machine
@@ -287,11 +390,10 @@ class _RobotFile(RobotTables):
         }
 
     def _duration(self, name: str, least: float) -> float:
-        """A duration of the gait in s; 0 where the file leaves it to the length of the legs."""
+        """A duration of the gait in s; 0 if missing."""
         return self.number(name, "gait", least, 10.0) if name in self.table("gait") else 0.0
 
     def _servo(self, biped: BipedParameters | None, joints: int) -> dict[str, Any]:
-        """Gains of the servos and limits of the joints of one leg; without limits there are none."""
         given = self.table("servo")
         efforts = self.numbers("effort_limits", "servo", joints, 1e-3, 1e5) if "effort_limits" in given else ()
         speeds = () if biped is None else biped.velocity_limits
@@ -324,8 +426,13 @@ class _RobotFile(RobotTables):
 
 
 def _exported_shoe(layout: Path) -> dict[str, Any]:
-    """What `plantar shoe` wrote of a shoe next to its layout: mass in kg, thickness in m and the stiffness of the
-    rim next to its taxels; a robot's file may state otherwise."""
+    """Mass in kg, thickness in m and rim stiffness that `plantar shoe` wrote next to a layout."""
     found = read_json(layout, RobotError, str(layout)).get("shoe", {})
     names = ("mass", "thickness", "rim_stiffness")
     return {k: found[k] for k in names if k in found} if isinstance(found, dict) else {}
+
+
+def _checked_number(value: Any, field: str, where: str, low: float, high: float) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
+        raise RobotError(f"{where}: '{field}' is {value!r}; allowed: a number from {low:g} to {high:g}")
+    return float(value)

@@ -1,17 +1,33 @@
-"""How a robot's walk begins: where its feet are, the footsteps that are planned, and the velocities it is asked for."""
+"""Start of a robot's walk: feet, planned footsteps, and commanded velocities."""
 
 from __future__ import annotations
 
-from plantar.errors import InputError, SceneError
+import math
+
+from plantar.errors import (
+    InputError,
+    SceneError,
+)
 from plantar.gait.controller import Start
-from plantar.gait.plan.footsteps import straight_plan
-from plantar.gait.propose.velocity_command import Legs, VelocityCommand, VelocityTable
-from plantar.robots.box_plan import box_plan
+from plantar.gait.plan.footsteps import (
+    Footstep,
+    other_side,
+    straight_plan,
+)
+from plantar.gait.propose.velocity_command import (
+    Legs,
+    VelocityCommand,
+    VelocityTable,
+)
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Walk
 from plantar.sides import Side
 
-__all__ = ["start_of_walk"]
+__all__ = [
+    "STEPS_A_ROUND",
+    "box_plan",
+    "start_of_walk",
+]
 
 
 def start_of_walk(
@@ -19,14 +35,15 @@ def start_of_walk(
 ) -> Start:
     """The start of a walk, for its controller.
 
-    Returns the start.
-
     Args:
         walk: The gait, for the same body (`Walk.for_body`).
         robot: The robot.
         com_height: CoM height above the soles in m.
-        height: Height of the ground that the feet stand on in m.
-        velocities: What is commanded over time, `walk.velocities`; None for a number of steps.
+        height: Height of the ground in m.
+        velocities: Commanded velocities over time, `walk.velocities`; None for a number of steps.
+
+    Returns:
+        The start.
 
     Raises:
         SceneError: If the gait cannot be planned.
@@ -48,3 +65,49 @@ def start_of_walk(
     outline = robot.layouts["left"].outline
     (rear, inner), toe = (-outline.min(axis=0)).tolist(), float(outline[:, 0].max())
     return Start(feet, plan, walk.begin, (VelocityCommand(velocities, Legs(width, com_height, rear, toe, inner)),))
+
+
+STEPS_A_ROUND = 6
+"""Footsteps after which both feet stand where they began."""
+
+_CORNERS = ((1.0, 0.0), (1.0, 1.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0), (0.0, 0.0))
+"""Where each step puts its foot, in strides forward and away from the foot that moves first."""
+
+
+def box_plan(
+    steps: int, *, stride: float, width: float, first: Side = "left", height: float = 0.0
+) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
+    """A box step: the first foot forward, the other one forward and to its side, the first closes; back the same way.
+
+    Args:
+        steps: Number of steps, a whole number of rounds.
+        stride: Side of the box in m, above 0.
+        width: Distance in m of the sole frames' origins with the feet together.
+        first: The foot that moves first; the box is on the other one's side.
+        height: Height of the ground in m.
+
+    Returns:
+        The standing feet at the start, and the steps in order.
+
+    Raises:
+        InputError: If the steps are not a whole number of rounds, or the stride is not above 0.
+
+    Example:
+        >>> feet, plan = box_plan(6, stride=0.05, width=0.17)
+        >>> [(s.side, round(s.x, 3), round(s.y, 3)) for s in plan[:3]]
+        [('left', 0.05, 0.085), ('right', 0.05, -0.135), ('left', 0.05, 0.035)]
+    """
+    if steps % STEPS_A_ROUND:
+        raise InputError(f"steps is {steps}; allowed: whole rounds of {STEPS_A_ROUND} steps")
+    if not 0.0 < stride < math.inf:
+        raise InputError(f"length is {stride} m; allowed: a finite number above 0 as the side of a box")
+    feet, _ = straight_plan(0, width=width, height=height)
+    away = -1.0 if first == "left" else 1.0
+    plan: list[Footstep] = []
+    side = first
+    for k in range(steps):
+        forward, aside = _CORNERS[k % STEPS_A_ROUND]
+        start = feet[side]
+        plan.append(Footstep(side, start.x + stride * forward, start.y + away * stride * aside, 0.0, height))
+        side = other_side(side)
+    return feet, tuple(plan)

@@ -40,30 +40,29 @@ class Walk(Settings):
         pattern: Where the steps go: "straight", or in a "box" of six steps a round whose side is `length`.
         length: Distance by which a step leads the other foot.
         sideways: Lateral distance by which each opening step leads, positive to the left.
-        stance_width: Distance of the ankles when the feet stand side by side; 0 takes the robot's own.
-        wider: By how much farther apart than that they stand.
+        stance_width: Distance of the ankles with the feet together; 0 for the robot's own.
+        wider: Additional distance of the ankles.
         first: Foot that moves first.
-        single_support: t_ss; 0 takes the robot's own.
-        double_support: t_ds; 0 takes the robot's own.
+        single_support: t_ss; 0 for the robot's own.
+        double_support: t_ds; 0 for the robot's own.
         swing_height: Clearance of the swing foot.
-        lean: Whether the trunk leans over the stance foot, which takes load off the hip roll joints (see the robot's
+        lean: Whether the trunk leans over the stance foot, which unloads the hip roll joints (see the robot's
             `trunk_lean`).
-        crouch: How much lower than its own CoM height the robot walks, to reach further and ground that is lower than
-            expected; as far as the robot can (its `largest_crouch`; over a foothold that carries a part of the sole,
-            its `largest_crouch_partial`).
-        approach_height: Height above the expected ground from which a swing foot that does not see it goes down slowly,
-            after ground that was elsewhere; it then aims as far below it.
+        crouch: How much lower than its own CoM height the robot walks, to reach further and lower ground; as far as it
+            can (its `largest_crouch`, or `largest_crouch_partial` on parts of its soles).
+        approach_height: Height above the expected ground from which a blind swing foot goes down slowly, after ground
+            that was elsewhere; it then aims as far below it.
         approach_speed: Speed of that in m/s.
         start: Duration of the first weight shift.
         end: Duration of the last weight shift.
-        confidence: Whether the robot keeps its own steps (1) or follows those who push it (0), as far as balance lets
-            it (`step_adjustment.confidence`).
-        yielding: How far its steps go along with a push (`step_adjustment.yielding`).
-        led: Whether somebody leads it by its arm: what is only near to its skin is no push then.
+        confidence: Whether the robot keeps its own steps (1) or follows a push (0), within balance
+            (`step_adjustment.confidence`).
+        yielding: How far its steps follow a push (`step_adjustment.yielding`).
+        led: Whether somebody leads it by its arm: proximity to its skin is no push then.
         settle: Standing time that is simulated after the walk.
         begin: Standing time before the walk; the CoM leads the first weight shift by about 1 s.
         velocity: Walk at this velocity [forward, left, turn] in m/s, m/s and rad/s, or in texts with units, instead of
-            a number of steps; zeros take steps in place.
+            a number of steps; zeros step in place.
         commands: Such velocities over time: each [time, forward, left, turn], or [time, "stop"], in s after `begin`.
         wander: Largest velocity [forward, left, turn], either way, of those that the seed draws, a new one each
             `change_every`.
@@ -132,8 +131,7 @@ class Walk(Settings):
         return table
 
     def _in_si(self, row: Any) -> Any:
-        """A row of [time, forward, left, turn] whose texts with units are numbers in s, m/s and rad/s; what is none of
-        those stays, for who reads the row to refuse."""
+        """A row of [time, forward, left, turn] with texts in SI; other values stay."""
         if not isinstance(row, Sequence) or isinstance(row, str):
             return row
         units = chain(_VELOCITY_UNITS, repeat("1"))
@@ -145,24 +143,24 @@ class Control(Settings):
 
     Attributes:
         feedback: False walks the plan in open loop.
-        zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
-        footholds: What shows what a foot stands on: "off" takes every foothold for a whole sole; "force" uses the
-            taxels' forces, "skin" by what they see before they touch, too.
+        zmp_source: Source of loads and ZMP: "skin", or "force_torque" at the ankles.
+        footholds: Source of the carrying part of a foothold: "off" assumes a whole sole; "force" uses the taxels'
+            forces, "skin" their proximity, too.
         pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
         feasibility: Rule by which a foothold is refused that is higher than expected: "off", "skin" (supported area) or
             "force_torque" (moment at the ankle). Of a robot with pfc.
-        conform: Feet take the ground's shape: standing soles turn until the ground carries them where they should be
+        conform: Feet follow the ground's shape: standing soles turn until the ground carries them where they should be
             loaded. For bumps; of a robot with pfc.
-        identify: The controller identifies how robot and sensors differ from its model, such as the gyro's bias.
+        identify: The controller identifies differences of robot and sensors from its model, such as the gyro's bias.
         step_timing: The controller ends a single support sooner or later than planned where the DCM asks for it; not of
             a robot that rocks.
         step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks, and only in time on
             ground that does not carry everywhere.
-        learn_strides: Strides become longer by what pushed steps went farther; needs `step_adjustment`.
-        push_estimate: What shows a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
-            "skin" on the upper body, and the soles where that measures nothing.
-        dcm_estimate: What estimates the CoM's velocity, and so the DCM: "observer", or "kalman", a Kalman filter that
-            takes what neither ZMP nor push explain for a push that nothing measures.
+        learn_strides: Strides become longer by the extra length of pushed steps; needs `step_adjustment`.
+        push_estimate: Source of a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
+            "skin" on the upper body, or the soles where that measures none.
+        dcm_estimate: Estimator of the CoM's velocity, and so the DCM: "observer", or "kalman", a Kalman filter that
+            counts what neither ZMP nor push explain as a push.
         swing_shape: Path of the swing foot: "polynomial" changes only with the plan; "fit" is fitted at every tick to
             where and when the foot should land; other packages may bring more ("plantar.swings").
         drives: What drives the leg joints: "servo", position servos with the gains of the robot's file; "own", its
@@ -201,9 +199,7 @@ CONTROL_PERIOD = Control().period
 def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
     """Durations of a walk's phases: the scene's, else the robot's, else the same number of beats for every robot.
 
-    A robot that rocks from foot to foot has its own, and begins and ends as quickly.
-
-    Takes `body`; returns the durations.
+    A robot that rocks has its own. Takes `body`; returns the durations.
     """
     stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
     if walk.commanded and not robot.rocks:

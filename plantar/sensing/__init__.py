@@ -1,1 +1,1 @@
-"""What taxels measure, and what one of their signals tells: force, proximity, temperature, health."""
+"""Signals of taxels, one at a time: force, proximity, temperature, health."""

@@ -1,4 +1,4 @@
-"""Which taxels are in contact: a threshold, with or without hysteresis."""
+"""Active taxels by a threshold, with or without hysteresis."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["TaxelActivation", "active_taxels", "hysteresis"]
 def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.inf) -> NDArray[np.bool_]:
     """Taxels whose force exceeds the activation threshold (T 4.22: |f_iz| > epsilon_f).
 
-    Dead taxels (NaN, inf), negative readings and, where `saturation` is given, saturated taxels are not active.
+    Dead taxels (NaN, inf), negative readings and saturated taxels are not active.
 
     Args:
         force: Normal forces (..., n) in N.
@@ -28,8 +28,7 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
         Mask (..., n).
 
     Raises:
-        ReadingError: If the forces are not numeric.
-        InputError: If a threshold is NaN or no number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> active_taxels(np.array([0.0, 2.0, np.nan, 785.0]), 1.47, 785.0).tolist()
@@ -56,8 +55,7 @@ def hysteresis(
         State (frames, ...) after each frame.
 
     Raises:
-        InputError: If a threshold is NaN or `low` is above `high`, the values are not numeric or have no time axis, or
-            the initial state does not fit them.
+        InputError: If thresholds, values or the initial state are not valid.
 
     Example:
         >>> hysteresis([0.0, 2.0, 1.2, 0.9, 1.2], high=1.5, low=1.0).tolist()
@@ -80,13 +78,11 @@ def hysteresis(
 
 
 class TaxelActivation:
-    """Activation with hysteresis of a sole's taxels, reading by reading.
-
-    Active above the activation threshold (T 4.22) until it falls to the release threshold.
+    """Activation with hysteresis of a sole's taxels, reading by reading (T 4.22).
 
     Args:
         threshold: Force in N above which a taxel becomes active.
-        release: Force in N at or below which it no longer is; not above `threshold`. Half of it where None.
+        release: Force in N at or below which it no longer is, at most `threshold`; half of it if None.
         saturation: Force in N from which a taxel is saturated and not active.
 
     Raises:
@@ -106,15 +102,11 @@ class TaxelActivation:
         self._active: NDArray[np.bool_] | None = None
 
     def reset(self) -> None:
-        """Forget the past: no taxel is active."""
+        """Set all taxels inactive."""
         self._active = None
 
     def update(self, force: ArrayLike) -> NDArray[np.bool_]:
-        """Active taxels (n,) after the next reading, of forces (n,) in N.
-
-        Raises:
-            ReadingError: If the forces are not (n,) numbers, or their number differs from that of the reading before.
-        """
+        """Active taxels (n,) after the next reading of forces (n,) in N; a ReadingError for another shape."""
         now = numbers(force, "forces", ReadingError)
         if now.ndim != 1:
             raise ReadingError(f"forces have shape {now.shape}; expected (taxels,)")
@@ -129,7 +121,6 @@ class TaxelActivation:
 
 
 def _checked(high: float, low: float, saturation: float) -> tuple[float, float, float]:
-    """Thresholds of a hysteresis."""
     on, off = number(high, "threshold of a hysteresis", nan=True), number(low, "threshold of a hysteresis", nan=True)
     if not off <= on:
         raise InputError(f"hysteresis switches off at {low} and on above {high}; allowed: off not above on")

@@ -1,7 +1,7 @@
-"""Wrenches of any patch of skin from its force and proximity signals together: on the body (K) and on the hands (A).
+"""Wrenches of a patch of skin from force and proximity together: on the body (K) and on the hands (A).
 
-Positions and rotations of cells are in the frame of the wrench. A cell's z axis points into the body: its force
-pushes along +z (K 4-5 print [0, 0, -f] for an axis out of it).
+Positions and rotations of cells are in the frame of the wrench. A cell's z axis points into the body: its force pushes
+along +z (K 4-5 print [0, 0, -f] for an axis out of it).
 """
 
 from __future__ import annotations
@@ -20,22 +20,20 @@ __all__ = ["active_cells", "patch_signal", "pseudo_force", "skin_wrench"]
 def active_cells(
     force: ArrayLike, proximity: ArrayLike, force_threshold: float, proximity_threshold: float
 ) -> NDArray[np.bool_]:
-    """Cells that feel force OR see something near (K 2 corrected).
-
-    Printed is AND, with which a cell about to be touched could never be active.
+    """Cells with force OR proximity above a threshold (K 2 corrected: with the printed AND, none is active before a
+    touch).
 
     Args:
         force: Force signals (..., n), in N or normalised.
-        proximity: Proximity signals (..., n), growing as something comes near.
+        proximity: Proximity signals (..., n), larger when nearer.
         force_threshold: epsilon_force in the unit of `force`.
         proximity_threshold: epsilon_prox in the unit of `proximity`.
 
     Returns:
-        Mask (..., n); a cell is not active by a signal that is NaN, inf or beyond `LARGEST`.
+        Mask (..., n); a signal that is NaN, inf or beyond `LARGEST` does not count.
 
     Raises:
-        ReadingError: If the signals are not numeric or differ in shape.
-        InputError: If a threshold is NaN or no number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> active_cells([0.0, 0.4, 0.0, np.nan], [0.8, 0.9, 0.0, np.nan], 0.1, 0.1).tolist()
@@ -58,18 +56,16 @@ def pseudo_force(
 
     Args:
         force: Force signals (..., n).
-        proximity: Proximity signals (..., n), growing as something comes near.
+        proximity: Proximity signals (..., n), larger when nearer.
         force_weight: w_force, in N per unit of `force`.
         proximity_weight: w_prox, in N per unit of `proximity`.
-        active: Mask (..., n), for example of `active_cells`; all cells where None.
+        active: Mask (..., n), for example of `active_cells`; all cells if None.
 
     Returns:
-        Pseudo-forces (..., n) in N, 0 for cells that are not active; a signal that is NaN, inf or beyond
-            `LARGEST` counts as 0.
+        Pseudo-forces (..., n) in N, 0 for inactive cells; a signal that is NaN, inf or beyond `LARGEST` counts as 0.
 
     Raises:
-        ReadingError: If the signals are not numeric, or they and the mask differ in shape.
-        InputError: If a weight is not a finite number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> pseudo_force([0.0, 0.5, np.nan], [0.2, 1.0, 0.5], 10.0, 2.0).tolist()
@@ -88,14 +84,13 @@ def patch_signal(force: ArrayLike, proximity: ArrayLike, weight: float) -> NDArr
     Args:
         force: Force signals (..., n), normalised to 0..1.
         proximity: Proximity signals (..., n), normalised to 0..1, 1 at contact.
-        weight: w: 0 reacts to proximity alone, 1 to force alone.
+        weight: w: 0 for proximity alone, 1 for force alone.
 
     Returns:
         Signals (..., n); a signal that is NaN, inf or beyond `LARGEST` counts as 0.
 
     Raises:
-        ReadingError: If the signals are not numeric or differ in shape.
-        InputError: If the weight is not within 0 to 1.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> patch_signal([0.0, 1.0], [0.5, 1.0], 0.25).tolist()
@@ -114,11 +109,10 @@ def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -
     Args:
         positions: Cell positions (n, 3) in the wanted frame in m; with K, relative to the CoM.
         rotations: Rotations (n, 3, 3) from each cell's frame to the wanted frame.
-        signal: Normal forces (n,) or (frames, n) in N, of `pseudo_force`, `patch_signal` or a reading; NaN, inf
-            or beyond `LARGEST` counts as 0.
+        signal: Normal forces (n,) or (frames, n) in N; NaN, inf or beyond `LARGEST` counts as 0.
 
     Returns:
-        Wrench (6,) or (frames, 6) about the wanted frame's origin in N and N m, exerted by the world on the robot.
+        Wrench (6,) or (frames, 6) about the wanted frame's origin in N and N m, by the world on the robot.
 
     Raises:
         ReadingError: If the shapes do not agree, or a position or rotation is not finite.
@@ -141,7 +135,6 @@ def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -
 
 
 def _signals(force: ArrayLike, proximity: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The two signals of each cell (..., n)."""
     f, p = numbers(force, "force signals", ReadingError), numbers(proximity, "proximity signals", ReadingError)
     if f.shape != p.shape:
         raise ReadingError(f"force signals have shape {f.shape}, proximity signals {p.shape}; expected the same")

@@ -1,7 +1,7 @@
-"""Undo what clipping at zero does to the mean of a noisy sensor.
+"""Corrects the mean of a noisy sensor that is clipped at zero.
 
-Noise of a taxel that carries little is cut off below 0, so its running mean comes out too high: by 0.4 sigma without
-load. With white noise of known sigma the mean of the clipped reading of a force f is
+Without load the running mean is too high by 0.4 sigma. With white noise of known sigma the mean of the clipped reading
+of a force f is
 
     g(f) = f P(f / sigma) + sigma p(f / sigma)
 """
@@ -53,7 +53,7 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
 
 
 def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
-    """Force behind the mean of a sensor's readings whose noise is clipped at zero: the inverse of `clipped_mean`.
+    """Force behind the mean of a sensor's clipped readings: the inverse of `clipped_mean`.
 
     A mean below that of no load gives a force below zero, along the tangent.
 
@@ -79,7 +79,6 @@ def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
 
 
 def _sigma(noise: float) -> float:
-    """The noise of a sensor, checked."""
     sigma = number(noise, "noise of a sensor", nan=True)
     if not 0.0 <= sigma <= _LOUDEST:
         raise InputError(f"noise of a sensor is {noise} N; allowed: 0 to {_LOUDEST:g} N")

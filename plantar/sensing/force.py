@@ -1,34 +1,47 @@
-"""Forces of a sole: centre of pressure and ground reaction wrench."""
+"""Center of pressure and ground reaction wrench of a sole."""
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import (
+    ArrayLike,
+    NDArray,
+)
 
+from plantar.arguments import number
+from plantar.arrays import array
+from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
-from plantar.layouts.taxel_values import taxel_frames, taxel_values
+from plantar.layouts.taxel_values import (
+    taxel_frames,
+    taxel_values,
+)
 from plantar.sensing.activation import active_taxels
 
-__all__ = ["center_of_pressure", "ground_reaction_wrench"]
+__all__ = [
+    "center_of_pressure",
+    "ground_reaction_wrench",
+    "joint_torque",
+    "pressure_driven_wrench",
+    "scaled_by_area",
+]
 
 
 def center_of_pressure(
     layout: SoleLayout, force: ArrayLike, threshold: float | None = None
 ) -> NDArray[np.float64] | None:
-    """Centre of pressure of one sole (T 4.21).
+    """Center of pressure of one sole (T 4.21); for many frames see `plantar.batch.loads`.
 
     Args:
         layout: The sole, n taxels.
-        force: Normal forces (n,) in N; taxels that are dead, saturated or not active are left out.
-        threshold: Activation threshold in N; that of the layout where None.
+        force: Normal forces (n,) in N; dead, saturated or inactive taxels are left out.
+        threshold: Activation threshold in N; the layout's if None.
 
     Returns:
-        Position (2,) in the sole frame in m, or None where the sole carries no force. For many frames see
-        `plantar.batch.loads`.
+        Position (2,) in the sole frame in m, or None without force.
 
     Raises:
-        ReadingError: If these are not n numbers.
-        InputError: If the threshold is NaN or no number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import hex_layout
@@ -48,15 +61,14 @@ def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: floa
 
     Args:
         layout: The sole, n taxels.
-        force: Normal forces (n,) or (frames, n) in N; taxels that are dead, saturated or not active are left out.
-        threshold: Activation threshold in N; that of the layout where None.
+        force: Normal forces (n,) or (frames, n) in N; dead, saturated or inactive taxels are left out.
+        threshold: Activation threshold in N; the layout's if None.
 
     Returns:
-        Wrench (6,) or (frames, 6) in the sole frame in N and N m, exerted by the world on the sole.
+        Wrench (6,) or (frames, 6) in the sole frame in N and N m, by the world on the sole.
 
     Raises:
-        ReadingError: If these are not n numbers a frame.
-        InputError: If the threshold is NaN or no number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import grid_layout
@@ -68,6 +80,98 @@ def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: floa
 
 
 def _active(layout: SoleLayout, force: NDArray[np.float64], threshold: float | None) -> NDArray[np.float64]:
-    """Forces of the active taxels, 0 elsewhere: what `Percept` and `plantar.batch` count, too."""
+    """Forces of the active taxels, 0 elsewhere, as in `Percept` and `plantar.batch`."""
     low = layout.force_threshold if threshold is None else threshold
     return np.where(active_taxels(force, low, layout.force_limit), force, 0.0)
+
+
+def pressure_driven_wrench(
+    layout: SoleLayout, force: ArrayLike, reference_area: float, threshold: float | None = None
+) -> NDArray[np.float64]:
+    """Wrench amplified on a small contact area and damped on a large one (T 3.26-3.27): w_P = xi / sum(alpha_i) * w_f.
+
+    Args:
+        layout: The sole, n taxels, of which the active ones' areas are the alpha_i.
+        force: Normal forces (n,) or (frames, n) in N; dead or saturated taxels are left out.
+        reference_area: Gain xi in m^2: the contact area with unchanged wrench.
+        threshold: Activation threshold epsilon_a in N; the layout's if None.
+
+    Returns:
+        Wrench (6,) or (frames, 6) about the sole frame's origin in N and N m; zero without contact.
+
+    Raises:
+        ReadingError, InputError: If an argument is not valid.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], clip=False)
+        >>> spread = np.full(len(layout), 60.0 / len(layout))
+        >>> point = np.where(np.arange(len(layout)) == 3, 60.0, 0.0)
+        >>> [round(float(pressure_driven_wrench(layout, f, 691e-6)[2]), 2) for f in (spread, point)]
+        [3.16, 60.0]
+    """
+    readings = taxel_frames(layout, force)
+    active = active_taxels(readings, layout.force_threshold if threshold is None else threshold, layout.force_limit)
+    with np.errstate(over="ignore", invalid="ignore"):  # of forces as large as no sensor's, where no range is stated
+        wrench = np.where(active, readings, 0.0) @ layout.wrench_map.T
+    return scaled_by_area(wrench, active @ layout.areas, reference_area)
+
+
+def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: float) -> NDArray[np.float64]:
+    """A wrench scaled by its contact area: xi / area * w (T 3.27).
+
+    Args:
+        wrench: Wrench (6,) or (frames, 6) in N and N m.
+        contact_area: Contact area () or (frames,) in m^2.
+        reference_area: Gain xi in m^2.
+
+    Returns:
+        Wrench in the shape of `wrench`; zero where the contact area is 0.
+
+    Raises:
+        InputError: If the reference area is not a finite value above 0, or there is not one finite area a wrench.
+
+    Example:
+        >>> scaled_by_area([0, 0, 60.0, 0, 0, 0], 2e-3, 1e-3).tolist()
+        [0.0, 0.0, 30.0, 0.0, 0.0, 0.0]
+    """
+    reference = number(reference_area, "reference area", nan=True)
+    if not 0.0 < reference < np.inf:
+        raise InputError(f"reference area is {reference_area} m^2; allowed: a finite value above 0")
+    given = array(wrench, "wrench", (..., 6))
+    if isinstance(contact_area, float) and given.ndim == 1:  # one reading: without arrays for one number
+        one = number(contact_area, "contact area", finite=True)
+        return np.asarray(given * (reference / one if one > 0.0 else 0.0))
+    area = array(contact_area, "contact area", (...,), finite=True)
+    if area.shape != given.shape[:-1]:
+        raise InputError(f"contact area has shape {area.shape}; expected one a wrench, {given.shape[:-1]}")
+    with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
+        gain = np.divide(reference, area[..., None], out=np.zeros((*area.shape, 1)), where=area[..., None] > 0.0)
+        return np.asarray(given * gain)
+
+
+def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: ArrayLike) -> NDArray[np.float64]:
+    """Joint torques of a real or virtual wrench at a link: tau = J^T E w (T 3.20, 3.28, 3.33, 3.38; A 13-14).
+
+    Args:
+        jacobian: Geometric Jacobian (6, joints) of the link's frame, linear rows first, in the base frame.
+        rotation_to_base: Rotation (3, 3) from the link's (the sole's) frame to the base frame.
+        wrench: Wrench (6,) or (frames, 6) about the link's origin in its frame in N and N m.
+
+    Returns:
+        Torques (joints,) or (frames, joints) in N m.
+
+    Raises:
+        InputError: If a shape is wrong, or the Jacobian or rotation not finite.
+
+    Example:
+        >>> slider_along_z = [[0.0], [0], [1], [0], [0], [0]]
+        >>> joint_torque(slider_along_z, np.eye(3), [0, 0, 5.0, 1, 0, 0]).tolist()
+        [5.0]
+    """
+    columns = array(jacobian, "jacobian", (6, "joints"), finite=True)
+    rotation = array(rotation_to_base, "rotation", (3, 3), finite=True)
+    given = array(wrench, "wrench", (..., 6))
+    with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
+        turned = np.concatenate([given[..., :3] @ rotation.T, given[..., 3:] @ rotation.T], axis=-1)
+        return np.asarray(turned @ columns)

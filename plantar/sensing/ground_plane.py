@@ -1,4 +1,4 @@
-"""The ground under a swinging sole as a plane: how high, how steep, how well it fits."""
+"""The ground under a swinging sole as a plane."""
 
 from __future__ import annotations
 
@@ -19,13 +19,7 @@ __all__ = ["GroundPlane", "checked_range", "fit_ground_plane", "ground_fit", "gr
 
 
 class GroundPlane(NamedTuple):
-    """Ground z = -height + slope . (x, y) in the sole frame.
-
-    Example:
-        >>> plane = GroundPlane(0.03, (0.1, 0.0), 0.0, np.ones(3, dtype=bool), 2)
-        >>> round(plane.height_at([0.1, 0.0]).item(), 9), plane.normal.round(3).tolist()
-        (0.02, [-0.1, -0.0, 0.995])
-    """
+    """Ground z = -height + slope . (x, y) in the sole frame."""
 
     height: float
     """Height in m of the sole frame's origin above the ground, along the sole's z; negative below it."""
@@ -53,14 +47,14 @@ class GroundPlane(NamedTuple):
 
 
 def ground_points(layout: SoleLayout, distance: ArrayLike) -> NDArray[np.float64]:
-    """Points of the ground that the taxels see: r_i - d_i z_i.
+    """Points of the ground under the taxels: r_i - d_i z_i.
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (n,) or (frames, n) in m; inf where nothing is in range, NaN for a dead taxel.
+        distance: Distances (n,) or (frames, n) in m; inf out of range, NaN for a dead taxel.
 
     Returns:
-        Points (n, 3) or (frames, n, 3) in the sole frame in m; NaN where nothing is seen.
+        Points (n, 3) or (frames, n, 3) in the sole frame in m; NaN without ground.
 
     Raises:
         ReadingError: If these are not n numbers a frame.
@@ -81,24 +75,22 @@ def fit_ground_plane(
 ) -> GroundPlane | None:
     """Fit a plane to the ground under a sole.
 
-    A least-squares fit where every residual is within the tolerance. Otherwise a few taxels see something else, an edge
-    or a cable: the least median of squares over triples of taxels, always the same ones, finds the plane most of them
-    agree on, and a least-squares fit to those that lie within the tolerance of it, or within 2.5 robust standard
-    deviations, gives the result (Rousseeuw and Leroy 1987). Up to about 40 % of outliers are thrown out.
+    Least squares where every residual is within the tolerance. Otherwise the least median of squares over triples of
+    taxels, always the same ones, finds the plane of the majority, and least squares over the taxels within the
+    tolerance of it, or within 2.5 robust standard deviations, gives the result (Rousseeuw and Leroy 1987): up to about
+    40 % of outliers, such as an edge or a cable, are ignored.
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (n,) in m; inf where nothing is in range, NaN for a dead taxel. Noise may make one negative.
-        sensing_range: Distance in m from which a reading, also a negative one, counts as out of range; that of the
-            layout where None.
+        distance: Distances (n,) in m; inf out of range, NaN for a dead taxel, possibly negative by noise.
+        sensing_range: Distance in m from which a reading, also a negative one, is out of range; the layout's if None.
         tolerance: Distance in m from the plane that noise and rough ground explain.
 
     Returns:
-        The plane; None where no taxel sees the ground.
+        The plane; None where no taxel measures the ground.
 
     Raises:
-        ReadingError: If the number of distances is not that of the taxels.
-        InputError: If the tolerance is not above 0, or the range not a finite value above 0.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import hex_layout
@@ -119,23 +111,15 @@ def fit_ground_plane(
 
 
 def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: float) -> float:
-    """The range of a fit, checked with its tolerance.
+    """The range in m of a fit, checked with its tolerance; an InputError unless both are above 0.
 
     Args:
         layout: The sole.
-        sensing_range: Distance in m from which a reading counts as out of range; that of the layout where None.
-        tolerance: Distance in m from the plane that noise and rough ground explain.
+        sensing_range: As in `fit_ground_plane`.
+        tolerance: As in `fit_ground_plane`.
 
     Returns:
-        The range in m.
-
-    Raises:
-        InputError: If the tolerance is not above 0, or the range not a finite value above 0.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> checked_range(hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]]), None, 2e-3)
-        0.05
+        The range.
     """
     if not number(tolerance, "tolerance of the ground plane", nan=True) > 0.0:
         raise InputError(f"tolerance of the ground plane is {tolerance} m; allowed: above 0")
@@ -146,19 +130,10 @@ def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: fl
 
 
 def ground_fit(layout: SoleLayout) -> GroundFit:
-    """The kernel that fits planes to what a sole sees, made at first use.
+    """The kernel that fits planes to a sole's distances, made at first use.
 
     Args:
         layout: The sole, n taxels.
-
-    Returns:
-        The kernel, the same one each time.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
-        >>> ground_fit(layout) is ground_fit(layout)
-        True
     """
     try:
         kernel: GroundFit = layout.__dict__["_ground_fit"]

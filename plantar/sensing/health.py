@@ -1,4 +1,4 @@
-"""Which taxels to believe: dead, saturated and stuck ones are found, reported, and filled from neighbours on demand."""
+"""Dead, saturated and stuck taxels, and their replacement by neighbours."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ __all__ = ["StuckMonitor", "TaxelHealth", "dead_taxels", "fill_from_neighbours",
 
 @dataclass(frozen=True, eq=False)
 class TaxelHealth:
-    """The taxels of a sole that are left out of every sum, and why. Arrays are copied in, and read-only.
+    """The taxels of a sole that are left out of every sum, and why. Read-only copies.
 
     Attributes:
         dead: Taxels (n,) that read NaN or inf.
-        saturated: Taxels (n,) that read the end of their range or more: the true force is unknown.
+        saturated: Taxels (n,) that read the end of their range or more.
         stuck: Taxels (n,) that have not changed for too long.
 
     Raises:
@@ -94,8 +94,7 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
         Mask (..., n).
 
     Raises:
-        ReadingError: If the readings are not numeric.
-        InputError: If the range is NaN or no number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> saturated_taxels([784.0, 785.0, np.nan, np.inf], 785.0).tolist()
@@ -124,8 +123,7 @@ def stuck_taxels(
         Mask (frames, n): stuck at that frame.
 
     Raises:
-        InputError: If the times are not increasing or their number is not that of the frames, `hold` is not above 0,
-            or the readings are not numeric.
+        InputError: If times, `hold` or readings are not valid.
 
     Example:
         >>> stuck_taxels([0.0, 0.5, 1.0], [[0, 5, 5], [0, 5, 6], [0, 5, 5]], hold=1.0).tolist()[-1]
@@ -144,15 +142,15 @@ def stuck_taxels(
 
 
 class StuckMonitor:
-    """Finds stuck taxels reading by reading; the same rule as `stuck_taxels`.
+    """Finds stuck taxels reading by reading, as `stuck_taxels`.
 
     Args:
-        hold: Time in s without a change from which a taxel is stuck.
-        tolerance: Largest difference of two samples that is no change.
-        rest: A taxel that reads this or less is at rest, and never stuck.
+        hold: As in `stuck_taxels`.
+        tolerance: As in `stuck_taxels`.
+        rest: As in `stuck_taxels`.
 
     Raises:
-        InputError: If `hold` is not above 0, `tolerance` is below 0, or one is no number.
+        InputError: If `hold` is not above 0, `tolerance` is below 0, or one is not a number.
 
     Example:
         >>> monitor = StuckMonitor(hold=1.0)
@@ -174,15 +172,14 @@ class StuckMonitor:
         """Stuck taxels (n,) after the next reading.
 
         Args:
-            time: Time in s, later than the one before.
+            time: Time in s, later than the last one.
             values: Readings (n,).
 
         Returns:
             Mask (n,).
 
         Raises:
-            InputError: If the time is not a finite number later than the one before.
-            ReadingError: If these are not (n,) numbers, or their number differs from that of the reading before.
+            InputError, ReadingError: If an argument is not valid.
         """
         now = numbers(values, "readings", ReadingError).copy()
         if now.ndim != 1:
@@ -203,17 +200,17 @@ class StuckMonitor:
 def fill_from_neighbours(
     layout: SoleLayout, values: ArrayLike, faulty: ArrayLike, *, per_area: bool = False
 ) -> NDArray[np.float64]:
-    """Readings in which faulty taxels hold the mean of their sound neighbours.
+    """Readings in which faulty taxels have the mean of their sound neighbours, NaN without any.
 
     Args:
         layout: The sole, n taxels.
         values: Readings (n,) or (frames, n); never changed.
         faulty: Mask (n,) or of the shape of `values`: the taxels to fill.
-        per_area: Average the value per area and scale it with the taxel's own area, as is right for forces where cells
-            differ in size: force_i = A_i * mean(force_j / A_j).
+        per_area: Average values per area, right for forces on cells of different size: force_i = A_i * mean(force_j /
+            A_j).
 
     Returns:
-        Readings in the shape of `values`; a faulty taxel without a sound neighbour holds NaN.
+        Readings in the shape of `values`.
 
     Raises:
         ReadingError: If the number of taxels is not that of the layout, or the mask does not fit the readings.
@@ -250,7 +247,7 @@ def fill_from_neighbours(
 
 
 def _neighbour_table(layout: SoleLayout) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Neighbours (n, most) of every taxel, padded, and which of them are there; made at first use."""
+    """Padded neighbours (n, most) of every taxel, and a mask of the real ones."""
     try:
         table: tuple[NDArray[np.intp], NDArray[np.bool_]] = layout.__dict__["_neighbour_table"]
     except KeyError:
@@ -272,7 +269,6 @@ def _same(now: NDArray[np.float64], before: NDArray[np.float64], tolerance: floa
 
 
 def _checked(hold: float, tolerance: float, rest: float) -> tuple[float, float, float]:
-    """What says when a taxel is stuck."""
     for_long = number(hold, "hold of stuck taxels", nan=True)
     same = number(tolerance, "tolerance of stuck taxels", nan=True)
     if not for_long > 0.0:

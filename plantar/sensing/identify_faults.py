@@ -1,4 +1,4 @@
-"""Identify the faults of a skin's taxels from a recording under known forces, as of a press or a reference mat."""
+"""Faults of a skin's taxels, identified from a recording under known forces, as of a press or a reference mat."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _MOST_FRAMES = 4000
 
 
 class IdentifiedFaults(NamedTuple):
-    """What a recording shows of a sole's taxels.
+    """Faults of a sole's taxels from a recording.
 
     Attributes:
-        worn: The taxels' own faults, ready to be put on other forces; without noise.
-        faults: Their statistics: draws other soles of the kind (`TaxelFaults.worn`).
+        worn: The taxels' own faults, to apply to other forces; without noise.
+        faults: Their statistics, to draw other soles of the kind (`TaxelFaults.worn`).
         gain_error: Standard error (n,) of each gain; NaN for dead taxels.
-        residual: Root mean square (n,) in N of what the model leaves of each taxel's readings.
+        residual: Root mean square (n,) in N of each taxel's error after the fit.
     """
 
     worn: WornFaults
@@ -44,14 +44,14 @@ class IdentifiedFaults(NamedTuple):
 def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read: ArrayLike) -> IdentifiedFaults:
     """Identify gains, zeros, drifts, dead taxels, crosstalk, hysteresis, delay, resolution and noise.
 
-    Crosstalk, hysteresis and delay are searched for by golden sections; at each trial gains, zeros and drifts follow by
-    least squares. Shear is not identified: it needs tangential forces.
+    Golden sections search crosstalk, hysteresis and delay; at each trial gains, zeros and drifts follow by least
+    squares. Shear is not identified: it needs tangential forces.
 
     Args:
         layout: The sole, n taxels.
         time: Times (t,) in s, increasing.
-        force: Known normal force (t, n) on each taxel in N. Loads have to come on and go off.
-        read: What the taxels read (t, n) in N; NaN for a dead one.
+        force: Known normal force (t, n) on each taxel in N. Loads have to rise and fall.
+        read: Readings (t, n) of the taxels in N; NaN for a dead one.
 
     Returns:
         The faults.
@@ -135,7 +135,6 @@ class _Fit:
         self._inverse = np.linalg.pinv(self._fixed)
 
     def _pressed(self, shares: dict[str, float]) -> NDArray[np.float64]:
-        """Force (t, used) that the electronics get."""
         key = shares["crosstalk"], shares["hysteresis"]
         if key != self._key:
             worn = WornFaults(
@@ -150,7 +149,7 @@ class _Fit:
         return np.asarray((1.0 - share) * rubbed[after - 1] + share * rubbed[after])
 
     def solve(self, shares: dict[str, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Zeros, drifts and gains (3, used), and what is left (t, used) in N."""
+        """Zeros, drifts and gains (3, used), and residual (t, used) in N."""
         pressed = self._pressed(shares)
         off, seen = (values - self._fixed @ (self._inverse @ values) for values in (pressed, self._seen))
         gains = (off * seen).sum(axis=0) / np.maximum(np.square(off).sum(axis=0), 1e-300)
@@ -158,11 +157,10 @@ class _Fit:
         return np.array([rest[0], rest[1] if len(rest) > 1 else 0.0 * gains, gains]), seen - gains * off
 
     def error(self, shares: dict[str, float]) -> float:
-        """Sum of squares that is left in N^2."""
         return float(np.square(self.solve(shares)[1]).sum())
 
     def lowest(self, shares: dict[str, float], name: str, low: float, high: float) -> float:
-        """Value of one share from low to high that leaves least, by golden section; its own where none leaves less."""
+        """Best value of one share from low to high, by golden section; the current one if none is better."""
 
         def error(value: float) -> float:
             return self.error({**shares, name: value})
@@ -185,14 +183,13 @@ class _Fit:
         return best
 
     def gain_error(self, shares: dict[str, float], left: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Standard error (used,) of the gains."""
         pressed = self._pressed(shares)
         off = pressed - pressed.mean(axis=0)
         return np.asarray(np.sqrt(np.square(left).sum(axis=0) / max(1, len(left) - 3) / np.square(off).sum(axis=0)))
 
 
 def _resolution(seen: NDArray[np.float64]) -> float:
-    """Step in N that all readings are multiples of; 0 where they are of none."""
+    """Step in N that all readings are multiples of; 0 without."""
     values = np.unique(seen)
     steps = np.diff(values)
     steps = steps[steps > 1e-9 * max(1.0, float(np.abs(values).max()))]

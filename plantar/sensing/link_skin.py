@@ -1,4 +1,4 @@
-"""Skin on the links of a body: where its taxels are, what a reading of them says, and the wrenches that follow."""
+"""Skin on the links of a body: its taxels, their readings, and wrenches."""
 
 from __future__ import annotations
 
@@ -27,11 +27,10 @@ class SkinPatch:
         rotations: Rotations (t, 3, 3) from each taxel's to the link's frame.
         areas: Area (t,) of each taxel in m^2.
         force_threshold: epsilon_f of T 3.23: force in N from which a taxel is active.
-        proximity_range: d_range of T 3.30: distance in m up to which a taxel sees; 0 for a patch that does not.
+        proximity_range: d_range of T 3.30: sensing range in m; 0 for none.
 
     Raises:
-        LayoutError: If an array has another shape or is not finite, an area is not above 0, or a threshold or range is
-            negative; the message names the patch.
+        LayoutError: If a value is not valid; the message names the patch.
     """
 
     name: str
@@ -74,7 +73,7 @@ class SkinPatch:
 
 
 class BodySkin:
-    """All taxels of a body in one order: link by link, so that what is felt on a link is one slice.
+    """All taxels of a body in one order, link by link, so that a link's taxels are one slice.
 
     Args:
         patches: The patches, any number a link.
@@ -85,7 +84,7 @@ class BodySkin:
         link_of: Index (N,) of each taxel's link in `links`.
         slices: Taxels of each patch by its name.
         positions: Taxel positions (N, 3) in their link's frame in m.
-        normals: Direction (N, 3) into the body in the link's frame: where a force on the taxel pushes.
+        normals: Direction (N, 3) into the body in the link's frame: that of a force on the taxel.
         areas: Taxel areas (N,) in m^2.
         thresholds: Force threshold (N,) in N.
         ranges: Proximity range (N,) in m.
@@ -122,22 +121,14 @@ class BodySkin:
         return len(self.positions)
 
     def patch(self, name: str) -> SkinPatch:
-        """The patch of a name.
-
-        Raises:
-            InputError: If there is none.
-        """
+        """The patch of a name; an InputError without."""
         found = next((p for p in self.patches if p.name == name), None)
         if found is None:
             raise InputError(f"no patch is called '{name}'; allowed: {', '.join(self.slices)}")
         return found
 
     def taxels_of(self, patches: Sequence[str] | None) -> NDArray[np.bool_]:
-        """Mask (N,) of the taxels of some patches; of all where None.
-
-        Raises:
-            InputError: If there is no patch of a name.
-        """
+        """Mask (N,) of the taxels of some patches; of all if None; an InputError for an unknown name."""
         if patches is None:
             return np.ones(len(self), dtype=bool)
         found = np.zeros(len(self), dtype=bool)
@@ -148,13 +139,13 @@ class BodySkin:
 
 @dataclass(frozen=True)
 class SkinReading:
-    """One reading of a `BodySkin`, in its order of taxels. A taxel that delivers nothing reads NaN, and is silent.
+    """One reading of a `BodySkin`, in its order of taxels. A taxel without data reads NaN.
 
     Attributes:
         time: Time in s.
         force: Normal force (N,) on each taxel in N, 0 or more.
-        distance: Distance (N,) to what each taxel sees in m; inf where nothing is in range.
-        temperature: Temperature (N,) of each taxel in degC; None for a skin that does not measure it.
+        distance: Distance (N,) of each taxel in m; inf out of range.
+        temperature: Temperature (N,) of each taxel in degC; None if not measured.
     """
 
     time: float
@@ -164,13 +155,7 @@ class SkinReading:
 
 
 class LinkWrench(NamedTuple):
-    """What the active taxels of one link say together.
-
-    Attributes:
-        link: Name of the link.
-        wrench: Wrench (6,) about the link's origin in the link's frame, exerted by the world on the robot.
-        taxels: Their indices.
-    """
+    """The wrench (6,) of the active taxels of one link, about its origin in its frame, by the world on the robot."""
 
     link: str
     wrench: NDArray[np.float64]
@@ -178,7 +163,7 @@ class LinkWrench(NamedTuple):
 
 
 def link_wrenches(skin: BodySkin, signal: NDArray[np.float64], active: NDArray[np.bool_]) -> list[LinkWrench]:
-    """Sum what active taxels feel, a wrench a link (T 3.16-3.18); links without any are left out (T 3.23-3.24).
+    """Sum the signals of active taxels, a wrench a link (T 3.16-3.18); links without any are left out (T 3.23-3.24).
 
     Args:
         skin: The skin.
@@ -186,7 +171,7 @@ def link_wrenches(skin: BodySkin, signal: NDArray[np.float64], active: NDArray[n
         active: Mask (N,) of the taxels that count.
 
     Returns:
-        A wrench for each link that has an active taxel, in the order of `skin.links`.
+        The wrenches, in the order of `skin.links`.
     """
     taxels = active.nonzero()[0]
     if not len(taxels):

@@ -1,9 +1,9 @@
-"""The net wrench of all that touches a body, or is about to, about one point: from every taxel of its skin (K 2-5).
+"""The net wrench about a point of all that touches a body, or is about to, from every taxel of its skin (K 2-5).
 
-A taxel counts where it feels force OR sees something near (K 2, corrected: with the printed AND nothing could count
-before it touches). Its pseudo-force is its force plus what its proximity adds (K 3), so a push is answered a moment
-before it arrives; the wrench is summed taxel by taxel, link by link, and carried to the point, with K the CoM (K 4-5).
-K's taxels deliver a share of full scale, which its weight of 99 turns into newtons; a `SkinReading` is in newtons.
+A taxel counts if it measures force OR proximity (K 2, corrected: with the printed AND none counts before a touch). Its
+pseudo-force is its force plus a share of its proximity (K 3), so a push is answered just before it arrives; wrenches
+are summed taxel by taxel, link by link, about the point, with K the CoM (K 4-5). K's taxels deliver a share of full
+scale, which its weight of 99 turns into newtons; a `SkinReading` is in newtons.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ __all__ = ["NetWrench", "NetWrenchRules", "net_wrench"]
 
 
 class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("skin",)}):
-    """What counts as a push, beside each patch's own threshold of force.
+    """What counts as a push, besides each patch's own force threshold.
 
     Attributes:
         near: theta_prox: share of its range by which something has to be nearer than the range's end (K Table 1).
-        proximity_force: w_prox: force in N that a taxel adds for something that is about to touch it: 1 N in K Table 1,
-            for a robot of 86 kg; 0 counts what touches alone.
+        proximity_force: w_prox: force in N of a taxel at distance 0 without contact: 1 N in K Table 1, for a robot of
+            86 kg; 0 counts contact alone.
     """
 
     near: float = number(0.05, "1", 0, 1)
@@ -38,12 +38,7 @@ class NetWrenchRules(Part, table="push_felt", needs={"control.push_estimate": ("
 
 
 class NetWrench(NamedTuple):
-    """What pushes a body.
-
-    Attributes:
-        wrench: Wrench (6,) about the point in the world's axes in N and N m, exerted by the world on the robot.
-        taxels: Indices of the taxels that count.
-    """
+    """The wrench (6,) of all pushes about the point in the world's axes in N and N m, and the indices of the taxels."""
 
     wrench: NDArray[np.float64]
     taxels: NDArray[np.int64]
@@ -56,18 +51,18 @@ def net_wrench(
     point: ArrayLike,
     rules: NetWrenchRules,
 ) -> NetWrench:
-    """Sum what all taxels feel and see (K 2-5, corrected).
+    """Sum the signals of all taxels (K 2-5, corrected).
 
     Args:
         skin: The skin.
-        reading: One reading of it. A taxel that reads NaN is silent.
-        poses: Origin (3,) in the world in m and rotation (3, 3) to the world of each link that has skin, by its name;
-            links whose taxels are all silent may be left out.
-        point: Point (3,) in the world that moments are taken about in m, with K the CoM.
+        reading: One reading of it; NaN for a silent taxel.
+        poses: Origin (3,) in the world in m and rotation (3, 3) to the world of each link that has skin, by name; links
+            with silent taxels alone may be left out.
+        point: Point (3,) in the world in m for moments, with K the CoM.
         rules: What counts.
 
     Returns:
-        The wrench; zeros where nothing counts.
+        The wrench; zeros without a push.
 
     Raises:
         ReadingError: If the reading is of another skin, the point not three finite numbers, or a pose missing.

@@ -1,15 +1,14 @@
-"""Which part of a sole is supported, finer than a cell: a fit of straight ground edges to the taxels' partial loads.
+"""The supported part of a sole, finer than a cell: a fit of straight ground edges to the taxels' partial loads.
 
-The hull of the active cells (T 4.24) reaches up to a whole cell beyond the edge of what the sole stands on. Cells that
-the edge cuts carry less than their neighbours do, and how much less says where it runs. The sole is taken for an
-elastic foundation under a rigid foot: on the supported part S the pressure is linear, so that taxel i reads
+The hull of the active cells (T 4.24) reaches up to a cell beyond the ground's edge. Cells cut by the edge carry less
+than their neighbours. With an elastic foundation under a rigid foot the pressure on the supported part S is linear:
 
     F_i = int_(cell i and S) (a + b x + c y) dA = a A_i + b Mx_i + c My_i,
 
-with A_i, Mx_i, My_i the area and first moments of the cell's covered part. S is what is left of the cells on the inner
-side of a few straight lines n . x <= h, the edges of the ground. For given lines the pressure is a linear
-least-squares problem; the lines move by Gauss-Newton steps, whose derivatives are exact: an edge that moves out by dh
-adds to each cell its chord times the pressure there (Leibniz).
+with A_i, Mx_i, My_i the area and first moments of the cell's covered part. S is the part of the cells on the inner side
+of a few lines n . x <= h. For given lines the pressure is a linear least-squares problem; the lines move by
+Gauss-Newton steps with exact derivatives: an edge that moves out by dh adds to each cell its chord times the pressure
+there (Leibniz).
 """
 
 from __future__ import annotations
@@ -40,13 +39,13 @@ _TURN = math.radians(12.0)  # prior spread of its direction
 
 @dataclass(frozen=True)
 class GroundEdges:
-    """Straight edges of the ground under a sole, and what they leave of it.
+    """Straight edges of the ground under a sole, and the supported part.
 
     Attributes:
         lines: Edges (m, 3) in the sole frame: outward normal of length 1, and distance from the origin in m.
         polygon: Supported part (k, 2) of the cells' convex hull in the sole frame in m, counter-clockwise.
-        deviation: Standard deviation (m,) of each edge's distance in m, as the noise allows.
-        residual: Root mean square of what the loads differ from the fit in N.
+        deviation: Standard deviation (m,) of each edge's distance in m by the noise.
+        residual: Root mean square difference of loads and fit in N.
     """
 
     lines: NDArray[np.float64]
@@ -85,28 +84,22 @@ class PartialContact:
         self.edges: GroundEdges | None = None
 
     def reset(self) -> None:
-        """Forget the edges: the foot lifts off."""
+        """Drop the edges: the foot lifts off."""
         self.edges = None
 
     def cover(self, lines: ArrayLike) -> NDArray[np.float64]:
-        """Area and first moments of what lines leave of each cell.
+        """Covered area in m^2 and its moments in m^3 about the sole frame's origin (n, 3) of each cell.
 
         Args:
-            lines: Half-planes (m, 3) n . x <= h in the sole frame.
-
-        Returns:
-            Area in m^2 and moments in m^3 about the sole frame's origin, (n, 3).
-
-        Raises:
-            InputError: If these are not (m, 3) finite numbers.
+            lines: Half-planes (m, 3) n . x <= h in the sole frame; an InputError unless finite.
         """
         return self._cells.cut(lines)[0]
 
     def expected(self, load: float, center_of_pressure: ArrayLike, lines: ArrayLike) -> NDArray[np.float64]:
-        """What the taxels would read if a load were carried by all that lines leave of the sole.
+        """Forces (n,) of the taxels in N if the part inside the lines carried a load.
 
-        The pressure is linear where it is positive, and zero where the sole lifts off, so that its resultant is the
-        load (a foundation that cannot pull); found by Newton's method on the pressure's three numbers.
+        The pressure is linear where positive, and zero where the sole lifts off (a foundation that cannot pull), with
+        the load as resultant; Newton's method on its three numbers.
 
         Args:
             load: Vertical force in N.
@@ -114,10 +107,10 @@ class PartialContact:
             lines: Half-planes (m, 3), see `cover`.
 
         Returns:
-            Forces (n,) in N, none negative.
+            The forces, none negative.
 
         Raises:
-            InputError: If the load, the point or a line is not finite numbers of its shape.
+            InputError: If an argument is not finite or of another shape.
         """
         place = array(center_of_pressure, "center of pressure", (2,), finite=True)
         measure = self.cover(lines)
@@ -127,7 +120,7 @@ class PartialContact:
     def _field(
         self, measure: NDArray[np.float64], load: float, center_of_pressure: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-        """Pressure (3,) a, b, c of a load on covered cells, and the cells (n,) that it presses on."""
+        """Pressure (3,) a, b, c of a load on covered cells, and the pressed cells (n,)."""
         area = measure[:, 0]
         on = area > 1e-3 * self.layout.cell_area
         if not on.any() or not load > 0.0:
@@ -153,21 +146,20 @@ class PartialContact:
     def update(
         self, load: ArrayLike, active: ArrayLike, noise: float = 1.0, steps: int = 1, start: ArrayLike | None = None
     ) -> GroundEdges:
-        """Fit the edges to the loads; starts from the last fit while the active cells ask for the same edges.
+        """Fit the edges to the loads, from the last fit while the active cells imply the same edges.
 
         Args:
             load: Force (n,) on each taxel in N, a mean over readings for less noise; NaN where a taxel is faulty.
             active: Mask (n,) of the taxels that have been loaded.
             noise: Standard deviation of `load` in N.
             steps: Gauss-Newton steps.
-            start: Where the edges are believed to be (m, 3), see `between`; found from the loads where None.
+            start: First guess of the edges (m, 3), see `between`; from the loads if None.
 
         Returns:
             The edges; with no active taxel an empty polygon.
 
         Raises:
-            ReadingError: If load or mask has not n values.
-            InputError: If the lines to start from are not (m, 3) finite numbers.
+            ReadingError, InputError: If an argument is not valid.
         """
         force = taxel_values(self.layout, load, "loads")
         mask = taxel_mask(self.layout, active, "mask of active taxels")
@@ -195,23 +187,23 @@ class PartialContact:
         return self.edges
 
     def _strong(self, force: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Active taxels that carry no less than a part of what their strongest neighbour does, for their area."""
+        """Active taxels with at least a share of their strongest neighbour's pressure."""
         pressure = np.where(mask, force, 0.0) / self.layout.areas
         around = np.where(self._near >= 0, pressure[self._near], 0.0).max(axis=1, initial=0.0)
         return np.asarray(mask & (pressure > _WEAK * around))
 
     def between(self, supported: ArrayLike, idle: ArrayLike) -> NDArray[np.float64]:
-        """Lines between cells that are supported and cells that are not: half way between the centres of both.
+        """Lines half way between the centers of supported cells and of idle ones.
 
         Args:
             supported: Mask (n,) of the cells over ground.
-            idle: Mask (n,) of the cells that are known not to be; of others nothing is said.
+            idle: Mask (n,) of the cells known not to be.
 
         Returns:
             Half-planes (m, 3), the side with the most idle cells first; m up to 4.
 
         Raises:
-            ReadingError: If a mask is not one of n truth values.
+            ReadingError: If a mask is not n truth values.
         """
         over = taxel_mask(self.layout, supported, "mask of supported taxels")
         inner, outer = self._centers[over], self._centers[taxel_mask(self.layout, idle, "mask of idle taxels")]
@@ -238,16 +230,13 @@ class PartialContact:
         return np.array(chosen).reshape(-1, 3)
 
     def polygon(self, lines: ArrayLike) -> NDArray[np.float64]:
-        """What lines leave of the convex hull of all cells.
+        """Part of the convex hull of all cells inside lines.
 
         Args:
-            lines: Half-planes (m, 3) n . x <= h in the sole frame.
+            lines: Half-planes (m, 3) n . x <= h in the sole frame; an InputError unless finite.
 
         Returns:
             Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
-
-        Raises:
-            InputError: If these are not (m, 3) finite numbers.
         """
         left = self._hull
         for nx, ny, h in half_planes(lines).tolist():
@@ -262,7 +251,7 @@ class PartialContact:
         sound: NDArray[np.bool_],
         noise: float,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-        """One Gauss-Newton step of pressure and edges together, held by the prior that the cells' corners give."""
+        """One Gauss-Newton step of pressure and edges together, with the cells' corners as prior."""
         m = len(lines)
         measure, chords = self._cells.cut(lines)
         measure[~sound] = 0.0

@@ -1,4 +1,4 @@
-"""What proximity sensors see before the sole touches: the inverse measure, near taxels, contours of height.
+"""Proximity before the sole touches: inverse measure, near taxels, contours of height.
 
 Distances along a taxel's -z axis in m; inf beyond the range, NaN for a dead taxel.
 """
@@ -30,12 +30,7 @@ __all__ = [
 
 
 class HeightContour(NamedTuple):
-    """What of the ground is nearer to the sole than one height.
-
-    Example:
-        >>> HeightContour(0.02, np.zeros(3, dtype=bool), np.empty((0, 2))).height
-        0.02
-    """
+    """The part of the ground that is nearer to the sole than a height."""
 
     height: float
     """Height in m."""
@@ -46,10 +41,10 @@ class HeightContour(NamedTuple):
 
 
 def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.float64]:
-    """Inverse measure rho = d_range - d of a proximity sensor, which saturates at both ends (T 3.30, T 4.2.6).
+    """Inverse measure rho = d_range - d of a proximity sensor, saturated at both ends (T 3.30, T 4.2.6).
 
     Args:
-        distance: Distances (..., n) in m; inf where nothing is in range, NaN for a dead taxel.
+        distance: Distances (..., n) in m; inf out of range, NaN for a dead taxel.
         sensing_range: Range d_range of the sensors in m, above 0.
 
     Returns:
@@ -72,12 +67,10 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
 
 
 def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
-    """Taxels nearer to a surface than a threshold: d < epsilon_p (T 4.2.7 corrected).
-
-    Printed is d > epsilon_p, which would take the farthest taxels.
+    """Taxels nearer to a surface than a threshold: d < epsilon_p (T 4.2.7 corrected; printed d > epsilon_p).
 
     Args:
-        distance: Distances (..., n) in m; inf where nothing is in range, NaN for a dead taxel.
+        distance: Distances (..., n) in m; inf out of range, NaN for a dead taxel.
         threshold: Threshold epsilon_p in m.
 
     Returns:
@@ -94,23 +87,17 @@ def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
 
 
 def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
-    """Convex polygon of some cells of a sole, from the corners of all of them (T 4.24).
+    """Convex polygon of all corners of some cells of a sole (T 4.24).
 
     Args:
         layout: The sole, n taxels.
         taxels: Mask (n,) of the cells.
 
     Returns:
-        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty where no cell is taken.
+        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty without cells.
 
     Raises:
-        ReadingError: If the mask has not n truth values.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], clip=False)
-        >>> cells_polygon(layout, np.arange(len(layout)) == 3).shape
-        (6, 2)
+        ReadingError: If the mask is not n truth values.
     """
     polygon: NDArray[np.float64] = layout.kernel.hull(taxel_mask(layout, taxels))[0]
     return polygon
@@ -121,15 +108,14 @@ def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (n,) in m; inf where nothing is in range, NaN for a dead taxel.
+        distance: Distances (n,) in m; inf out of range, NaN for a dead taxel.
         threshold: Threshold epsilon_p in m.
 
     Returns:
-        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty where nothing is near.
+        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty if none is near.
 
     Raises:
-        ReadingError: If the number of distances is not that of the taxels.
-        InputError: If the threshold is not a number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import hex_layout
@@ -141,20 +127,10 @@ def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float
 
 
 def contour_levels(heights: Sequence[float]) -> tuple[float, ...]:
-    """Heights of contours, lowest first.
+    """Heights of contours in m, sorted lowest first.
 
     Args:
-        heights: Thresholds epsilon_p in m, in any order.
-
-    Returns:
-        The heights.
-
-    Raises:
-        InputError: If these are not numbers, or one is NaN.
-
-    Example:
-        >>> contour_levels([0.02, 0.01])
-        (0.01, 0.02)
+        heights: Thresholds epsilon_p in m, in any order; an InputError if one is not a number.
     """
     levels: list[float] = sorted(array(heights, "heights of contours", ("m",)).tolist())
     if any(map(math.isnan, levels)):
@@ -163,19 +139,18 @@ def contour_levels(heights: Sequence[float]) -> tuple[float, ...]:
 
 
 def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[float]) -> tuple[HeightContour, ...]:
-    """A stack of contours that approximates the ground under a swinging sole (T 4.2.7 corrected, Fig. 39-b).
+    """Contours that approximate the ground under a swinging sole (T 4.2.7 corrected, Fig. 39-b).
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (n,) in m; inf where nothing is in range, NaN for a dead taxel.
+        distance: Distances (n,) in m; inf out of range, NaN for a dead taxel.
         heights: Thresholds epsilon_p in m, in any order.
 
     Returns:
-        A contour a height, lowest first; each holds the ones before it. Arrays are read-only: contours share them.
+        A contour a height, lowest first, each including the lower ones; read-only.
 
     Raises:
-        InputError: If a height is NaN or no number.
-        ReadingError: If the number of distances is not that of the taxels.
+        InputError, ReadingError: If an argument is not valid.
 
     Example:
         >>> from plantar import hex_layout

@@ -1,4 +1,4 @@
-"""One reading of a sole: what its taxels said at one instant."""
+"""One reading of a sole."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from plantar.arguments import number
 from plantar.arrays import numbers, own
 from plantar.errors import ReadingError
-from plantar.kernel_class import constructed_by_kernel
 from plantar.kernels.base import vectors
 from plantar.kernels.skin.reading_fields import ReadingFields
+from plantar.record import constructed_by_kernel
 
 __all__ = ["Reading"]
 
@@ -24,18 +24,17 @@ _TIME, _FORCE = "reading field 'time'", "reading field 'force'"
 @constructed_by_kernel
 @dataclass(frozen=True, eq=False, init=False)
 class Reading(ReadingFields):
-    """What n taxels of one sole measured at one time. Arrays are copied in, and read-only.
+    """Measurements of one sole's n taxels at one time. Read-only copies.
 
     Attributes:
         time: Time in s.
         force: Normal force (n,) on each taxel in N; NaN marks a dead taxel.
-        proximity: Distance (n,) from each taxel to the nearest surface in m, inf where nothing is in range, or None.
+        proximity: Distance (n,) from each taxel to the nearest surface in m, inf out of range, or None.
         temperature: Temperature (n,) in degC, or None.
         acceleration: Acceleration (n, 3) of each taxel in its own frame in m/s^2, or None.
 
     Raises:
-        ReadingError: If an array is not numeric or its shape does not agree with the number of taxels, or the time is
-            not finite.
+        ReadingError: If an array is not numeric or of another shape, or the time is not finite.
 
     Example:
         >>> Reading(time=0.0, force=np.array([1.0, 2.0])).force.sum()
@@ -65,7 +64,7 @@ class Reading(ReadingFields):
     def _checked(
         self, time: object, force: object, proximity: object, temperature: object, acceleration: object
     ) -> tuple[Any, ...]:
-        """The fields of what did not come as it should, or has more than proximity beside force."""
+        """The fields of a reading that is not plain."""
         at = number(time, _TIME, ReadingError, finite=True)
         values = own(numbers(force, _FORCE, ReadingError))
         if values.ndim != 1:
@@ -81,19 +80,15 @@ class Reading(ReadingFields):
 
     @classmethod
     def taken_over(cls, time: float, force: NDArray[np.float64], proximity: NDArray[np.float64] | None = None) -> Self:
-        """A reading of arrays that were made for it: neither copied nor checked, which takes a quarter of the time.
+        """A reading of arrays made for it, neither copied nor checked, in a quarter of the time.
 
         Args:
             time: Time in s.
-            force: Forces (n,) in N of float64 that nobody else holds, as the attribute; closed to writing.
+            force: Forces (n,) in N of float64 without another owner; closed to writing.
             proximity: Distances (n,) in m likewise, or None.
 
         Returns:
             The reading, without temperature and acceleration.
-
-        Example:
-            >>> Reading.taken_over(0.0, np.array([1.0, 2.0])).force.flags.writeable
-            False
         """
         reading = cls.__new__(cls)
         vectors.close(force)
@@ -108,7 +103,6 @@ class Reading(ReadingFields):
 
 
 def _field(name: str, given: object, shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """A field as numbers of a shape, to keep."""
     value = own(numbers(given, f"reading field '{name}'", ReadingError))
     if value.shape != shape:
         raise ReadingError(f"reading field '{name}' has shape {value.shape}; expected {shape}")

@@ -1,8 +1,8 @@
-"""What real taxels make of the forces on them, one model for simulations, `plantar.mujoco.Skin` and recordings.
+"""Errors of real taxels, one model for simulations, `plantar.mujoco.Skin` and recordings.
 
-In the order in which a force meets them: tangential force reads as normal force (shear), the cover spreads it to
-neighbours (crosstalk), the elastic layer rubs (hysteresis), it arrives late (delay), the electronics have a gain, a
-zero that wanders off as the sole becomes warm (offset, drift), noise and steps (resolution), and some taxels are dead.
+In this order: tangential force reads as normal force (shear), the cover spreads it to neighbours (crosstalk), the
+elastic layer rubs (hysteresis), it arrives late (delay), the electronics have a gain, a zero that drifts with warmth
+(offset, drift), noise and steps (resolution), and some taxels are dead.
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ _SHARES = ("crosstalk", "hysteresis", "dead", "shear")
 
 @dataclass(frozen=True)
 class TaxelFaults:
-    """How much the taxels of a kind of skin err; a taxel's own faults are drawn from it. 0 is no fault.
+    """Size of the errors of a kind of skin, from which a taxel's own faults are drawn. 0 is no fault.
 
     Attributes:
         gain: Standard deviation of the gains about 1.
         offset: Standard deviation in N of the zeros.
-        drift: Standard deviation in N of what the zeros wander off to within minutes.
-        hysteresis: Share by which a taxel reads too little while its load comes on, and too much while it goes off.
-        crosstalk: Share of each taxel's force that its neighbours read instead, each as much.
-        dead: Share of the taxels that are dead: they read NaN.
+        drift: Standard deviation in N of the zeros' drift within minutes.
+        hysteresis: Share by which a taxel reads too little under rising load, and too much under falling load.
+        crosstalk: Share of each taxel's force that its neighbours read instead, in equal parts.
+        dead: Share of dead taxels, which read NaN.
         shear: Share of the tangential force that a taxel reads as normal force.
         noise: Standard deviation in N of white noise.
-        resolution: Step in N of what is read.
+        resolution: Step in N of the readings.
         delay: Time in s from a force to its reading.
 
     Raises:
@@ -80,11 +80,11 @@ class TaxelFaults:
 
         Args:
             layout: The sole, n taxels.
-            seed: What is drawn; the same seed and readings give the same result.
+            seed: Seed of the draw.
             batch: Dimensions of many soles, for arrays (*batch, n).
 
         Returns:
-            The faults, with the state that hysteresis and delay need.
+            The faults, with the state of hysteresis and delay.
         """
         rng = np.random.default_rng(seed)
         shape = (*batch, len(layout))
@@ -95,19 +95,16 @@ class TaxelFaults:
 
 
 class WornFaults:
-    """The faults of each taxel of a sole, and the state of what remembers.
+    """The faults of each taxel of a sole, with the state of hysteresis and delay.
 
     Args:
         layout: The sole, n taxels.
-        faults: What all taxels share: hysteresis, crosstalk, shear, noise, resolution, delay.
+        faults: Hysteresis, crosstalk, shear, noise, resolution and delay of all taxels.
         gains: Gain (..., n) of each taxel.
         offsets: Zero (..., n) in N.
-        drifts: What the zero wanders off to (..., n) in N.
+        drifts: Final drift (..., n) of the zero in N.
         dead: Whether each taxel (..., n) is dead.
-        rng: Source of the noise; None where there is none.
-
-    Raises:
-        InputError: If there is noise and no source of it.
+        rng: Source of the noise; None without noise (else an InputError).
 
     Example:
         >>> from plantar import hex_layout
@@ -135,15 +132,15 @@ class WornFaults:
         self.reset()
 
     def reset(self) -> None:
-        """Forget what was read; the noise goes on where it is."""
+        """Clear the state; the noise continues."""
         self._held = np.zeros(self.gains.shape)
         self._late: deque[tuple[float, NDArray[np.float64]]] = deque()
 
     def read(self, time: float, force: ArrayLike, vectors: ArrayLike | None = None) -> NDArray[np.float64]:
-        """What the taxels read.
+        """Readings of the taxels.
 
         Args:
-            time: Time in s, which never goes back.
+            time: Time in s, never decreasing.
             force: Normal force (..., n) on each taxel in N.
             vectors: Force (..., n, 3) in N with the tangential part, for shear.
 
@@ -151,7 +148,7 @@ class WornFaults:
             Readings (..., n) in N; NaN for dead taxels.
 
         Raises:
-            ReadingError: If there are other taxels, a force is not finite, or there is shear and no vectors.
+            ReadingError: If the number of taxels differs, a force is not finite, or vectors are missing with shear.
         """
         faults = self.faults
         pressed = array(force, "forces", self.gains.shape, ReadingError, finite=True)
@@ -179,7 +176,7 @@ class WornFaults:
         return self._held
 
     def _delayed(self, time: float, force: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The force of one delay ago, between samples along a line; the first one until then."""
+        """The force one delay ago, interpolated; the first one until then."""
         late = self._late
         late.append((time, force))
         due = time - self.faults.delay
@@ -193,14 +190,14 @@ class WornFaults:
 
 
 def crosstalk_matrix(layout: SoleLayout, crosstalk: float) -> NDArray[np.float64]:
-    """What each taxel (n, n) reads of each one's force; a taxel without neighbours keeps its own.
+    """Share (n, n) of each taxel's force in each reading; columns sum to 1, a taxel without neighbours keeps its own.
 
     Args:
         layout: The sole, n taxels.
         crosstalk: Share of each taxel's force that its neighbours read instead.
 
     Returns:
-        The matrix; each column sums up to 1.
+        The matrix.
     """
     spread = np.eye(len(layout))
     for i, near in enumerate(layout.neighbours):

@@ -1,4 +1,4 @@
-"""What thermometers feel: a wrench that recoils from heat, and the warm footprint."""
+"""A virtual wrench away from heat, and the warm footprint."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
     Args:
         temperature: Temperatures (..., n) in degC; NaN or inf for a dead taxel.
         threshold: Temperature kappa_0 in degC from which a taxel reacts.
-        highest: Upper end of the sensors' range in degC; what lies above counts as that.
+        highest: Upper end of the sensors' range in degC, where readings are cut.
 
     Returns:
         Excess (..., n) in K: 0 below the threshold and for a dead taxel, never NaN.
 
     Raises:
-        InputError: If the temperatures are not numeric, the threshold not finite, or the range no number.
+        InputError: If the temperatures are not numeric, the threshold not finite, or the range not a number.
 
     Example:
         >>> temperature_measure([30.0, 31.0, 33.5, 99.0, np.nan], 31.0, 60.0).tolist()
@@ -47,21 +47,19 @@ def temperature_wrench(
 ) -> NDArray[np.float64]:
     """Virtual wrench that pushes the sole off a hot surface (T 3.35-3.37).
 
-    w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i]; the gain gives the printed excess its
-    unit.
+    w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i]; the gain adds the unit that print lacks.
 
     Args:
         layout: The sole, n taxels.
         temperature: Temperatures (n,) or (frames, n) in degC; NaN for a dead taxel.
-        threshold: Temperature kappa_0 in degC from which a taxel reacts; that of the layout where None.
+        threshold: Temperature kappa_0 in degC from which a taxel reacts; the layout's if None.
         gain: Force of a kelvin of excess in N/K.
 
     Returns:
-        Wrench (6,) or (frames, 6) about the sole frame's origin in N and N m; zero where nothing is hot.
+        Wrench (6,) or (frames, 6) about the sole frame's origin in N and N m.
 
     Raises:
-        ReadingError: If these are not n numbers a frame.
-        InputError: If threshold or gain is not a finite number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import hex_layout
@@ -106,14 +104,13 @@ def temperature_footprint(
     Args:
         layout: The sole, n taxels.
         temperature: Temperatures (n,) in degC; NaN for a dead taxel.
-        threshold: Temperature in degC from which a cell belongs to it; that of the layout where None.
+        threshold: Temperature in degC of a warm cell; the layout's if None.
 
     Returns:
-        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty where no cell is warm.
+        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty if none is warm.
 
     Raises:
-        ReadingError: If the number of temperatures is not that of the taxels.
-        InputError: If the threshold is NaN or no number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import hex_layout

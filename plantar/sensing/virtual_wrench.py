@@ -1,4 +1,4 @@
-"""Wrenches that nothing exerts: what proximity would push with, and when it stops a swing."""
+"""Virtual wrenches of proximity, and their use to stop a swing and turn a sole."""
 
 from __future__ import annotations
 
@@ -26,21 +26,19 @@ def virtual_ground_reaction_wrench(
 ) -> NDArray[np.float64]:
     """Virtual ground reaction wrench of proximity at the sole frame's origin (T 4.26; T 3.30 corrected, 3.31-3.32).
 
-    w_p = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, k_p rho_i]; printed T 3.30 sets the force out of the
-    body, which would attract.
+    w_p = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, k_p rho_i]; printed T 3.30 attracts.
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (n,) or (frames, n) in m; inf where nothing is in range, NaN for a dead taxel.
+        distance: Distances (n,) or (frames, n) in m; inf out of range, NaN for a dead taxel.
         gain: Repulsion k_p of each taxel in N/m.
-        sensing_range: Range of the sensors in m; that of the layout where None.
+        sensing_range: Range of the sensors in m; the layout's if None.
 
     Returns:
-        Wrench (6,) or (frames, 6) in the sole frame in N and N m; zero where nothing is in range.
+        Wrench (6,) or (frames, 6) in the sole frame in N and N m.
 
     Raises:
-        ReadingError: If these are not n numbers a frame.
-        InputError: If the range is not a finite value above 0, or the gain not a finite number.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import hex_layout
@@ -73,7 +71,7 @@ def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_]
         A bool for one wrench, a mask (...) for several.
 
     Raises:
-        InputError: If the wrench is not (..., 6) numbers, or the threshold is NaN or no number.
+        InputError: If the wrench is not (..., 6) numbers, or the threshold not a number.
 
     Example:
         >>> early_stop([0.0, 0.0, 35.0, 0.0, 0.0, 0.0], 30.0)
@@ -86,23 +84,21 @@ def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_]
 def sole_wrenches(
     contact: ArrayLike, virtual: ArrayLike, threshold: float, release: float | None = None
 ) -> NDArray[np.float64]:
-    """Wrench for preemptive foot compliance over time: contact plus virtual in the air, contact alone on the ground
-    (T 4.30 corrected).
+    """Wrench for preemptive foot compliance over time: contact plus virtual in the air, contact alone on the ground.
 
-    Printed, the virtual part drops out where |w_f| > 0, which noise does; here from the activation to the release
-    threshold.
+    T 4.30 corrected: printed, the virtual part vanishes where |w_f| > 0, which noise exceeds.
 
     Args:
         contact: Wrenches (frames, 6) w_f of the taxels' forces in N and N m.
         virtual: Wrenches (frames, 6) w_p of the proximity.
         threshold: Force |f_f| in N above which the foot has landed.
-        release: Force in N at or below which it has lifted; half of `threshold` where None.
+        release: Force in N at or below which it has lifted; half of `threshold` if None.
 
     Returns:
-        Wrenches (frames, 6) in N and N m. A part that holds NaN or inf counts as zero.
+        Wrenches (frames, 6) in N and N m. A part with NaN or inf counts as zero.
 
     Raises:
-        InputError: If `release` is above `threshold`, or the wrenches are not (frames, 6) numbers both.
+        InputError: If `release` is above `threshold`, or a wrench is not (frames, 6) numbers.
 
     Example:
         >>> contact = np.outer([0.0, 0.5, 9.0, 4.0], [0, 0, 1, 0, 0, 0])
@@ -118,14 +114,14 @@ def sole_wrenches(
 
 
 class SoleWrenchSwitch:
-    """Wrench for preemptive foot compliance, reading by reading; the same rule as `sole_wrenches` (T 4.30 corrected).
+    """`sole_wrenches`, reading by reading (T 4.30 corrected).
 
     Args:
-        threshold: Force |f_f| in N above which the foot has landed.
-        release: Force in N at or below which it has lifted; half of `threshold` where None.
+        threshold: As in `sole_wrenches`.
+        release: As in `sole_wrenches`.
 
     Raises:
-        InputError: If `release` is above `threshold`, or one is no number.
+        InputError: If `release` is above `threshold`, or one is not a number.
 
     Example:
         >>> switch = SoleWrenchSwitch(5.0)
@@ -142,22 +138,18 @@ class SoleWrenchSwitch:
         self.landed = False
 
     def reset(self, landed: bool = False) -> None:
-        """Start again, with the foot on the ground or in the air.
-
-        Args:
-            landed: Whether the foot is on the ground.
-        """
+        """Start again, with the foot on the ground if `landed`."""
         self.landed = landed
 
     def update(self, contact: ArrayLike, virtual: ArrayLike) -> NDArray[np.float64]:
-        """Wrench of the next reading.
+        """Wrench (6,) in N and N m of the next reading; a part with NaN or inf counts as zero.
 
         Args:
             contact: Wrench (6,) w_f of the taxels' forces in N and N m.
             virtual: Wrench (6,) w_p of the proximity.
 
         Returns:
-            Wrench (6,) in N and N m. A part that holds NaN or inf counts as zero.
+            The wrench.
 
         Raises:
             InputError: If a wrench is not 6 numbers.
@@ -169,7 +161,6 @@ class SoleWrenchSwitch:
 
 
 def _size(wrench: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Force in N of wrenches (..., 6)."""
     with np.errstate(over="ignore"):  # a force as large as none is beyond every threshold
         return np.asarray(np.hypot(np.hypot(wrench[..., 0], wrench[..., 1]), wrench[..., 2]))
 

@@ -1,8 +1,8 @@
-"""Units that grow with a robot: body weight, leg length, sole length, the beat of a leg that swings, and its pace.
+"""Units that grow with a robot: body weight, leg length, sole length, the beat of a swinging leg, and its pace.
 
-Two robots of one shape and mass distribution walk alike when lengths are the same shares of the leg, forces of the
-weight, and times the same number of beats sqrt(leg / g) (dynamic similarity: Alexander, Int. J. Robotics Research 3(2),
-1984). Motors are not similar: a pace is as many beats as a robot's motors need for what others do in one.
+Two robots of one shape and mass distribution walk alike with the same shares of leg, weight and beats sqrt(leg / g)
+(dynamic similarity: Alexander, Int. J. Robotics Research 3(2), 1984). Motors are not similar: a pace is the number of
+beats that a robot's motors need for a beat of others.
 """
 
 from __future__ import annotations
@@ -90,17 +90,17 @@ def si_unit(unit: str) -> str:
 
 @dataclass(frozen=True)
 class BodyScale:
-    """How large a robot is: what its shares are shares of.
+    """Size of a robot, for its shares.
 
     Attributes:
         mass: Mass in kg.
         leg: Length of a leg in m: from hip over knee to ankle.
         sole: Length of a sole in m.
         sole_width: Width of a sole in m.
-        pace_beats: Beats that a pace lasts: 1, or more where motors are slow.
+        pace_beats: Beats that a pace lasts: 1, or more for slow motors.
 
     Raises:
-        InputError: If one of them is not a finite number above 0.
+        InputError: If one is not a finite number above 0.
 
     Example:
         >>> body = BodyScale(mass=33.0, leg=0.5, sole=0.2, sole_width=0.1)
@@ -126,23 +126,16 @@ class BodyScale:
 
     @property
     def beat(self) -> float:
-        """Time sqrt(leg / g) in s that all motion of a leg under gravity scales with."""
+        """Time sqrt(leg / g) in s, the scale of a leg's motion under gravity."""
         return math.sqrt(self.leg / GRAVITY)
 
     @property
     def pace(self) -> float:
-        """Time in s that the robot's motors need for what takes a beat where motors are quick enough."""
+        """Time in s that the robot's motors need for a beat of others."""
         return self.pace_beats * self.beat
 
     def in_si(self, unit: str) -> float:
-        """How many units of SI one unit is.
-
-        Args:
-            unit: A unit, of the body, of SI, or of both, such as "leg/s".
-
-        Raises:
-            InputError: If it is no unit.
-        """
+        """Number of SI units in one unit, of the body, of SI, or of both, such as "leg/s"; else an InputError."""
         value = 1.0
         for name, power in _factors(unit):
             value *= (getattr(self, name) if name in BODY_UNITS else 1.0) ** power
@@ -157,10 +150,6 @@ REFERENCE_BODY = BodyScale(mass=86.0, leg=0.6, sole=0.2307, sole_width=0.159623)
 class Quantity:
     """A number with its unit.
 
-    Attributes:
-        value: The number.
-        unit: The unit.
-
     Example:
         >>> Quantity.parsed("1/3 leg").si(REFERENCE_BODY)
         0.19999999999999998
@@ -173,13 +162,8 @@ class Quantity:
 
     @classmethod
     def parsed(cls, text: str) -> Quantity | None:
-        """A quantity from a text such as "0.083 weight", "1/3 leg" or "70 N".
-
-        Args:
-            text: The text.
-
-        Returns:
-            The quantity; None for a text that is none, because it does not begin with a number and a space.
+        """A quantity from a text such as "0.083 weight", "1/3 leg" or "70 N"; None unless a number and a space come
+        first.
 
         Raises:
             InputError: If its unit is unknown.
@@ -191,7 +175,7 @@ class Quantity:
         return cls(float(match[1]) / float(match[2] or 1.0), match[3])
 
     def is_a(self, unit: str) -> bool:
-        """Whether it can be told in a unit: lengths in m, say, and not in N."""
+        """Whether it has the dimension of a unit."""
         return _dimension(self.unit) == _dimension(unit)
 
     def si(self, body: BodyScale) -> float:

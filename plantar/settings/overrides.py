@@ -1,15 +1,26 @@
-"""`key=value` settings: which table a key belongs to, and what its text means."""
+"""`key=value` settings: table of a key, and meaning of its text."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import textwrap
+from collections.abc import (
+    Mapping,
+    Sequence,
+)
 from difflib import get_close_matches
 from typing import Any
 
 from plantar.errors import SceneError
 from plantar.files.structured_text import parse_toml
+from plantar.settings.schema import Setting
 
-__all__ = ["owner_of", "split_setting", "value_of"]
+__all__ = [
+    "owner_of",
+    "setting_rows",
+    "setting_text",
+    "split_setting",
+    "value_of",
+]
 
 
 def split_setting(setting: str) -> tuple[str, str]:
@@ -17,10 +28,6 @@ def split_setting(setting: str) -> tuple[str, str]:
 
     Raises:
         SceneError: If it is not of that form.
-
-    Example:
-        >>> split_setting("walk.steps = 4")
-        ('walk.steps', '4')
     """
     key, equals, text = setting.partition("=")
     if not equals or not key.strip():
@@ -32,15 +39,15 @@ def owner_of(key: str, text: str, *groups: Mapping[str, Sequence[str]]) -> tuple
     """Table and name of a setting's key.
 
     Args:
-        key: "table.name", or the name alone where one table of the first group that has it is the only one.
+        key: "table.name", or the name alone if only one table of the first group with it has it.
         text: Its value, for messages.
-        groups: Names of each table's settings; an earlier group goes before a later one.
+        groups: Names of each table's settings, in order of precedence.
 
     Returns:
         Table and name.
 
     Raises:
-        SceneError: If there is no such key, or it could be more than one; the message names the nearest.
+        SceneError: If there is no such key, or it is ambiguous; the message names the nearest.
 
     Example:
         >>> owner_of("steps", "4", {"walk": ["steps"], "push": ["step"]})
@@ -70,13 +77,28 @@ def owner_of(key: str, text: str, *groups: Mapping[str, Sequence[str]]) -> tuple
 
 
 def value_of(text: str) -> Any:
-    """What a setting's text means in TOML; a bare word is a text.
-
-    Example:
-        >>> value_of("4"), value_of("left")
-        (4, 'left')
-    """
+    """What a setting's text means in TOML; a bare word is a text."""
     try:
         return parse_toml(f"v = {text}")["v"]
     except ValueError:
         return text
+
+
+def setting_text(found: Mapping[str, Setting]) -> str:
+    """Returns each setting's default, share, unit and range in a line, with its meaning below.
+
+    Args:
+        found: Settings by their dotted names.
+    """
+    lines = []
+    for full, told in found.items():
+        unit = f" {told.unit}" if told.unit not in ("", "1") else ""
+        share = f" = {told.share}" if told.share else ""
+        lines.append(f"{full} = {told.default}{unit}{share}  ({told.allowed})")
+        lines += [f"    {line}" for line in textwrap.wrap(told.meaning, 100)]
+    return "\n".join(lines)
+
+
+def setting_rows(found: Mapping[str, Setting]) -> list[dict[str, Any]]:
+    """The settings by their dotted names as plain JSON values."""
+    return [{**told._asdict(), "name": full} for full, told in found.items()]

@@ -1,4 +1,4 @@
-"""Settings of a part of a program that files can switch on: its table, and what it needs."""
+"""Settings of a program part that files can switch on: its table, and its needs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Part(Settings):
 
     Attributes:
         table: Name of the table.
-        needs: Settings by dotted name with the values that the part runs with; without any it always runs.
+        needs: Values of settings by dotted name with which the part runs; always without any.
         given_by: Names by which a scene sets some of its settings instead.
 
     Example:
@@ -43,13 +43,10 @@ class Part(Settings):
 
     @classmethod
     def unmet(cls, value_of: Any) -> str | None:
-        """What the part needs, in words, where that is not so.
+        """The unmet needs of the part as a text; None if it runs.
 
         Args:
             value_of: Function from a dotted name to the value of that setting.
-
-        Returns:
-            The text; None where the part runs.
         """
         if all(value_of(name) in values for name, values in cls.needs.items()):
             return None

@@ -1,8 +1,8 @@
-"""The schema of settings: a frozen dataclass whose fields state default, unit, range or choices, and are checked.
+"""Checked settings: a frozen dataclass whose fields give default, unit, range or choices.
 
-A class derives from `Settings` and makes its fields with the functions below; their meaning is in its docstring under
-"Attributes". Numbers are in SI. `share`, or a text such as "0.5 sole", states a share of the robot's body, which counts
-for the reference body until `for_body`.
+A class derives from `Settings` and makes its fields with the functions below; its docstring explains them under
+"Attributes". Numbers are in SI. `share`, or a text such as "0.5 sole", is a share of the robot's body, the reference
+body until `for_body`.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def number(default: float, unit: str, low: float = 0.0, high: float = math.inf, 
 
     Args:
         default: Its default.
-        unit: Its unit, "1" where it has none.
+        unit: Its unit, "1" for none.
         low: Smallest allowed value.
         high: Largest allowed value; infinity allows every finite one.
         words: Texts allowed instead, such as "random".
@@ -50,7 +50,7 @@ def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -
 
 
 def fixed(value: float, unit: str) -> Any:
-    """A field that grows with the robot, `value` times `unit`, and that no file sets; returns a dataclass's field."""
+    """A field that grows with the robot, `value` times `unit`, for no file to set; returns a dataclass's field."""
     return field(default=Quantity(float(value), unit), init=False, repr=False, metadata={"fixed": True})
 
 
@@ -80,7 +80,7 @@ def tables(allowed: str = "a list of tables", words: tuple[str, ...] = ()) -> An
     """A field for a list that its class checks itself, empty by default; returns the field of a dataclass.
 
     Args:
-        allowed: What it takes, in words.
+        allowed: Description of allowed values.
         words: Texts allowed instead, such as "random".
     """
     return field(default=(), metadata={"unit": "", "allowed": allowed, "words": words})
@@ -114,10 +114,9 @@ class Setting(NamedTuple):
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
 @dataclass(frozen=True)
 class Settings:
-    """Base of a class of settings; fields made by the functions of this module are checked when it is made.
+    """Base of a class of settings; values of fields made by this module's functions are checked.
 
-    Deriving from it makes a frozen dataclass, so that no class of settings can forget to be frozen, or to be checked. A
-    decorator, which could undo that, is a TypeError.
+    Deriving from it makes a frozen dataclass; a decorator, which could undo that, is a TypeError.
 
     Raises:
         InputError: If a value is not allowed; the message names it and shows what is.
@@ -158,19 +157,19 @@ class Settings:
 
     @property
     def body(self) -> BodyScale:
-        """The body that these settings count for."""
+        """The body of these settings."""
         return self._body
 
     @property
     def stated(self) -> Mapping[str, Quantity]:
-        """What was stated as a share, or with a unit, by name of the setting."""
+        """Values given as a share, or with a unit, by name."""
         return MappingProxyType(dict(self._stated))
 
     def for_body(self, body: BodyScale) -> Self:
-        """The same settings, and those inside them, for a robot: shares come to other numbers.
+        """The same settings, and those inside them, for a robot.
 
         Raises:
-            InputError: If a share comes to a number that is not allowed.
+            InputError: If a share becomes a number that is not allowed.
         """
         found = copy.copy(self)
         object.__setattr__(found, "_body", body)
@@ -184,12 +183,12 @@ class Settings:
         return found
 
     def in_si(self, value: Any, unit: str, owner: str = "a list") -> Any:
-        """Returns a member of a list in SI, for a class that checks its own lists; what is no quantity stays as it is.
+        """Returns a member of a list in SI, for a class that checks its own lists; other values stay.
 
         Args:
             value: A number, or a text with a unit such as "0.03 leg".
             unit: Its unit of SI.
-            owner: What holds the member, for messages.
+            owner: Owner of the member, for messages.
 
         Raises:
             InputError: If the text has a unit of another kind.
@@ -203,12 +202,12 @@ class Settings:
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Returns the settings from a table of a TOML file; what it leaves out has its default.
+        """Returns the settings from a table of a TOML file, with defaults.
 
         Args:
             table: Values by name.
             where: Name of the table, for messages.
-            error: What is raised.
+            error: Class of the error.
             note: What the allowed keys depend on, for messages.
 
         Raises:
@@ -250,7 +249,7 @@ def _settings(kind: type[Settings]) -> tuple[Field[Any], ...]:
 
 
 def _quantity(item: Field[Any], value: Any) -> Any:
-    """A text such as "0.5 sole" for a number as the quantity that it means; every other value as it is."""
+    """A text such as "0.5 sole" for a number as a quantity; other values stay."""
     if not isinstance(value, str) or not isinstance(item.default, float | Quantity):
         return value
     try:
@@ -297,12 +296,11 @@ def _checked(item: Field[Any], value: Any, body: BodyScale) -> Any:
 
 
 def _allowed(item: Field[Any]) -> str:
-    """Range or choices of a field in words."""
     return " or ".join([_range_of(item), *(f'"{word}"' for word in item.metadata.get("words", ()))])
 
 
 def _range_of(item: Field[Any]) -> str:
-    """Range or choices of a field without the words that may stand instead."""
+    """Range or choices of a field without its words."""
     if isinstance(item.default, Quantity):
         return _range("a number", item)
     if isinstance(item.default, bool):
@@ -329,7 +327,7 @@ def _as_toml(value: Any) -> str:
 
 
 def _meanings(kind: type[Settings]) -> dict[str, str]:
-    """Meaning of each field: its entry under "Attributes" in the docstring of the class that has it."""
+    """Meaning of each field: its entry under "Attributes" in its class's docstring."""
     found: dict[str, str] = {}
     for base in reversed(kind.__mro__):
         entries = (inspect.cleandoc(base.__doc__ or "")).partition("Attributes:\n")[2]

@@ -1,4 +1,4 @@
-"""Keys of tables that nobody reads."""
+"""Unknown keys of tables."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ __all__ = ["refuse_unknown_keys"]
 def refuse_unknown_keys(
     given: Iterable[str], allowed: Iterable[str], where: str, error: type[PlantarError] = InputError, note: str = ""
 ) -> None:
-    """Refuse keys of a table that are not read: a misspelt one would be ignored.
+    """Refuse keys of a table that are not read, such as misspelt ones.
 
     Args:
         given: The table's keys.
         allowed: Those that are read.
         where: Name of the table, for the message.
-        error: What is raised.
+        error: Class of the error.
         note: What the allowed keys depend on, such as " with law 'dcm'".
 
     Raises:
-        PlantarError: If there is another key; the message names it, the nearest right ones, and the allowed ones.
+        PlantarError: If there is another key; the message names the nearest right ones, and the allowed ones.
 
     Example:
         >>> refuse_unknown_keys(["heigth"], ["height", "width"], "[terrain]")

@@ -1,5 +1,5 @@
 """Whole-body skin tasks for any torque-, velocity- or position-controlled robot: a small companion of `plantar`.
 
-It shares the taxel mathematics of `plantar.sensing.body_skin` and does not know about walking, nor of any simulator: a
-model library supplies `RobotDynamics`, a skin supplies `SkinReading`, and what comes out are joint torques.
+Independent of walking and of any simulator: a model library supplies `RobotDynamics`, a skin supplies `SkinReading`,
+and the result is joint torques.
 """

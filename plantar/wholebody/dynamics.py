@@ -1,4 +1,4 @@
-"""What a model of the robot has to supply at one instant; MuJoCo does so in `sim`, any other library can."""
+"""The interface to a model of the robot at one instant."""
 
 from __future__ import annotations
 
@@ -13,16 +13,15 @@ __all__ = ["RobotDynamics"]
 class RobotDynamics(Protocol):
     """The equations of motion M q'' + bias = S^T tau + J^T f (T 3.1, 3.12, A 1) and the kinematics of links.
 
-    All Jacobians map the generalized velocity (n,) to velocities in the world frame. What no one asks for need not be
-    computed. Joints are the actuated velocity coordinates, in the model's order.
+    Jacobians map the generalized velocity (n,) to the world frame. Joints are the actuated velocity coordinates, in the
+    model's order.
 
     Attributes:
         time: Time in s.
         velocity: Generalized velocity (n,).
         mass_matrix: M (n, n), symmetric and positive definite.
         bias: C(q, q') q' + g (n,).
-        joints: Indices (k,) of the actuated coordinates among the n: what S selects. All of them where the base is
-            fixed.
+        joints: Indices (k,) of the actuated coordinates among the n, selected by S; all with a fixed base.
         joint_positions: Position (k,) of each of them in rad or m.
     """
 
@@ -45,36 +44,31 @@ class RobotDynamics(Protocol):
     def joint_positions(self) -> NDArray[np.float64]: ...
 
     def pose(self, link: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Origin (3,) of a link's frame in the world in m and rotation (3, 3) from the link to the world frame.
-
-        Raises:
-            InputError: If there is no such link.
+        """Origin (3,) of a link's frame in the world in m and rotation (3, 3) to the world; an InputError without the
+        link.
         """
 
     def jacobian(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """Geometric Jacobian (6, n) of a point fixed to a link: rows of its linear, then its angular velocity.
+        """Geometric Jacobian (6, n) of a point fixed to a link, linear rows first, in the world frame.
 
         Args:
-            link: Name of the link.
-            point: Point (3,) in the link's frame in m; its origin where None.
+            link: Name of the link; an InputError if unknown.
+            point: Point (3,) in the link's frame in m; its origin if None.
 
         Returns:
-            The Jacobian in the world frame.
-
-        Raises:
-            InputError: If there is no such link.
+            The Jacobian.
         """
 
     def drift(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """J' q' (6,) of the Jacobian of that link and point.
+        """J' q' (6,) of the same: the point's acceleration while q'' = 0, in m/s^2 and rad/s^2.
 
         Args:
             link: Name of the link.
-            point: Point (3,) in the link's frame in m; its origin where None.
+            point: Point (3,) in the link's frame in m; its origin if None.
 
         Returns:
-            The point's acceleration while q'' = 0, in m/s^2 and rad/s^2.
+            The drift.
         """
 
     def com(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """The centre of mass: position (3,) in m, Jacobian (3, n) and drift (3,) in m/s^2."""
+        """Center of mass: position (3,) in m, Jacobian (3, n) and drift (3,) in m/s^2."""

@@ -1,4 +1,4 @@
-"""A robot's tasks in their order, and the torques that they come to."""
+"""A robot's tasks in order, and their torques."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["Fusion", "TaskStack"]
 
 
 class Fusion(Protocol):
-    """A way to make one torque of many demands, such as `plantar.wholebody.fusion.hierarchy.fuse`."""
+    """Makes one torque of many demands, as `plantar.wholebody.fusion.hierarchy.fuse`."""
 
     def __call__(
         self,
@@ -26,19 +26,19 @@ class Fusion(Protocol):
         support: Demand | None = None,
         external: NDArray[np.float64] | None = None,
     ) -> Fused:
-        """See `plantar.wholebody.fusion.hierarchy.fuse`, which takes the same arguments."""
+        """See `plantar.wholebody.fusion.hierarchy.fuse`."""
 
 
 class TaskStack:
     """Tasks by priority.
 
     Args:
-        levels: Tasks of each level, the highest priority first. May be assigned again at any time.
-        support: Task above all levels on whose rows the robot stands; None for a fixed base.
+        levels: Tasks of each level, the highest priority first. May be assigned at any time.
+        support: Task of the support, above all levels; None for a fixed base.
         fusion: How demands are fused.
 
     Attributes:
-        silent: How many tasks had nothing to state, and were skipped, so far.
+        silent: Number of skipped tasks, those without a demand, so far.
     """
 
     def __init__(self, levels: Sequence[Sequence[Task]], support: Task | None = None, fusion: Fusion = fuse) -> None:
@@ -55,7 +55,7 @@ class TaskStack:
         Args:
             robot: Kinematics and dynamics of this instant.
             skin: The latest reading of the skin.
-            external: Generalized force (n,) that is known to act; None for none.
+            external: Known generalized force (n,); None for none.
 
         Returns:
             Torques, acceleration and support force.

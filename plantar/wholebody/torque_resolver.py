@@ -1,6 +1,6 @@
-"""Torques for robots that take velocities or positions: a virtual admittance between (A 26, T 3.2.3).
+"""A virtual admittance for robots that take velocities or positions (A 26, T 3.2.3).
 
-The torques of a stack drive a virtual robot, M_v q'' + D_v q' = tau - bias, whose motion the servos get as set-points.
+The torques of a stack drive a virtual robot, M_v q'' + D_v q' = tau - bias, whose motion is the servos' set-points.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ __all__ = ["ResolverSettings", "SetPoint", "TorqueResolver"]
 
 
 class ResolverSettings(Settings):
-    """The virtual robot, and how near to the real one it is kept.
+    """The virtual robot, and its coupling to the real one.
 
     Attributes:
         damping: D_v as a rate in 1/s: D_v = damping M_v.
@@ -34,24 +34,19 @@ class ResolverSettings(Settings):
 
 
 class SetPoint(NamedTuple):
-    """What servos are given.
-
-    Attributes:
-        position: Positions (k,) in rad or m.
-        velocity: Velocities (k,) in rad/s or m/s.
-    """
+    """Positions (k,) in rad or m and velocities (k,) for servos."""
 
     position: NDArray[np.float64]
     velocity: NDArray[np.float64]
 
 
 class TorqueResolver:
-    """The virtual robot. What is limited there never asks more of the servos than they can.
+    """The virtual robot, limited so that the servos can follow.
 
     Args:
         velocity_limits: Largest speed (k,) of each joint in rad/s or m/s.
         settings: Damping, pull and limits.
-        mass: M_v (k, k) in kg m^2 or kg; the robot's own mass matrix of each instant where None.
+        mass: M_v (k, k) in kg m^2 or kg; the robot's own current mass matrix if None.
 
     Raises:
         InputError: If a limit is not above 0, or the mass is not positive definite.
@@ -73,12 +68,11 @@ class TorqueResolver:
         self._state: SetPoint | None = None
 
     def step(self, robot: RobotDynamics, torque: NDArray[np.float64], period: float) -> SetPoint:
-        """Let the torques move the virtual robot for one control period.
-
-        The first call starts from the real robot's position and velocity.
+        """Move the virtual robot by the torques for one control period; the first call starts from the real robot's
+        state.
 
         Args:
-            robot: The real robot as measured: its bias is taken out of the torques, its motion draws the virtual one.
+            robot: The measured robot, whose bias is subtracted and whose motion draws the virtual one.
             torque: Torques (k,) of a stack in N m or N, bias included.
             period: Control period in s.
 

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from plantar.errors import InputError
-from plantar.robots.box_plan import box_plan
+from plantar.robots.start import box_plan
 from plantar.sides import Side
 
 

@@ -9,12 +9,9 @@ import pytest
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.base_avoidance import BaseAvoidance
-from plantar.wholebody.tasks.body_compliance import BodyCompliance
-from plantar.wholebody.tasks.interaction import DirectInteraction
-from plantar.wholebody.tasks.posture import Posture
-from plantar.wholebody.tasks.pressure import PressureInteraction
-from plantar.wholebody.tasks.proximity import ProximityInteraction
+from plantar.wholebody.tasks.posture import BodyCompliance, Posture
 from plantar.wholebody.tasks.self_collision import SelfCollision, Sphere
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction, PressureInteraction, ProximityInteraction
 
 STEP = 1e-3
 HAND = "link5"

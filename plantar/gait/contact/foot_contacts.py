@@ -21,7 +21,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import level_rotation
 from plantar.percepts.percept import Percept
-from plantar.percepts.support import feet_support_polygon, polygon_in_world
+from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
 from plantar.sides import SIDES, Side
 
 __all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole"]

@@ -14,7 +14,7 @@ from plantar.gait.controller_settings import ControllerSettings
 from plantar.gait.estimate.estimator import SoleLoad
 from plantar.gait.plan.phases import Phase
 from plantar.gait.tick.footing import Footing
-from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.geometry.inscribed import safe_rectangle
 from plantar.kernels.base.vectors import vector
 from plantar.kernels.gait import lean_correction
 from plantar.kernels.gait.sole_targets import risen, turned

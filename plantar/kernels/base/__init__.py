@@ -1,4 +1,4 @@
-"""What every kernel may use: the memory of arrays, small vectors, work arrays, fused products, checks of numbers."""
+"""Memory of arrays, small vectors, work arrays, fused products and checks of numbers, for all kernels."""
 
 from __future__ import annotations
 

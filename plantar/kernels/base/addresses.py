@@ -1,4 +1,4 @@
-"""What interpreted kernels call where compiled ones use another library's memory (`addresses_in_c.pxd`)."""
+"""Interpreted counterpart of `addresses_in_c.pxd`: memory of another library."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ __all__ = ["at"]
 
 
 def at(address):
-    """The float64 numbers from an address of memory on, in place."""
+    """The float64 numbers from a memory address on, in place."""
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_double))

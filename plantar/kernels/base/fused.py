@@ -1,7 +1,4 @@
-"""The processor's fused multiply-add for interpreted kernels (`fused_in_c.pxd` has the compiled one).
-
-BLAS rounds a product and its sum at once; a kernel that takes over such a product keeps its bits by doing the same.
-"""
+"""Fused multiply-add, as BLAS rounds a product and its sum; interpreted counterpart of `fused_in_c.pxd`."""
 
 from __future__ import annotations
 
@@ -12,7 +9,7 @@ __all__ = ["multiply_add"]
 
 
 def multiply_add(a, b, c):
-    """Returns a b + c, rounded once as in IEEE 754, by exact fractions; as the processor has it where not finite."""
+    """Returns a b + c, rounded once as in IEEE 754 (by exact fractions)."""
     if math.isfinite(a) and math.isfinite(b) and math.isfinite(c):
         exact = Fraction(a) * Fraction(b) + Fraction(c)
         if exact:

@@ -2,6 +2,5 @@
 # Without a compiler this file is not read.
 from libc cimport math
 
-
 cdef inline double multiply_add(double a, double b, double c) noexcept nogil:
     return math.fma(a, b, c)

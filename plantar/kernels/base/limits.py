@@ -1,4 +1,4 @@
-"""Kernels that look at every number that a caller hands over."""
+"""Checks of all numbers that a caller hands over."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ __all__ = ["are_plane_points", "pair_of", "points_within", "values_within"]
 
 
 def are_plane_points(value, limit):
-    """Returns whether `value` is a contiguous array (k, 2) of float64 with no coordinate beyond `limit`; NaN is."""
+    """Returns whether `value` is a contiguous float64 array (k, 2) with no coordinate beyond `limit`; NaN is."""
     k = memory.rows(value, 2)
     if k < 0:
         return False
@@ -20,7 +20,7 @@ def are_plane_points(value, limit):
 
 
 def pair_of(value):
-    """The two numbers of an array (2,) of float64; None for anything else."""
+    """The two numbers of a float64 array (2,); None for anything else."""
     if memory.size(value) != 2:
         return None
     p = memory.values(value)

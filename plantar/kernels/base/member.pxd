@@ -1,6 +1,4 @@
-# C types of member.py. Without a compiler this file is not read.
 cimport cython
-
 from . cimport pointers as memory
 
 cdef class Member:

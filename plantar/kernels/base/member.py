@@ -1,4 +1,4 @@
-"""A member that is computed once: what `plantar.lazy` is made of, since every member of a percept goes through it."""
+"""The descriptor behind `plantar.lazy`, compiled, since every member of a percept passes it."""
 
 from __future__ import annotations
 
@@ -8,11 +8,7 @@ __all__ = ["Member", "close_all"]
 
 
 class Member:
-    """A descriptor that calls a function at first use and keeps the value in the instance's `__dict__`.
-
-    Args:
-        function: What computes it of the instance.
-    """
+    """A descriptor that calls a function at first use and keeps the value in the instance's `__dict__`."""
 
     def __init__(self, function):
         self.function, self.name = function, ""
@@ -31,7 +27,7 @@ class Member:
 
 
 def close_all(value):
-    """Close an array, and those in a tuple, however deep, to writing."""
+    """Close an array, and those in nested tuples, to writing."""
     if memory.is_array(value):
         memory.close(value)
     elif isinstance(value, tuple):

@@ -1,4 +1,3 @@
-# C types of memory.py. Without a compiler this file is not read.
 cpdef values(array)
 cpdef room(array)
 cpdef size(array)

@@ -1,6 +1,6 @@
 """Access to an array's memory for interpreted kernels (`pointers.pxd` has the compiled one).
 
-A buffer costs a kernel 0.1 us, its memory 5 ns; a tick has some hundred arrays of two to nine numbers.
+A buffer costs a kernel 0.1 us, its memory 5 ns; a tick has some hundred small arrays.
 """
 
 from __future__ import annotations
@@ -12,22 +12,14 @@ __all__ += ["room", "rows", "size", "values"]
 
 
 def values(array):
-    """The numbers of a contiguous array of float64 to read, in place: for a compiled kernel a pointer, without checks.
-
-    Raises:
-        ValueError: If it is another kind of array.
-    """
+    """The numbers of a contiguous float64 array, to read in place; ValueError for another array."""
     if type(array) is not np.ndarray or array.dtype != np.float64 or not array.flags.c_contiguous:
         raise ValueError("a kernel needs contiguous arrays of float64")
     return array.reshape(-1)
 
 
 def room(array):
-    """The numbers of an array to write; as of `values`.
-
-    Raises:
-        ValueError: If it is no contiguous array of float64 that may be written.
-    """
+    """The numbers of a contiguous, writable float64 array, to write in place; ValueError for another array."""
     numbers = values(array)
     if not array.flags.writeable:
         raise ValueError("a kernel needs arrays that may be written")
@@ -35,21 +27,21 @@ def room(array):
 
 
 def size(array):
-    """Number of values of a vector that `values` takes; -1 for anything else."""
+    """Number of values of a vector that `values` accepts; -1 for anything else."""
     if type(array) is not np.ndarray or array.dtype != np.float64 or array.ndim != 1 or not array.flags.c_contiguous:
         return -1
     return array.shape[0]
 
 
 def rows(array, columns):
-    """Number of rows of a matrix with so many columns that `values` takes; -1 for anything else."""
+    """Number of rows of a matrix with so many columns that `values` accepts; -1 for anything else."""
     if type(array) is not np.ndarray or array.dtype != np.float64 or array.ndim != 2 or not array.flags.c_contiguous:
         return -1
     return array.shape[0] if array.shape[1] == columns else -1
 
 
 def is_array(value):
-    """Whether this is an array of any kind."""
+    """Whether this is an array."""
     return isinstance(value, np.ndarray)
 
 

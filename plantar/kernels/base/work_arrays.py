@@ -1,6 +1,6 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Work arrays of the kernels: arrays for the compiled form, lists for the interpreted one, which reads them faster."""
+"""Work arrays: arrays for compiled kernels, lists for interpreted ones, which read them faster."""
 
 from __future__ import annotations
 
@@ -10,20 +10,10 @@ __all__ = ["numbers", "places"]
 
 
 def numbers(size, lists):
-    """Room for so many numbers, all 0.
-
-    Args:
-        size: How many.
-        lists: Make a list instead of an array.
-    """
+    """So many zeros, in a list instead of an array if `lists`."""
     return [0.0] * size if lists else np.zeros(size)
 
 
 def places(size, lists):
-    """Room for so many indices, all 0.
-
-    Args:
-        size: How many.
-        lists: Make a list instead of an array.
-    """
+    """So many indices, all 0, in a list instead of an array if `lists`."""
     return [0] * size if lists else np.zeros(size, dtype=np.intp)

@@ -1,1 +1,1 @@
-"""Contacts of the simulation, as forces on a sole and its taxels."""
+"""Contacts of the simulation as forces on a sole and its taxels."""

@@ -1,4 +1,4 @@
-"""Kernel of a foot's contacts as its sole sees them."""
+"""Kernel that turns a foot's contacts into its sole frame."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ _dot = np.dot
 
 
 class ContactsInSole:
-    """Turns a foot's contacts into the frame of its sole, again and again in the same arrays.
+    """Turns a foot's contacts into its sole frame, in the same arrays each time.
 
     Attributes:
-        vectors: Position in m, force in N and torque in N m of each contact in turn (3 room, 3), of those turned last.
-        pressed: How often there were contacts to turn.
+        vectors: Position in m, force in N and torque in N m of each contact in turn (3 room, 3).
+        pressed: How often there were contacts.
         in_air: How often there were none.
     """
 
@@ -27,17 +27,12 @@ class ContactsInSole:
         self._make_room(8)
 
     def look_from(self, origin, rotation):
-        """Set where the sole is; at first it is where the world is.
-
-        Args:
-            origin: The sole's origin (3,) in the world in m, where the simulator writes it.
-            rotation: Rotation (3, 3) from the sole to the world, likewise.
-        """
+        """Set origin (3,) in m and rotation (3, 3) to the world of the sole, which the simulator writes."""
         self.origin = origin
         self.rotation = rotation
 
     def _make_room(self, room):
-        """Room for so many contacts; those that are there are forgotten."""
+        """Room for so many contacts; drops those that are there."""
         self.room = room
         shifted, turned = np.zeros((3 * room, 3)), np.zeros((3 * room, 3))
         self.shifted = shifted
@@ -46,11 +41,7 @@ class ContactsInSole:
         self.heads = [(shifted[: 3 * k], turned[: 3 * k]) for k in range(room + 1)]
 
     def turn(self, contacts):
-        """Turn the contacts as they are now.
-
-        Args:
-            contacts: The foot's `FootContacts`.
-        """
+        """Turn the current contacts of a foot's `FootContacts`."""
         count = contacts.size
         if count == 0:
             self.in_air += 1

@@ -1,7 +1,7 @@
-"""Kernel of a sole's contacts with a piece of ground that has a flat face, continuous in the pose of both.
+"""Kernel of a sole's contacts with ground that has a flat face, continuous in the pose of both.
 
-The contacts are the corners of what the sole's face covers of the ground's face, each as deep as the sole is there,
-with the ground face's normal. Which face it is follows from the smallest overlap of both boxes along their axes.
+The contacts are the corners of the overlap of both faces, each as deep as the sole is there, with the normal of the
+ground's face. The smallest overlap of both boxes along their axes selects that face.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ _TILTED = 0.9  # cosine of the angle to a cylinder's axis up to which a sole lie
 
 
 class FaceContacts:
-    """Finds the contacts of one pair of geoms where the simulator keeps them.
+    """Writes the contacts of one pair of geoms into the simulator's memory.
 
     Args:
-        stride: Distance in bytes of the contacts that the simulator gets, each of which begins with ten numbers: gap,
-            position (3,), normal (3,) from the first geom to the second, first tangent (3,).
+        stride: Bytes from one contact to the next; each begins with gap, position (3,), normal (3,) from the first geom
+            to the second, first tangent (3,).
 
     Attributes:
-        count: How many pairs were looked at.
+        count: Number of pairs so far.
     """
 
     def __init__(self, stride):
@@ -41,20 +41,16 @@ class FaceContacts:
         self.shift = memory.room(self.shift_memory)
 
     def box(self, places, turns, sizes, ground, sole, margin, out, sign):
-        """Contacts of a box on a box.
+        """Number of contacts of a box on a box.
 
         Args:
-            places: Address of all geoms' places (n, 3) in m.
+            places: Address of all geoms' positions (n, 3) in m.
             turns: Address of their rotations (n, 9) to the world.
             sizes: Address of their half sizes (n, 3) in m.
-            ground: The ground's geom.
-            sole: The sole's geom.
-            margin: Gap in m up to which a contact is listed.
+            ground: The ground's geom; `sole` the other.
+            margin: Largest gap in m of a contact.
             out: Address of the contacts, with room for eight.
-            sign: 1 where the ground is the first geom of the pair, -1 where it is the second.
-
-        Returns:
-            How many there are.
+            sign: 1 where the ground is the first geom of the pair, else -1.
         """
         self.count += 1
         base = addresses.at(places)
@@ -93,10 +89,10 @@ class FaceContacts:
         return self._write(base, rows, ground, count, axis, side, half[g + axis], margin, out, sign)
 
     def cylinder(self, places, turns, sizes, ground, sole, margin, out, sign):
-        """Contacts of a box on the end of a cylinder: the corners furthest along the box's diagonals; as `box`.
+        """Contacts of a box on the end of a cylinder, at the corners furthest along the box's diagonals; as `box`.
 
         Returns:
-            How many there are; -1 where the box does not lie on an end.
+            Number of contacts; -1 where the box does not lie on an end.
         """
         self.count += 1
         base = addresses.at(places)
@@ -121,7 +117,7 @@ class FaceContacts:
         return self._write_disc(base, rows, ground, radius, height, reach - abs(along), side, margin, out, sign)
 
     def _look(self, base, rows, ground, sole):
-        """Place and rotation of the sole as seen from the ground's geom."""
+        """Pose of the sole in the frame of the ground's geom."""
         g, s = 3 * ground, 3 * sole
         for i in range(3):
             self.shift[i] = 0.0
@@ -133,8 +129,9 @@ class FaceContacts:
                     self.turn[3 * i + j] += rows[3 * g + 3 * k + i] * rows[3 * s + 3 * k + j]
 
     def _place_face(self, half, s, axis, height, side):
-        """Put the corners of the sole's face that looks at the ground's into `corners`, counter-clockwise or
-        clockwise, with the gap in place of the coordinate along the face's normal."""
+        """Put the corners of the sole's facing face into `corners` in order, with the gap as coordinate along the
+        normal.
+        """
         own = 0
         for j in range(1, 3):
             if abs(self.turn[3 * axis + j]) > abs(self.turn[3 * axis + own]):
@@ -154,7 +151,7 @@ class FaceContacts:
             self.corners[3 * k + axis] = side * (self.corners[3 * k + axis] - height)
 
     def _cut_by(self, count, axis, reach):
-        """Cut the polygon in `corners` to -reach <= x <= reach along an axis; how many corners are left."""
+        """Cut the polygon in `corners` to -reach <= x <= reach along an axis; number of corners left."""
         for side in (-1.0, 1.0):
             kept = 0
             for k in range(count):
@@ -186,7 +183,6 @@ class FaceContacts:
         return count
 
     def _write(self, base, rows, ground, count, axis, side, height, margin, out, sign):
-        """Write the polygon's corners as contacts."""
         found = 0
         for k in range(count):
             if found < 8 and self.corners[3 * k + axis] < margin:
@@ -209,8 +205,7 @@ class FaceContacts:
             to[7 + i] = 0.0
 
     def _write_disc(self, base, rows, ground, radius, height, depth, side, margin, out, sign):
-        """Write what lies furthest along the face's diagonals, of what it covers of a disc, as contacts; -1 where the
-        face reaches less far over the disc than it is deep, so that it touches the cylinder's wall."""
+        """Write the furthest points of the covered disc along the face's diagonals; -1 if the face touches the wall."""
         ax = 0.5 * (self.corners[3] - self.corners[0])
         ay = 0.5 * (self.corners[4] - self.corners[1])
         az = 0.5 * (self.corners[5] - self.corners[2])
@@ -244,7 +239,7 @@ class FaceContacts:
         return found
 
     def _furthest(self, ax, ay, bx, by, mx, my, radius, p, q, da, db):
-        """Put the face's coordinates of what lies furthest along a diagonal, inside disc and face, into `cut`."""
+        """Put the furthest point along a diagonal, inside disc and face, into `cut`."""
         la, lb = math.sqrt(ax * ax + ay * ay), math.sqrt(bx * bx + by * by)
         wx, wy = da * ax / la + db * bx / lb, da * ay / la + db * by / lb
         size = math.sqrt(wx * wx + wy * wy)

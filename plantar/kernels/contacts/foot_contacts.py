@@ -1,4 +1,4 @@
-"""Kernel of one foot's contacts, as a simulator lists them: gathered, summed up, and seen from the sole."""
+"""Kernel that gathers and sums one foot's contacts from a simulator's list."""
 
 from __future__ import annotations
 
@@ -8,17 +8,16 @@ __all__ = ["ContactList", "FootContacts", "gather_feet"]
 
 
 class ContactList:
-    """Where a simulator lists the contacts of all bodies, n of them.
+    """A simulator's list of n contacts of all bodies.
 
     Args:
-        geoms: Ids (n, 2) of the geoms that touch, -1 for what is no geom.
-        positions: Contact points (n, 3) in the world in m.
+        geoms: Ids (n, 2) of the touching geoms, -1 for none.
+        positions: Points (n, 3) in the world in m.
         frames: Contact frames (n, 9), axis by axis.
         gaps: Gaps (n,) in m.
-        addresses: Where each contact's numbers begin among the forces (n,); negative for one that carries nothing.
-        sizes: In how many dimensions each contact acts (n,), up to 6: force and torque along its axes.
-        friction: Friction (n, 5) of each contact where its numbers are the forces along the edges of a pyramid, two for
-            each dimension after the first; None where they are those along the axes.
+        addresses: Index (n,) of each contact's first force; negative without force.
+        sizes: Dimensions (n,) of each contact, up to 6.
+        friction: Friction (n, 5) where forces are along the edges of a pyramid; None where they are along the axes.
     """
 
     def __init__(self, geoms, positions, frames, gaps, addresses, sizes, friction=None):
@@ -38,21 +37,21 @@ def gather_feet(feet, listed, forces):
     Args:
         feet: Their `FootContacts`, a tuple.
         listed: The `ContactList`.
-        forces: Forces in N and torques in N m of all contacts that carry.
+        forces: Forces in N and torques in N m of all contacts.
     """
     for foot in feet:
         foot.gather(listed, forces)
 
 
 class FootContacts:
-    """The contacts of one foot with everything that is not this foot, gathered at each instant.
+    """The contacts of one foot with everything else, gathered at each instant.
 
     Args:
         own: Whether a geom belongs to the foot (geoms,), 0 or 1.
 
     Attributes:
         size: Number of contacts k.
-        ids: The foot's geom and the other one (room, 2), of which the first k rows count; -1 for what is no geom.
+        ids: The foot's geom and the other one (room, 2) in the first k rows; -1 for none.
         vectors: Position in m, force in N and torque in N m on the foot of each contact in turn (3 room, 3), in the
             world frame.
         gaps: Gaps (room,) in m.
@@ -66,7 +65,7 @@ class FootContacts:
         self._make_room(8)
 
     def _make_room(self, room):
-        """Room for so many contacts; those that are there are forgotten."""
+        """Room for so many contacts; drops those that are there."""
         self.room = room
         self.size = 0
         self.ids = np.empty((room, 2), dtype=np.int32)
@@ -75,18 +74,11 @@ class FootContacts:
         self.carries = np.empty(room, dtype=np.uint8)
 
     def clear(self):
-        """No contacts at all."""
+        """Drop all contacts."""
         self.size = 0
 
     def take(self, ids, vectors, gaps, carries):
-        """Take contacts that are known already.
-
-        Args:
-            ids: As the attribute, without more room (k, 2).
-            vectors: Likewise (3 k, 3).
-            gaps: Likewise (k,).
-            carries: Likewise (k,).
-        """
+        """Copy known contacts: ids (k, 2), vectors (3 k, 3), gaps (k,) and carries (k,) as the attributes."""
         count = ids.shape[0]
         if count > self.room:
             self._make_room(count)
@@ -99,13 +91,11 @@ class FootContacts:
         self.size = count
 
     def gather(self, listed, forces):
-        """Gather the contacts between the foot's geoms and others, with forces turned into the world frame.
-
-        Each force is given in the contact's frame, whose rows are its axes, as that on the second geom.
+        """Gather the contacts of the foot's geoms with others, forces turned from contact frame to world.
 
         Args:
             listed: The `ContactList`.
-            forces: Forces in N and torques in N m of all contacts that carry.
+            forces: Forces in N and torques in N m on each second geom.
         """
         count = listed.geoms.shape[0]
         if count > self.room:
@@ -137,12 +127,7 @@ class FootContacts:
         self.size = k
 
     def from_origin(self, origin, out):
-        """What `vectors` holds, with positions seen from a point.
-
-        Args:
-            origin: The point (3,) in the world in m.
-            out: Receives 3 k rows of (at least 3 k, 3).
-        """
+        """Write `vectors`, with positions relative to `origin` (3,) in m, to `out` (at least 3 k, 3)."""
         for k in range(self.size):
             row = 3 * k
             for j in range(3):
@@ -151,12 +136,12 @@ class FootContacts:
                 out[row + 2, j] = self.vectors[row + 2, j]
 
     def add_to_ground(self, reach, ground, sums, points):
-        """Add the contacts to the ground's wrench about the world's origin, one after the other.
+        """Add the contacts to the ground's wrench about the world's origin.
 
         Args:
-            reach: Gap in m up to which a contact counts as a point of support, whether it carries or not.
-            ground: Whether a geom is ground (geoms,), 0 or 1: contacts with others are left out; None leaves out none.
-            sums: Receives, added to what is there (7,): force, torque, and the contacts' height times vertical force.
+            reach: Largest gap in m of a point of support.
+            ground: Whether a geom is ground (geoms,), 0 or 1; None for all.
+            sums: Force, torque, and sum of height times vertical force (7,), added to.
             points: `FewPoints` that receive the points of support.
         """
         fx, fy, fz, tx, ty, tz, height = sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]
@@ -176,16 +161,12 @@ class FootContacts:
         sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = fx, fy, fz, tx, ty, tz, height
 
     def pair_loads(self, vectors, reach):
-        """Sum up what each pair of geoms carries, along the normal of a plane and about its axes.
+        """For each pair of geoms, in order of first contact: normal force in N on the plane z = 0, torques about x and
+        y at its origin in N m, and points (x, y) in m.
 
         Args:
-            vectors: Position, force and torque of each contact in turn, as in `vectors`, in a frame with the plane as
-                its z = 0.
-            reach: Gap in m beyond which a contact that carries nothing is left out.
-
-        Returns:
-            For each pair, in the order of its first contact: normal force in N, torques about x and y at the frame's
-            origin in N m, and its points (x, y) in m.
+            vectors: As the attribute, in the plane's frame.
+            reach: Largest gap in m of a contact without load.
         """
         pairs = {}
         for k in range(self.size):
@@ -206,7 +187,7 @@ class FootContacts:
 
 
 def _along(listed, forces, i, m):
-    """Force or torque of a contact that carries, along one of its axes."""
+    """Force or torque of a loaded contact along one of its axes."""
     start, size = listed.addresses[i], listed.sizes[i]
     if not listed.pyramid or size == 1:
         return forces[start + m]

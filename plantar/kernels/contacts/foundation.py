@@ -1,4 +1,4 @@
-"""Kernel of a load on an elastic foundation that cannot pull: what each cell of a rigid sole carries (Winkler)."""
+"""Kernel of a rigid sole on an elastic foundation that cannot pull (Winkler): the load of each cell."""
 
 from __future__ import annotations
 
@@ -6,17 +6,16 @@ __all__ = ["spread_part", "spread_whole"]
 
 
 def spread_whole(u, area, inverse, x, y, force, cells, out):
-    """Spread a normal load over covered cells that all carry: the pressure a + b x + c y is never negative.
+    """Spread a normal load over covered cells that all carry: pressure a + b x + c y, never negative.
 
     Args:
-        u: Coordinates (m, 3) of the cells: 1, and the scaled place of their covered part's centroid.
+        u: Coordinates (m, 3) of the cells' covered centroids: 1, and scaled place.
         area: Share (m,) of each cell in the covered area.
         inverse: Load to field (3, 3) of all covered cells.
-        x: Scaled place of the load.
-        y: Scaled place of the load.
+        x: Scaled place of the load; y likewise.
         force: Load in N.
         cells: Index (m,) of each cell in `out`.
-        out: Receives the cells' forces in N, where the result is True.
+        out: Receives the cells' forces in N, if all carry.
 
     Returns:
         Whether all cells carry.
@@ -36,23 +35,11 @@ def spread_whole(u, area, inverse, x, y, force, cells, out):
 
 
 def spread_part(u, area, x, y, force, active, cells, out):
-    """Spread a normal load over covered cells of which a part lifts off: the pressure is max(0, a + b x + c y).
+    """Spread a normal load where part of the covered cells lifts off: pressure max(0, a + b x + c y).
 
-    The cells that carry and their field determine each other; from the cells that carried before, one or two
-    rounds of a 3 x 3 system find both.
-
-    Args:
-        u: Coordinates (m, 3) of the cells: 1, and the scaled place of their covered part's centroid.
-        area: Share (m,) of each cell in the covered area.
-        x: Scaled place of the load, within what the cells can carry.
-        y: Scaled place of the load.
-        force: Load in N.
-        active: Cells (m,) to start from; then those that carry.
-        cells: Index (m,) of each cell in `out`.
-        out: Receives the cells' forces in N, where the result is True.
-
-    Returns:
-        Whether the cells that carry were found in eight rounds.
+    Carrying cells and field depend on each other; one or two 3 x 3 solves from the last carrying cells find both.
+    Arguments as of `spread_whole`; `active` (m,) are the cells to start from, then those that carry. Returns whether
+    eight rounds found them.
     """
     count = u.shape[0]
     for _ in range(8):

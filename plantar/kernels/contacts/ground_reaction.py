@@ -1,4 +1,4 @@
-"""Kernel of what the ground does to all feet together: wrench, zero moment point, support, and its margin."""
+"""Kernel of the ground's reaction on all feet: wrench, ZMP, support, and its margin."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ _NONE = float("nan")
 
 
 class GroundReaction:
-    """Sums up the contacts of all feet, again and again.
+    """Sums the contacts of all feet.
 
     Args:
-        height: Height in m of the plane of the ZMP; NaN takes the mean height of the contacts weighted by force.
+        height: Height in m of the ZMP's plane; NaN for the force-weighted mean height of the contacts.
         least: Vertical force in N below which there is no ZMP.
         reach: Largest gap in m of a contact that could carry.
-        ground: Whether a geom is ground (geoms,), 0 or 1: contacts with others do not count; None for all.
+        ground: Whether a geom is ground (geoms,), 0 or 1; None for all.
 
     Attributes:
         loads: Vertical force in N on each foot.
         found: Whether there is a ZMP.
-        x: The ZMP in m; NaN where there is none.
+        x: The ZMP in m; NaN without.
         y: The same.
-        margin: Signed distance in m of the ZMP to the edge of the support, positive inside; NaN likewise.
+        margin: Signed distance in m of the ZMP to the support's edge, positive inside; NaN without.
     """
 
     def __init__(self, height, least, reach, ground=None):
@@ -42,11 +42,7 @@ class GroundReaction:
         self.x = self.y = self.margin = _NONE
 
     def update(self, feet):
-        """Sum up the contacts as they are now.
-
-        Args:
-            feet: The `FootContacts` of each foot.
-        """
+        """Sum the current contacts of each foot's `FootContacts`."""
         for i in range(7):
             self.sums[i] = 0.0
         self.support.clear()
@@ -62,7 +58,6 @@ class GroundReaction:
         self._find_zmp()
 
     def _find_zmp(self):
-        """The ZMP and its margin, from the sums: force, torque, and the contacts' height times vertical force."""
         force = self.sums[2]
         self.found = force >= self.least
         if not self.found:
@@ -76,14 +71,7 @@ class GroundReaction:
         self.margin = self.support.margin(self.x, self.y)
 
     def area(self, foot):
-        """Area in m^2 of the convex hull of one foot's points of support.
-
-        Args:
-            foot: Number of the foot.
-
-        Returns:
-            The area; 0 of fewer than three points.
-        """
+        """Area in m^2 of the convex hull of a foot's points of support; 0 below three points."""
         first, end = self.ends[foot], self.ends[foot + 1]
         if end - first < 3:
             return 0.0
@@ -95,11 +83,11 @@ class GroundReaction:
         return self.sole.area()
 
     def found_now(self):
-        """What was found, to keep.
+        """The current result, to keep.
 
         Returns:
-            Wrench (6,) about the world's origin; the ZMP (x, y) in m or None; the convex hull of the points of support
-            as a list, counter-clockwise; the ZMP's margin in m or None; and the points of support of each foot.
+            Wrench (6,) about the world's origin; ZMP (x, y) in m or None; convex hull of the points of support,
+            counter-clockwise; margin in m or None; and the points of support of each foot.
         """
         wrench = np.array(self.sums[:6])
         points = []

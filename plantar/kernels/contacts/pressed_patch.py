@@ -1,4 +1,4 @@
-"""Kernel of a load on a patch of an elastic sole: which patch contact points span, and what its cells carry."""
+"""Kernel of a load on a patch of an elastic sole, spanned by contact points."""
 
 from __future__ import annotations
 
@@ -11,15 +11,7 @@ __all__ = ["PressedPatch", "patch_key"]
 
 
 def patch_key(points, grid):
-    """What contact points have in common that span the same patch: their places on a grid.
-
-    Args:
-        points: Points (x, y) in m as tuples, in any order.
-        grid: Distance in m within which points that agree are the same.
-
-    Returns:
-        The points on the grid, in its unit, each once, in order.
-    """
+    """The points (x, y) in m on a grid, in its unit, unique and sorted: equal for points that span the same patch."""
     places = set()
     for x, y in points:
         places.add((round(x / grid), round(y / grid)))
@@ -27,19 +19,19 @@ def patch_key(points, grid):
 
 
 class PressedPatch:
-    """What of a patch does not depend on the load: m covered cells, coordinates u = (1, (x - cx)/h, (y - cy)/h).
+    """What does not depend on the load: m covered cells, coordinates u = (1, (x - cx)/h, (y - cy)/h).
 
     Args:
         cells: Index (m,) of each cell in the sole.
-        centre: Place (cx, cy) in m from which coordinates count.
+        centre: Place (cx, cy) in m.
         scale: h in m.
         area: Share (m,) of each cell in the covered area.
         u: Coordinates (m, 3).
         inverse: Load to field (3, 3) where every covered cell carries.
-        reach: Polygon (k, 2) of the points where the cells can carry a load, in scaled coordinates.
+        reach: Polygon (k, 2) in scaled coordinates where the cells can carry a load.
 
     Attributes:
-        carried: Whether each cell (m,) carried last, where the search for a part that carries starts; none at first.
+        carried: Whether each cell (m,) carried last; the search starts there.
     """
 
     def __init__(self, cells, centre, scale, area, u, inverse, reach):
@@ -60,13 +52,11 @@ class PressedPatch:
 
         Args:
             force: Load in N.
-            x: Where it acts in m; where the cells cannot carry it, it goes to the nearest point where they can.
-            y: The same.
-            out: Receives the cells' forces in N, where the result is True.
+            x: Where it acts in m; moved to where the cells can carry it; y likewise.
+            out: Receives the cells' forces in N, if carried.
 
         Returns:
-            Whether the cells that carry were found; if not, `part` may be tried from others. False, too, where none of
-            them carried last.
+            Whether the carrying cells were found; if not, `part` may be tried from others.
         """
         self.x = (x - self.cx) / self.scale
         self.y = (y - self.cy) / self.scale
@@ -80,7 +70,7 @@ class PressedPatch:
         return some and self.part(force, out)
 
     def _to_reach(self):
-        """Put the load where the cells can carry it."""
+        """Move the load to where the cells can carry it."""
         if self.turn != 0:
             _margin, self.x, self.y = convex._nearest(self.reach, self.turn, self.x, self.y)
         else:
@@ -88,13 +78,5 @@ class PressedPatch:
             self.x, self.y = nearest[0], nearest[1]
 
     def part(self, force, out):
-        """Spread the load of the last `spread` over a part of the cells, starting from those of `carried`.
-
-        Args:
-            force: Load in N.
-            out: Receives the cells' forces in N, where the result is True.
-
-        Returns:
-            Whether the cells that carry were found.
-        """
+        """Spread the last load, `force` in N, from the cells of `carried` into `out`; whether they were found."""
         return foundation.spread_part(self.u, self.area, self.x, self.y, force, self.carried, self.cells, out)

@@ -23,37 +23,17 @@ cdef class PressedSole:
     cdef Py_ssize_t room
     cdef double[:, ::1] points
     cdef double[:, :, ::1] places
-
-    @cython.locals(slot=Py_ssize_t)
     cdef _make_room(self, Py_ssize_t room)
-
     cpdef press(self, FootContacts contacts, const double[:, ::1] vectors, double reach)
-
     cpdef int stand(self, FootContacts contacts, ContactsInSole seen, double reach) except -1
-
-    @cython.locals(
-        k=Py_ssize_t, j=Py_ssize_t, row=Py_ssize_t, count=Py_ssize_t, known=bint, force=double, about_x=double,
-        about_y=double, x=double, y=double, z=double, fx=double, fy=double, fz=double
-    )
+    @cython.locals(force=double, about_x=double, about_y=double)
     cpdef int load(self, FootContacts contacts, const double[:, ::1] vectors, double reach) except -1
-
-    @cython.locals(i=Py_ssize_t)
     cdef void _clear(self) noexcept
-
-    @cython.locals(count=Py_ssize_t, px=double, py=double)
+    @cython.locals(px=double, py=double)
     cpdef spread(self, points, double force, double x, double y)
-
-    @cython.locals(patch=PressedPatch, i=Py_ssize_t)
     cdef int _spread(self, Py_ssize_t count, double force, double x, double y) except -1
-
-    @cython.locals(i=int, slot=int, key=tuple)
     cdef PressedPatch _patch(self, Py_ssize_t count)
-
-    @cython.locals(i=Py_ssize_t, x=double, y=double)
     cdef bint _is_recent(self, Py_ssize_t slot, Py_ssize_t count) noexcept
 
-cdef bint _counts(
-    FootContacts contacts, const double[:, ::1] vectors, double reach, Py_ssize_t k
-) noexcept
-
+cdef bint _counts(FootContacts contacts, const double[:, ::1] vectors, double reach, Py_ssize_t k) noexcept
 cdef bint _is_pair(FootContacts contacts, Py_ssize_t j, Py_ssize_t k) noexcept

@@ -1,4 +1,4 @@
-"""Kernel of an elastic sole: what its taxels carry of the contacts that press on it."""
+"""Kernel of an elastic sole: the load of its taxels from its contacts."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ _RECENT = 4  # patches that are looked at before any other: one for each piece o
 
 
 class PressedSole:
-    """Spreads loads over the cells of a sole; what it takes to do so is made once a patch.
+    """Spreads loads over the cells of a sole, keeping what was computed for a patch.
 
     Args:
-        gains: What a cell's taxel (n,) reads of a vertical force on it.
-        grid: Distance in m within which contact points that agree span the same patch.
-        most: How many patches are kept.
+        gains: Reading of a cell's taxel (n,) per vertical force.
+        grid: Distance in m within which contact points span the same patch.
+        most: Number of patches to keep.
         make: Makes the patch of contact points (k, 2) in m.
-        settle: Spreads a load in N that a patch does not settle by itself over an array (n,).
+        settle: Spreads a load in N that a patch does not settle over an array (n,).
 
     Attributes:
-        forces: Forces (n,) in N that the taxels carried last.
+        forces: Last forces (n,) of the taxels in N.
     """
 
     def __init__(self, gains, grid, most, make, settle):
@@ -42,7 +42,6 @@ class PressedSole:
         self._make_room(8)
 
     def _make_room(self, room):
-        """Room for so many points."""
         self.room = room
         self.points = np.zeros((room, 2))
         self.places = np.zeros((_RECENT, room, 2))
@@ -50,32 +49,29 @@ class PressedSole:
             self.recent_counts[slot] = 0
 
     def press(self, contacts, vectors, reach):
-        """What the taxels carry of a foot's contacts, pair of geoms by pair.
+        """Forces (n,) in N of the taxels under a foot's contacts, pair of geoms by pair.
 
         Args:
             contacts: The foot's contacts.
-            vectors: Position, force and torque of each in turn in the sole frame (at least 3 k, 3).
-            reach: Gap in m beyond which a contact that carries nothing is left out.
-
-        Returns:
-            Forces (n,) in N.
+            vectors: Position, force and torque of each in the sole frame (at least 3 k, 3).
+            reach: Largest gap in m of a contact without load.
         """
         self.load(contacts, vectors, reach)
         return self.carried.copy()
 
     def stand(self, contacts, seen, reach):
-        """Set `forces` to what the taxels carry of a foot's contacts, pair of geoms by pair.
+        """Set `forces` from a foot's contacts.
 
         Args:
             contacts: The foot's contacts.
             seen: `ContactsInSole`, which turns them into the sole frame.
-            reach: Gap in m beyond which a contact that carries nothing is left out.
+            reach: Largest gap in m of a contact without load.
         """
         seen.turn(contacts)
         self.load(contacts, seen.vectors, reach)
 
     def load(self, contacts, vectors, reach):
-        """`press`, whose result is in `forces`."""
+        """`press`, with the result in `forces`."""
         self._clear()
         if contacts.size > self.room:
             self._make_room(2 * contacts.size)
@@ -105,21 +101,12 @@ class PressedSole:
                 self._spread(count, force, -about_y / force, about_x / force)
 
     def _clear(self):
-        """Nothing is carried."""
         for i in range(self.forces.shape[0]):
             self.forces[i] = 0.0
 
     def spread(self, points, force, x, y):
-        """What the taxels carry of one load.
-
-        Args:
-            points: Contact points (x, y) in m as tuples; the patch is their convex hull.
-            force: Load in N, above 0.
-            x: Where it acts in m.
-            y: The same.
-
-        Returns:
-            Forces (n,) in N.
+        """Forces (n,) in N of the taxels under a load `force` above 0 at x, y in m, on the convex hull of `points` (x,
+        y) in m.
         """
         self._clear()
         if len(points) > self.room:
@@ -132,7 +119,7 @@ class PressedSole:
         return self.carried.copy()
 
     def _spread(self, count, force, x, y):
-        """Add what the taxels carry of a load on the first points."""
+        """Add the forces of a load on the first points."""
         patch = self._patch(count)
         for i in range(self.part.shape[0]):
             self.part[i] = 0.0
@@ -142,7 +129,7 @@ class PressedSole:
             self.forces[i] = self.forces[i] + self.part[i] * self.gains[i]
 
     def _patch(self, count):
-        """The patch of the first points: mostly one that was pressed lately."""
+        """The patch of the first points, mostly a recent one."""
         for i in range(_RECENT):
             slot = (self.slot + i) % _RECENT
             if self._is_recent(slot, count):
@@ -175,10 +162,8 @@ class PressedSole:
 
 
 def _counts(contacts, vectors, reach, k):
-    """Whether a contact carries something or is near."""
     return not (contacts.gaps[k] > reach and vectors[3 * k + 1, 2] == 0.0)
 
 
 def _is_pair(contacts, j, k):
-    """Whether two contacts are between the same geoms."""
     return contacts.ids[j, 0] == contacts.ids[k, 0] and contacts.ids[j, 1] == contacts.ids[k, 1]

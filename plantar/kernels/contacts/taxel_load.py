@@ -1,4 +1,4 @@
-"""Kernel of what each taxel of a sole carries: all of them together have the wrench of the contacts of the sole."""
+"""Kernel of the force on each taxel of a sole; together they have the wrench of the sole's contacts."""
 
 from __future__ import annotations
 
@@ -14,29 +14,28 @@ _EXACT = 1e-12  # of the load and of the cells' extent: how exactly a pressure h
 
 
 class TaxelLoad:
-    """Spreads the wrench of a sole's contacts over its taxels, at each instant from the contacts alone.
+    """Spreads the wrench of a sole's contacts over its taxels, from the current contacts alone.
 
-    1. The contact points of each pair of geoms span a patch. A cell's weight w is its area times the share of it that
-       the patch covers, a ramp over the cell's width in the distance of its taxel from the patch; the next row of
-       cells counts faintly.
-    2. Each pair's normal load is spread as on springs that cannot pull: f = w max(0, a + b x + c y).
-    3. The sum over the pairs is corrected in the same way, with itself as weight, to have the load and the moments of
-       all contacts exactly. Where it cannot, neighbouring cells help, and then all cells.
-    4. Tangential forces follow the normal ones, and turn about their centre, to have the rest of the wrench.
+    - The contact points of each pair of geoms span a patch. A cell's weight w is its area times its covered share, a
+      ramp over the cell's width in its taxel's distance from the patch; the next row of cells counts faintly.
+    - Each pair's normal load is spread as on springs that cannot pull: f = w max(0, a + b x + c y).
+    - The sum is corrected likewise, with itself as weight, to the exact load and moments of all contacts; if
+      impossible, with neighbouring cells, then all.
+    - Tangential forces follow the normal ones, and turn about their center, to have the rest of the wrench.
 
     Args:
-        positions: Places (n, 3) of the taxels in the sole frame in m.
-        normals: Axis (n, 3) of each taxel that points into the body.
+        positions: Taxels (n, 3) in the sole frame in m.
+        normals: Axis (n, 3) of each taxel into the body.
         areas: Area (n,) of each cell in m^2.
-        widths: Distance (n,) in m from each taxel to the farthest corner of its cell.
-        hull: Convex hull (h, 2) of the places in m, counter-clockwise.
+        widths: Distance (n,) in m from each taxel to its cell's farthest corner.
+        hull: Convex hull (h, 2) of the taxels in m, counter-clockwise.
 
     Attributes:
         vectors: Force (n, 3) on each taxel in the sole frame in N.
         forces: Its part (n,) along the taxel's axis in N.
-        depths: How deep (n,) the geoms overlap at each taxel in the contact in m, 0 elsewhere.
+        depths: Overlap (n,) of the geoms at each taxel in m.
         wrench: Wrench (6,) of the contacts about the sole frame's origin in N and N m.
-        carried: Whether the vectors have that wrench; if not, their sum is its force where it presses, zero where not.
+        carried: Whether the vectors have that wrench, or else only its force.
         pressed: Whether the contacts press on the sole.
     """
 
@@ -67,19 +66,18 @@ class TaxelLoad:
         self._make_room(16)
 
     def _make_room(self, room):
-        """Room for so many contact points."""
         self.room = room
         self.points = np.zeros((room, 3))  # x, y and overlap
         self.ring = np.zeros((2 * room + 2, 2))
         self.edges = np.zeros((2 * room + 2, 3))  # direction and length of each edge of the ring
 
     def press(self, contacts, seen, reach):
-        """Set the attributes to what the contacts give.
+        """Set the attributes from the contacts.
 
         Args:
             contacts: The sole's `FootContacts`.
             seen: `ContactsInSole`, which turns them into the sole frame.
-            reach: Gap in m beyond which a contact that carries nothing is left out.
+            reach: Largest gap in m of a contact without load.
         """
         count = self.areas.shape[0]
         for i in range(6):
@@ -119,7 +117,7 @@ class TaxelLoad:
             self._wrench[5] += vectors[row + 2, 2] + x * fy - y * fx
 
     def _spread_pairs(self, contacts, vectors, reach):
-        """Add what each pair of geoms presses to `prior` (steps 1 and 2)."""
+        """Add the normal load of each pair of geoms to `prior`."""
         count = self.areas.shape[0]
         for k in range(contacts.size):
             if contacts.gaps[k] > reach and vectors[3 * k + 1, 2] == 0.0:
@@ -156,8 +154,7 @@ class TaxelLoad:
                     self.prior[i] += self.normal[i]
 
     def _cover(self, size):
-        """Set `weights` to what the first points' patch covers of each cell, in m^2; of the nearest where it misses
-        all."""
+        """Set `weights` to the area in m^2 of each cell under the patch; of the nearest if it misses all."""
         corners = self._hull_of(size)
         count = self.areas.shape[0]
         for k in range(corners):
@@ -196,7 +193,7 @@ class TaxelLoad:
                     self._depths[i] = depth / total
 
     def _hull_of(self, size):
-        """Put the convex hull of the first points into `ring`, counter-clockwise; how many corners it has."""
+        """Put the convex hull of the first points into `ring`, counter-clockwise; its number of corners."""
         points, ring = self.points, self.ring
         for k in range(1, size):  # in order of x, then y
             x, y, z = points[k, 0], points[k, 1], points[k, 2]
@@ -214,19 +211,10 @@ class TaxelLoad:
         return corners - 1 if corners > 1 else corners
 
     def _tilt(self, weights, force, x, y):
-        """Set `normal` to weights times max(0, a + b x + c y), with a load and its place.
+        """Set `normal` to weights (n,) times max(0, a + b x + c y), with a load in N at (x, y) in m.
 
-        Newton's method on a convex problem: minimise 1/2 sum w max(0, p)^2 - load . field. Weights, load and
-        place are scaled first.
-
-        Args:
-            weights: Weight (n,) of each cell, none negative.
-            force: Load in N.
-            x: Place of the load in m.
-            y: The same.
-
-        Returns:
-            Whether the cells can carry it; `normal` is not changed if not.
+        Newton's method on 1/2 sum w max(0, p)^2 - load . field, scaled; False, with `normal` unchanged, if the cells
+        cannot carry the load.
         """
         cells, rows = 0, self.rows
         total = cx = cy = 0.0
@@ -315,7 +303,7 @@ class TaxelLoad:
         return False
 
     def _balance(self, force):
-        """Set `vectors` and `forces` to what has the wrench of all contacts (steps 3 and 4)."""
+        """Set `vectors` and `forces` to the wrench of all contacts."""
         count = self.areas.shape[0]
         about_x, about_y = self._wrench[3], self._wrench[4]
         for _ in range(1 if self.level else 60):
@@ -342,7 +330,7 @@ class TaxelLoad:
             )
 
     def _carry(self, force, x, y):
-        """Set `normal` to a load of all contacts and its place; whether the cells can carry it there."""
+        """Set `normal` to the load of all contacts; whether the cells can carry it."""
         count = self.areas.shape[0]
         if self._tilt(self.prior, force, x, y):
             return True
@@ -383,8 +371,7 @@ class TaxelLoad:
         return False
 
     def _shear(self, force):
-        """Set `vectors` to the normal forces, with tangential ones in their proportion that have the rest of the
-        wrench."""
+        """Set `vectors` to the normal forces plus proportional tangential ones with the rest of the wrench."""
         count = self.areas.shape[0]
         cx = cy = 0.0
         for i in range(count):
@@ -411,12 +398,11 @@ class TaxelLoad:
 
 
 def _is_pair(contacts, j, k):
-    """Whether two contacts are between the same geoms."""
     return contacts.ids[j, 0] == contacts.ids[k, 0] and contacts.ids[j, 1] == contacts.ids[k, 1]
 
 
 def _join(ring, corners, floor, x, y):
-    """Add a point to a hull that turns left, and drop the corners that it makes superfluous; how many are left."""
+    """Add a point to a hull that turns left, and drop superfluous corners; number of corners left."""
     while corners - floor >= 2:
         ax, ay = ring[corners - 1, 0] - ring[corners - 2, 0], ring[corners - 1, 1] - ring[corners - 2, 1]
         if ax * (y - ring[corners - 2, 1]) - ay * (x - ring[corners - 2, 0]) > 0.0:

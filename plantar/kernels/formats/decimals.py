@@ -1,11 +1,8 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
-"""Kernel that reads rows of decimal numbers from a text, each to the last bit what `float` makes of it.
+"""Kernel that reads rows of decimal numbers, each equal to the last bit to what `float` returns.
 
-A number of up to 15 digits is a whole number below 2^53 over a power of ten up to 10^15. Both are doubles without an
-error, so that their quotient is the double nearest to the number (Clinger 1990, "How to read floating point numbers
-accurately"). Others are handed to `float`.
-
-Plain Python that also compiles ahead of time: `decimals.pxd` gives the C types.
+A number of up to 15 digits is a whole number below 2^53 over a power of ten up to 10^15, both exact doubles, so that
+their quotient is the nearest double (Clinger 1990). Others are handed to `float`.
 """
 
 from __future__ import annotations
@@ -21,19 +18,14 @@ _TAB, _LINE_END, _BLANK, _PLUS, _COMMA, _MINUS, _POINT, _ZERO, _NINE = 9, 10, 32
 
 
 def read_rows(text, delimiter, comma, columns, out):
-    """Read lines of numbers until one is met that is made of anything else.
+    """Read lines of numbers up to the first one with anything else; returns their number.
 
     Args:
         text: The lines, as bytes.
-        delimiter: Code of the sign between numbers; nothing between two of them is a number that is missing. 0 for any
-            blanks.
+        delimiter: Code of the sign between numbers, with missing numbers between two of them; 0 for blanks.
         comma: Whether numbers may have a decimal comma.
-        columns: For each number of a line the column of `out` that it goes to; -1 where it is passed over.
-        out: Where the numbers go, a row a line; NaN for one that is missing.
-
-    Returns:
-        How many lines were read: all those before the first one that has another count of numbers, or anything that is
-        none. The row of that one holds what was read of it.
+        columns: Column of `out` for each number of a line; -1 to skip it.
+        out: Receives the numbers, a row a line; NaN for a missing one.
     """
     data = text
     size = len(text)

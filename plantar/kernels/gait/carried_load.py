@@ -1,4 +1,4 @@
-"""Kernel of the loads that the taxels of a foot have carried since touchdown (C types: `carried_load.pxd`)."""
+"""Kernel of the loads that the taxels of a foot have carried since touchdown."""
 
 from __future__ import annotations
 
@@ -8,14 +8,11 @@ _INFINITE = float("inf")
 
 
 def take_in(force, forgetting, share, total, mean):
-    """Add a reading (n,) in N to the running `total` and `mean` (n,), in place; values that are not finite count as 0.
+    """Add a reading `force` (n,) in N to a running sum and mean, in place; values that are not finite count as 0.
 
     Args:
-        force: Normal forces (n,) in N.
-        forgetting: Share of the old value in the running sum.
-        share: Share of the new value in the running mean.
-        total: The running sum (n,) in N.
-        mean: The running mean (n,) in N.
+        forgetting: Share of the old value in the sum `total` (n,) in N.
+        share: Share of the new value in the `mean` (n,) in N.
     """
     for i in range(force.shape[0]):
         new = force[i] if -_INFINITE < force[i] < _INFINITE else 0.0
@@ -24,14 +21,8 @@ def take_in(force, forgetting, share, total, mean):
 
 
 def mark_carried(mean, near, least, beside, carried):
-    """Mark the taxels whose running mean is above a force, and above a share of their strongest neighbour's.
-
-    Args:
-        mean: Running means (n,) in N.
-        near: Indices (n, k) of each taxel's neighbours, -1 where it has fewer.
-        least: The force in N.
-        beside: The share.
-        carried: Mask (n,) of marked taxels, updated in place.
+    """Mark in `carried` (n,) the taxels whose `mean` (n,) in N is above `least`, and a share `beside` of their
+    strongest neighbour's; `near` (n, k) has the neighbours, padded with -1.
     """
     for i in range(mean.shape[0]):
         around = 0.0

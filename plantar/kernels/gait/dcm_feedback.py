@@ -1,7 +1,4 @@
-"""Kernel of the DCM feedback: desired ZMP, and admittance of the CoM reference (C types: `dcm_feedback.pxd`).
-
-`plantar.gait.balance` gives the equations' sources.
-"""
+"""Kernel of the DCM feedback: desired ZMP, and admittance of the CoM reference (sources: `plantar.gait.balance`)."""
 
 from __future__ import annotations
 
@@ -16,20 +13,14 @@ _SAME = 1e-9  # m: a desired ZMP that its region moves by less is not held back
 
 
 class ComAdmittance:
-    """Offset of the CoM reference from the plan (T 4.29).
+    """Offset of the CoM reference from the plan (T 4.29): x, y in m, and its rates in m/s.
 
     Args:
-        zmp_gain: k_f in 1/s: rate at which the CoM reference yields to a ZMP error.
-        com_gain: k_x in 1/s: rate at which it returns to the plan.
+        zmp_gain: k_f in 1/s, from ZMP error to rate.
+        com_gain: k_x in 1/s, rate of return to the plan.
         zmp_filter: Time constant in s of the low-pass on the ZMP error.
         period: Control period in s.
-        largest: Largest length of the offset in m.
-
-    Attributes:
-        x: Offset along x in m.
-        y: The same along y.
-        rate_x: Its rate along x in m/s.
-        rate_y: The same along y.
+        largest: Largest offset in m.
     """
 
     def __init__(self, zmp_gain, com_gain, zmp_filter, period, largest=math.inf):
@@ -47,7 +38,7 @@ class ComAdmittance:
         return vectors.vector2(self.x, self.y)
 
     def update(self, error):
-        """Advance by a tick with a ZMP error (2,) in m, measured less desired; zeros where no foot is loaded."""
+        """Advance by a tick with a ZMP error (2,) in m, measured less desired; zeros without load."""
         self.follow(error[0], error[1])
 
     def follow(self, x, y):
@@ -71,8 +62,7 @@ class DcmFeedback:
     Args:
         omega: Pendulum frequency in rad/s.
         gain: k_xi of T 4.28 in 1/s.
-        integral: Gain in 1/s of the integral of the DCM error, its decay rate in 1/s, and its largest contribution in
-            m.
+        integral: Gain in 1/s of the integral of the DCM error, its decay in 1/s, and its limit in m.
         period: Control period in s.
         admittance: Offset of the CoM reference.
         yields: Whether the offset follows the ZMP's error.
@@ -90,17 +80,14 @@ class DcmFeedback:
         self.integral_x = self.integral_y = 0.0
 
     def desired(self, vrp, planned, dcm, region):
-        """Desired ZMP p_d = p_r + (1 + k_xi / w) (xi - xi_r) (T 4.28), with the integral, kept in a region (T Algorithm
-        1).
+        """Desired ZMP (2,) in m, p_r + (1 + k_xi / w) (xi - xi_r) with the integral, kept in a region (T 4.28,
+        Algorithm 1).
 
         Args:
             vrp: Planned VRP p_r (2,) in m.
             planned: Planned DCM xi_r (2,) in m.
             dcm: Measured DCM xi (2,) in m.
-            region: Convex polygon (k, 2) in m; empty does not limit it.
-
-        Returns:
-            The desired ZMP (2,) in m.
+            region: Convex polygon (k, 2) in m; empty for no limit.
         """
         x, y = self._desired(memory.values(vrp), memory.values(planned), memory.values(dcm), region, False)
         return vectors.vector2(x, y)
@@ -109,12 +96,10 @@ class DcmFeedback:
         """Advance by one control tick.
 
         Args:
-            vrp: Planned VRP (2,) in m.
-            planned: Planned DCM (2,) in m.
-            com: Planned CoM (2,) in m.
-            com_velocity: Its velocity (2,) in m/s.
+            vrp: Planned VRP (2,) in m; `planned` DCM and `com` likewise.
+            com_velocity: Planned velocity (2,) of the CoM in m/s.
             dcm: Measured DCM (2,) in m.
-            zmp: Measured ZMP (2,) in m; None where no foot is loaded.
+            zmp: Measured ZMP (2,) in m; None without load.
             region: As in `desired`.
 
         Returns:
@@ -156,6 +141,6 @@ class DcmFeedback:
         return px, py
 
     def _integrated(self, integral, error):
-        """One coordinate of the decaying, limited integral after a tick with a DCM error in m."""
+        """One coordinate of the decaying, limited integral after a tick."""
         moved = integral + self.period * (self.integral_gain * error - self.forgetting * integral)
         return min(max(moved, -self.largest), self.largest)

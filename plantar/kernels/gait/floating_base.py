@@ -1,6 +1,6 @@
-"""Kernel of the floating base: from leg kinematics, IMU and the soles' loads (C types: `floating_base.pxd`).
+"""Kernel of the floating base from leg kinematics, IMU and loads (equations: `plantar.gait.estimate.estimator`).
 
-`plantar.gait.estimate.estimator` gives the equations. Feet are numbered in the order of `plantar.sides.SIDES`.
+Feet are numbered in the order of `plantar.sides.SIDES`.
 """
 
 from __future__ import annotations
@@ -22,20 +22,17 @@ _NONE = float("nan")
 class FloatingBase:
     """A base that turns with the gyro and moves with the carrying feet, and the velocity of its CoM.
 
-    The state's arrays belong to the caller; this object writes them.
-
     Args:
         omega: Pendulum frequency in rad/s.
         period: Control period in s.
-        gravity: Acceleration of gravity in m/s^2.
-        gains: Averaging in s, correction of tilt and of heading in 1/s, bandwidth of the observer in rad/s, and least
-            load in N (`EstimatorGains`).
-        state: Arrays for the rotation (3, 3) from base to world, base position (3,) in m, CoM (3,) in m and its
-            velocity (3,) in m/s, origin of each sole frame (2, 3) in the world in m, rotation (2, 3, 3) from each sole
-            to the world, composite ZMP (2,) in m (NaN without load), and turn (3,) of the base in rad by the still
-            soles.
+        gravity: In m/s^2.
+        gains: Averaging in s, correction of tilt and heading in 1/s, observer bandwidth in rad/s, least load in N
+            (`EstimatorGains`).
+        state: The caller's arrays to write: rotation (3, 3) from base to world, base position (3,), CoM (3,), its
+            velocity (3,), sole origins (2, 3), sole rotations (2, 3, 3) to the world, composite ZMP (2,) (NaN without
+            load), and turn (3,) of the base in rad by the still soles; in m and m/s.
         bias: `gyro_bias.GyroBias`; None disables bias correction.
-        steady: `SteadyLoad` that selects the feet for it; None takes all loaded ones.
+        steady: `SteadyLoad` that selects the feet for it; None for all loaded ones.
     """
 
     def __init__(self, omega, period, gravity, gains, state, bias=None, steady=None):
@@ -56,20 +53,18 @@ class FloatingBase:
         self.watch(*np.zeros((3, 3)), *np.zeros((2, 3, 3)))
 
     def watch(self, com, left, right, turn_left, turn_right):
-        """Keep the arrays of a posture, which `take` reads at each tick.
+        """Keep the arrays of a posture, which `take` reads at each tick, in the base frame.
 
         Args:
-            com: CoM (3,) in the base frame in m.
-            left: Origin of the left sole frame (3,) in the base frame in m.
-            right: The same of the right one.
-            turn_left: Rotation (3, 3) from the left sole frame to the base frame.
-            turn_right: The same of the right one.
+            com: CoM (3,) in m.
+            left: Origin (3,) of the left sole frame in m; `right` likewise.
+            turn_left: Rotation (3, 3) from the left sole frame; `turn_right` likewise.
         """
         self.com_now, self.left_now, self.right_now = com, left, right
         self.turn_left_now, self.turn_right_now = turn_left, turn_right
 
     def take(self):
-        """Read the posture of this tick; the one before is kept."""
+        """Read this tick's posture and keep the last one."""
         com, left, right = self.com_now, self.left_now, self.right_now
         turn_left, turn_right = self.turn_left_now, self.turn_right_now
         places, turns = self.places_in_base, self.turns_in_base
@@ -84,9 +79,7 @@ class FloatingBase:
                 turns[0, 0, i, j], turns[0, 1, i, j] = turn_left[i, j], turn_right[i, j]
 
     def stand(self, rotation, position, heading_left, heading_right):
-        """Place the base, with the last posture: rotation (3, 3) to the world, position (3,) in m, headings of the feet
-        in rad.
-        """
+        """Place the base: rotation (3, 3) to the world, position (3,) in m, headings of the feet in rad."""
         for i in range(3):
             self.position[i] = position[i]
             for j in range(3):
@@ -106,8 +99,8 @@ class FloatingBase:
 
         Args:
             side: The foot.
-            load: Vertical force on it in N.
-            pressed: Whether it has a centre of pressure.
+            load: Vertical force in N.
+            pressed: Whether it has a center of pressure.
             x: That in the sole frame in m.
             y: The same.
         """
@@ -115,20 +108,12 @@ class FloatingBase:
         self.cops[side, 0], self.cops[side, 1] = x, y
 
     def follow(self, gyro_x, gyro_y, gyro_z, specific_x, specific_y, specific_z, planned_x, planned_y):
-        """Read the posture of this tick, and turn and move the base.
+        """Read this tick's posture, and turn and move the base; returns the ZMP as `place`.
 
         Args:
-            gyro_x: Angular velocity about the base's x in rad/s, as measured; likewise `gyro_y`, `gyro_z`.
-            gyro_y: See `gyro_x`.
-            gyro_z: See `gyro_x`.
-            specific_x: Specific force along the base's x in m/s^2; likewise `specific_y`, `specific_z`.
-            specific_y: See `specific_x`.
-            specific_z: See `specific_x`.
-            planned_x: Planned acceleration of the CoM along the world's x in m/s^2; likewise `planned_y`.
-            planned_y: See `planned_x`.
-
-        Returns:
-            The ZMP, as `place`.
+            gyro_x: Measured angular velocity about the base's x in rad/s; `gyro_y` and `gyro_z` likewise.
+            specific_x: Specific force along the base's x in m/s^2; `specific_y` and `specific_z` likewise.
+            planned_x: Planned acceleration of the CoM along the world's x in m/s^2; `planned_y` likewise.
         """
         self.take()
         rate, bias = self.rate, self.bias
@@ -146,7 +131,6 @@ class FloatingBase:
         return self.place()
 
     def _identify(self, gyro_x, gyro_y, gyro_z):
-        """Compare the gyro with the still feet."""
         left = max(0.0, self.loads[0] - self.minimum_load)
         right = max(0.0, self.loads[1] - self.minimum_load)
         steady, stood = self.steady, self.stood
@@ -158,11 +142,7 @@ class FloatingBase:
         self.bias.update(gyro_x, gyro_y, gyro_z, stands, stood[0], stood[1], stood[2], both)
 
     def stand_still(self, weight_left, weight_right):
-        """Turn of the base in this tick by still soles: sin a of R_s(k-1) R_s(k)^T, weighted (0 or less: not still).
-
-        Returns:
-            Whether a foot is still; else the angle is zero.
-        """
+        """Weighted turn of the base in this tick by still soles, sin a of R_s(k-1) R_s(k)^T; whether one is still."""
         turns, stood = self.turns_in_base, self.stood
         total = sx = sy = sz = 0.0
         for side in range(2):
@@ -188,11 +168,11 @@ class FloatingBase:
         """Turn the base by one tick.
 
         Args:
-            rate: Angular velocity (3,) in the base frame in rad/s, less the gyro's bias.
+            rate: Angular velocity (3,) in the base frame in rad/s, less the bias.
             accelerometer: Specific force (3,) in the base frame in m/s^2.
             planned: Planned horizontal acceleration (2,) of the CoM in m/s^2; None for none.
-            by_legs: Whether the heading is corrected by `missed` (with an identified bias) or by the feet.
-            missed: Angle (3,) in the base frame in rad by which the legs turned more than the gyro; None for none.
+            by_legs: Whether `missed` or the feet correct the heading.
+            missed: Turn (3,) of the legs beyond the gyro in the base frame in rad; None for none.
         """
         rotation, specific, vector, before = self.rotation, self.other, self.vector, self.before
         rx, ry, rz = rate[0], rate[1], rate[2]
@@ -236,7 +216,7 @@ class FloatingBase:
         rotations.orthonormalise(self.matrix, self.work, rotation)
 
     def _heading_error(self):
-        """Heading in rad ahead of that which each foot had at touchdown."""
+        """Heading in rad ahead of each foot's heading at touchdown."""
         rotation, headings, turns = self.rotation, self.headings, self.turns_in_base
         total = error = 0.0
         for side in range(2):
@@ -295,14 +275,7 @@ class FloatingBase:
             out[i] = places[past, side, i] + turns[past, side, i, 0] * x + turns[past, side, i, 1] * y
 
     def place(self):
-        """Compute the soles' poses in the world and the ZMP of their loads.
-
-        Returns:
-            The ZMP (2,) in m, a new array; None without load.
-
-        Raises:
-            InputError: If a load or its place is not finite.
-        """
+        """Compute the soles' poses and the ZMP (2,) in m of their loads; None without; InputError if not finite."""
         loads, cops = self.loads, self.cops
         rotation, position, places, turns = self.rotation, self.position, self.places, self.turns
         total = x = y = 0.0
@@ -330,8 +303,8 @@ class FloatingBase:
         """Copies of the state.
 
         Returns:
-            Rotation (3, 3) from base to world, base position (3,) in m, CoM (3,) in m, its velocity (3,) in m/s,
-            origins (3,) of the left and right sole frames in the world in m, and their rotations (3, 3) to the world.
+            Rotation (3, 3) from base to world; base position, CoM in m and its velocity in m/s (3,); origins (3,) of
+            the left and right sole frames in m; and their rotations (3, 3) to the world.
         """
         places, turns = self.places, self.turns
         return (
@@ -346,7 +319,7 @@ class FloatingBase:
         )
 
     def observe(self, push_x, push_y):
-        """Observe CoM and its velocity for one tick, with the acceleration in m/s^2 by a push."""
+        """Observe CoM and velocity for one tick, with a push's acceleration in m/s^2."""
         com, velocity, zmp, period = self.com, self.velocity, self.zmp, self.period
         # Gains 2 b and b^2: with the pendulum's own fall the observer's poles lie at -b +- omega.
         near = min(1.0, 2.0 * self.bandwidth * period)
@@ -367,10 +340,8 @@ class FloatingBase:
 
 
 def _vector(v):
-    """A new array of the same (3,)."""
     return vectors.vector(v[0], v[1], v[2])
 
 
 def _matrix(m):
-    """A new array of the same (3, 3)."""
     return vectors.matrix(m[0, 0], m[0, 1], m[0, 2], m[1, 0], m[1, 1], m[1, 2], m[2, 0], m[2, 1], m[2, 2])

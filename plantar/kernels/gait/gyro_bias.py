@@ -1,7 +1,4 @@
-"""Kernel of `plantar.gait.estimate.gyro_bias` and `plantar.gait.estimate.steady_load`.
-
-Feet are numbered in the order of `plantar.sides.SIDES`.
-"""
+"""Kernel of `plantar.gait.estimate.gyro_bias` and `steady_load`; feet in the order of `plantar.sides.SIDES`."""
 
 from __future__ import annotations
 
@@ -14,7 +11,7 @@ class SteadyLoad:
     """Compares each foot's load with the total and with its own running mean.
 
     Args:
-        share: Share of the total load from which a foot is still; the other one then is not.
+        share: Share of the total load from which a foot is still and the other is not.
         follow: Share of a new load in the running mean.
         band: Largest difference in N of load and mean of a still foot.
 
@@ -47,19 +44,17 @@ class SteadyLoad:
 class GyroBias:
     """Mean difference of a gyro and the turn of the legs, piece by piece.
 
-    The results' arrays belong to the caller; this object writes them.
-
     Args:
         period: Control period in s.
         least: Least weight of a tick in the mean.
         largest: Largest bias of an axis in rad/s.
         most_ticks: Ticks of a piece.
         slip: Largest angle in rad about z by which noise differs in a piece.
-        one_foot: Weight of a tick with one still foot, relative to one with two.
-        known: Gathered weight from which a slip differs from a bias.
+        one_foot: Weight of a tick with one still foot, relative to two.
+        known: Weight from which a slip differs from a bias.
         value: Receives the bias (3,) in the base frame in rad/s.
-        missed: Receives the angle (3,) in the base frame in rad by which the legs turned more than the corrected gyro,
-            in the piece that has ended.
+        missed: Receives the turn (3,) of the legs beyond the corrected gyro in the last piece, in the base frame in
+            rad.
 
     Attributes:
         concluded: Whether a piece ended at the last tick.
@@ -74,7 +69,6 @@ class GyroBias:
         self._begin()
 
     def _begin(self):
-        """Begin a piece."""
         self.x = self.y = self.z = self.worth = 0.0  # how far the gyro turned beyond the legs in rad
         self.ticks = 0
 
@@ -82,14 +76,9 @@ class GyroBias:
         """Advance by one control tick.
 
         Args:
-            gyro_x: Measured angular velocity of the base about its own x in rad/s; likewise `gyro_y`, `gyro_z`.
-            gyro_y: See `gyro_x`.
-            gyro_z: See `gyro_x`.
-            stands: Whether a foot is still.
-            turn_x: Turn of the base about its x in rad by the still feet; likewise `turn_y`, `turn_z`.
-            turn_y: See `turn_x`.
-            turn_z: See `turn_x`.
-            both: Whether both feet are still.
+            gyro_x: Measured angular velocity of the base about its x in rad/s; `gyro_y` and `gyro_z` likewise.
+            stands: Whether a foot is still; `both` whether both are.
+            turn_x: Turn of the base about its x in rad by the still feet; `turn_y` and `turn_z` likewise.
         """
         self.concluded = False
         if stands:
@@ -102,7 +91,6 @@ class GyroBias:
             self._conclude()
 
     def _conclude(self):
-        """Take in a piece that has ended."""
         duration = self.ticks * self.period
         first = self.gathered < self.known
         self.gathered += self.worth
@@ -123,5 +111,4 @@ class GyroBias:
 
 
 def _limited(number, largest):
-    """A number, or the nearest one from -largest to it."""
     return -largest if number < -largest else largest if number > largest else number

@@ -1,4 +1,4 @@
-"""Kernel of the plane through the highest ground under a swinging sole (C types: `highest_ground.pxd`)."""
+"""Kernel of the plane through the highest ground under a swinging sole."""
 
 from __future__ import annotations
 
@@ -17,22 +17,20 @@ _IN_A_ROW = 0.02  # share of the product of the variances below which the points
 
 
 def highest_plane(x, y, distance, readings, noise, least, used, plane):
-    """Fit the plane z = -level + sx x + sy y through the highest ground that the taxels of a sole see.
+    """Fit the plane z = -level + sx x + sy y through the highest ground that a sole's taxels measure.
 
-    Least squares, weighted by readings. While ground is higher than the plane by more than noise explains, the fit is
-    repeated with the points above it, then without those far below it. The plane that is found is fitted again to all
-    points within the noise, as long as none is left out above. Error against the same in numpy: below 1e-12 of the
-    largest distance.
+    Weighted least squares. While ground is above the plane by more than noise, the fit is repeated with the points
+    above it, then without those far below. The result is fitted again to all points within the noise, unless one lies
+    above.
 
     Args:
         x: Taxels (n,) in the sole frame in m.
         y: The same.
-        distance: Distances (n,) of the ground from them in m; inf or NaN where none is seen.
+        distance: Distances (n,) of the ground in m; inf or NaN without.
         readings: Number of readings (n,) behind each, 1 or more.
         noise: Standard deviation of a reading in m.
-        least: Least number of remaining points for the second fit: on a few points of a small block it would include
-            the ground next to it.
-        used: Receives 1 for the points (n,) on the plane or, without one, for the remaining points; else 0.
+        least: Least number of points for the second fit: on a small block it would include the ground next to it.
+        used: Receives 1 for the points (n,) on the plane or, without one, the remaining points; else 0.
         plane: Receives level in m, sx and sy (3,).
 
     Returns:
@@ -80,7 +78,7 @@ def highest_plane(x, y, distance, readings, noise, least, used, plane):
 
 
 def _above(x, y, distance, plane, i):
-    """Height in m of the ground under a taxel above the plane."""
+    """Height in m of a taxel's ground above the plane."""
     return plane[0] - plane[1] * x[i] - plane[2] * y[i] - distance[i]
 
 

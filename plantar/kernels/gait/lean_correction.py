@@ -11,7 +11,7 @@ __all__ = ["correct", "headed", "turned"]
 
 
 def headed(rotation, yaw):
-    """A rotation (3, 3) to the world, turned about the vertical to a heading in rad (summed as BLAS does, `fused`)."""
+    """A rotation (3, 3) to the world, turned about the vertical to a heading in rad (summed as BLAS, `fused`)."""
     r, made = memory.values(rotation), memory.new_matrix(3, 3)
     out = memory.room(made)
     angle = yaw - math.atan2(r[3], r[0])
@@ -44,19 +44,14 @@ def correct(
     """One control tick of the correction's low pass.
 
     Args:
-        position: Desired sole position (3,) in the command frame in m.
-        place: The same point in the world frame in m.
-        com_command: CoM reference (3,) in the command frame in m.
-        com_estimated: Estimated CoM (3,) in the world frame in m.
-        command: Commanded torso orientation (3, 3).
-        estimated: Estimated torso orientation (3, 3), with the commanded heading.
+        position: Desired sole position (3,) in the command frame in m; `place` the same in the world.
+        com_command: CoM reference (3,) in the command frame in m; `com_estimated` the CoM in the world.
+        command: Commanded torso orientation (3, 3); `estimated` one with the commanded heading.
         kept: Additional commanded displacement (3,) of the foot in m.
-        largest_shift: Largest correction of the position in m.
-        largest_turn: Largest correction of the orientation in rad.
+        largest_shift: Limit of `shift` in m; `largest_turn` of `turn` in rad.
         weight: Weight of the correction, 0 to 1.
         share: Share of a new correction in the low pass.
-        shift: Correction of the position (3,) in m, updated in place.
-        turn: Correction of the orientation (3,) in rad, updated in place.
+        shift: Correction of the position (3,) in m, updated in place; `turn` of the orientation in rad.
     """
     p, q, c, e = memory.values(position), memory.values(place), memory.values(com_command), memory.values(com_estimated)
     k, by, turned = memory.values(kept), memory.room(shift), memory.room(turn)
@@ -81,7 +76,7 @@ def correct(
 
 
 def _between(a, b):
-    """Product of a matrix and another's transpose, A B^T, as of `rotations.between`, of their values row by row."""
+    """A B^T, as of `rotations.between`, of values row by row."""
     return (
         a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
         a[0] * b[3] + a[1] * b[4] + a[2] * b[5],

@@ -16,10 +16,9 @@ def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
         zmp: Desired ZMP (2,) in m.
         acceleration: Acceleration (2,) of the CoM in m/s^2.
         mass: Mass m in kg.
-        gravity: Acceleration of gravity g in m/s^2.
-        left: The left foot: `position` (3,) of its sole frame in m, `rotation` (3, 3) and the point `center` (2,) in it
-            in m at which it should be loaded.
-        right: The right one.
+        gravity: g in m/s^2.
+        left: Left foot, with `position` (3,) in m and `rotation` (3, 3) of its sole frame, and the point `center` (2,)
+            to load in it; `right` likewise.
         stance: The only carrying foot: 1 left, 2 right, 0 for none.
 
     Returns:
@@ -49,7 +48,6 @@ def shared_load(zmp, acceleration, mass, gravity, left, right, stance):
 
 
 def _loaded(foot):
-    """Point (x, y) at which a foot should be loaded."""
     place, turn, middle = memory.values(foot.position), memory.values(foot.rotation), memory.values(foot.center)
     x, y = middle[0], middle[1]
     return place[0] + (turn[0] * x + turn[1] * y), place[1] + (turn[3] * x + turn[4] * y)

@@ -1,4 +1,3 @@
-# C types of sole_admittance.py. Without a compiler this file is not read.
 cimport cython
 from ..base cimport pointers as memory
 
@@ -6,26 +5,13 @@ cdef double _NONE
 
 @cython.final
 cdef class SoleAdmittance:
-    cdef double period
-    cdef double share
-    cdef double turn_gain
+    cdef double period, share, turn_gain
     cdef public double back
-    cdef double keep
-    cdef double largest_turn
-    cdef double largest_lift
-    cdef readonly double roll
-    cdef readonly double pitch
-    cdef readonly double shift
+    cdef double keep, largest_turn, largest_lift
+    cdef readonly double roll, pitch, shift
     cdef bint stands
-    cdef double fz
-    cdef double tx
-    cdef double ty
-
+    cdef double fz, tx, ty
     cpdef void fade(self) noexcept
-
-    @cython.locals(now=cython.p_double, goal=cython.p_double, fz=double, tx=double, ty=double)
     cpdef double turn(self, measured, wanted) except? -1.0
-
     cpdef void lift(self, double rate) noexcept
-
     cdef double _moved(self, double value, double rate, double largest) noexcept

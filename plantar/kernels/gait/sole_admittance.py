@@ -10,22 +10,15 @@ _NONE = 1e-7  # rad and m: below what any servo resolves a correction that fades
 
 
 class SoleAdmittance:
-    """Correction of one commanded sole.
+    """Correction of one commanded sole: `roll` and `pitch` in rad about its axes, and `shift` upwards in m.
 
     Args:
         period: Control period in s.
         share: Share of a new measurement in its low pass.
         turn_gain: Turning rate in rad/s per N m of moment error.
-        back: Rate in 1/s at which the correction returns to zero while the foot stands; may change from tick to tick.
-        release: The same in the air.
+        back: Rate in 1/s of return to zero in stance; may change from tick to tick. `release` the same in the air.
         largest_turn: Largest turn about an axis in rad.
         largest_lift: Largest shift in m.
-
-    Attributes:
-        back: See above.
-        roll: Turn about the sole's x axis in rad.
-        pitch: Turn about its y axis in rad.
-        shift: Shift upwards in m.
     """
 
     def __init__(self, period, share, turn_gain, back, release, largest_turn, largest_lift):
@@ -50,11 +43,7 @@ class SoleAdmittance:
             self.roll = self.pitch = self.shift = 0.0
 
     def turn(self, measured, wanted):
-        """Turn by one tick under load towards the desired moments.
-
-        Args:
-            measured: Wrench (6,) on the sole in its frame in N and N m.
-            wanted: The desired one (6,).
+        """Turn by one tick under load from the measured to the desired wrench (6,) in the sole frame in N and N m.
 
         Returns:
             Error in N of the normal force.

@@ -1,4 +1,4 @@
-"""Kernel of a sole's command: its pose and the desired force (products are summed as BLAS does, `fused`)."""
+"""Kernel of a sole's commanded pose and force (products summed as BLAS does, `fused`)."""
 
 from __future__ import annotations
 
@@ -23,13 +23,12 @@ def turned(level, x, y):
 
 
 def risen(position, center, roll, pitch, shift):
-    """Position (3,) in m of a turned and shifted sole: its centre rises by the shift, to first order.
+    """Position (3,) in m of a turned and shifted sole: its center rises by the shift, to first order.
 
     Args:
         position: Origin (3,) of its frame in m.
-        center: The centre (2,) in its frame in m.
-        roll: Turn about its x axis in rad.
-        pitch: Turn about its y axis in rad.
+        center: The center (2,) in its frame in m.
+        roll: Turn about its x axis in rad; `pitch` about y.
         shift: Shift upwards in m.
     """
     place, middle = memory.values(position), memory.values(center)
@@ -38,13 +37,13 @@ def risen(position, center, roll, pitch, shift):
 
 
 def pressed(wrench, level, position, center):
-    """A wrench on a sole as a force at its centre of pressure.
+    """A wrench on a sole as a force at its center of pressure.
 
     Args:
         wrench: Wrench (6,) in the sole frame about its origin in N and N m.
         level: Rotation (3, 3) from the sole.
         position: Origin (3,) of its frame in m.
-        center: Point of attack (2,) in the sole frame in m of a force without pressure.
+        center: Point of attack (2,) in the sole frame in m without pressure.
 
     Returns:
         The force (3,) in N, and the point (2,) in m, seen from above, at which it acts.

@@ -1,4 +1,4 @@
-"""Kernel of `plantar.gait.feet.swing_fit` (K 13-16): ridge regression of three axes through both ends of the path."""
+"""Kernel of `plantar.gait.feet.swing_fit` (K 13-16): ridge regression of three axes through both ends."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ __all__ = ["fit"]
 
 
 def fit(order, now, before, earlier, conditions, same, high, pull, way, work, out):
-    """Path at one moment, with its derivatives: y = y_i + s^n way + sum a_k (s^k - s^n), which keeps both ends.
+    """Path at one moment, with derivatives: y = y_i + s^n way + sum a_k (s^k - s^n), which keeps both ends.
 
     Conditions: position, first and second derivative at the share `before`, and position at the share `earlier`.
 
     Args:
         order: Order n of the polynomial.
         now: Share s of the swing.
-        before: Share of the tick before.
-        earlier: Share of the tick before that.
-        conditions: Weight and value, less the start, of each condition (4, 1 + 3).
-        same: Matrix (m, m) and, in column m, the pull of the way, (m, m + 1), of all axes, m = n - 1.
+        before: Share at the last tick.
+        earlier: Share at the tick before.
+        conditions: Weight, and value less the start, of each condition (4, 1 + 3).
+        same: Matrix (m, m) and, in column m, the pull of the way, of all axes, m = n - 1.
         high: Additional terms of the third axis (m, m + 2): a matrix, and the pulls of height and way.
         pull: That height.
         way: End less start (3,).

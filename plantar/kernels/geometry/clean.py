@@ -1,9 +1,8 @@
-"""Kernel that cleans a convex ring: the one place where near-duplicates and turns the wrong way are taken out.
+"""Kernel that cleans a convex ring of near-duplicates and turns the wrong way.
 
-What counts of a ring is the convex hull of its vertices. A ring that is exactly convex, goes round once and has no two
-neighbours within `_NEAR` of its size is that hull already, and is used as it is; rounding makes others: of vertices
-that should coincide and lie a unit in the last place apart the edge between them may point anywhere, and its line may
-cut the polygon in two. Of such a ring the hull is taken, with every turn decided exactly.
+The convex hull of a ring's vertices counts. A ring that is exactly convex, goes round once and has no two neighbours
+within `_NEAR` of its size is that hull already. Of any other, where rounding may turn the edge between near-duplicates
+any way, the hull is taken, with every turn decided exactly.
 """
 
 from __future__ import annotations
@@ -22,16 +21,11 @@ _SMALLEST = 1e-100  # m: products of the edges of a smaller ring may underflow
 
 
 def turning(polygon, x0, y0, near):
-    """Which way a clean ring goes round; 0 for a ring that has to be cleaned.
-
-    Args:
-        polygon: Ring (k, 2) in m.
-        x0: The point in m; likewise y0.
-        near: Neighbours within this distance in m are one, too.
+    """Which way a ring (k, 2) about x0, y0 in m goes round: 1 counter-clockwise, -1 clockwise.
 
     Returns:
-        1 for counter-clockwise, -1 for clockwise; 0 unless it turns the same way at every vertex by more than
-        rounding, goes round once, and no two neighbours are within the tolerance.
+        0 unless it turns the same way at every vertex by more than rounding, goes round once, and no two neighbours are
+        within `near` in m.
     """
     k = polygon.shape[0]
     if k < 3:
@@ -66,7 +60,7 @@ def turning(polygon, x0, y0, near):
 
 
 def anchor(polygon):
-    """Index of the first finite vertex of a ring, about which the others are taken; 0 where there is none."""
+    """Index of the first finite vertex of a ring; 0 without one."""
     for i in range(polygon.shape[0]):
         if abs(polygon[i, 0]) <= _LARGEST and abs(polygon[i, 1]) <= _LARGEST:  # false for NaN
             return i
@@ -88,17 +82,8 @@ def extent(polygon):
 
 
 def clean_ring(polygon, x0, y0, near):
-    """The clean ring that counts of a ring: the convex hull of its vertices, without near-duplicates.
-
-    Vertices that are not finite are left out.
-
-    Args:
-        polygon: Ring (k, 2) in m; any points.
-        x0: Point in m about which the coordinates are taken; likewise y0.
-        near: As in `turning`.
-
-    Returns:
-        Vertices (m, 2) in m about that point, counter-clockwise, from the first one given that is left.
+    """The convex hull (m, 2) of a `polygon`'s finite vertices about x0, y0 in m, without near-duplicates (`near` as in
+    `turning`), counter-clockwise from the first given one that is left.
     """
     k = polygon.shape[0]
     local = np.empty((k, 2))
@@ -111,7 +96,6 @@ def clean_ring(polygon, x0, y0, near):
 
 
 def _clean(polygon, x0, y0, near, local, order, ring):
-    """`clean_ring` as indices of `local`; their number."""
     for i in range(polygon.shape[0]):
         local[i, 0], local[i, 1] = polygon[i, 0] - x0, polygon[i, 1] - y0
     size = hull.hull_of_cloud(local, order, ring)

@@ -11,25 +11,13 @@ cdef class OutlineRectangles:
     cdef double[::1] points, xs, ys, line, edge, trapezoid, reach, left, right, stack, ring, kept, work, corner
     cdef Py_ssize_t[::1] order, rank, first, filled, start, slab, path
     cdef double best, x1, x2, y1, y2
-
     cpdef int take(self, const double[:, :] points, object starts) except -1
-
-    @cython.locals(
-        line="double[::1]", slab="Py_ssize_t[::1]", trapezoid="double[::1]", reach="double[::1]", left="double[::1]"
-    )
     cpdef double largest(self, double angle, double[::1] out) except -1
-
     cdef int _find_ways(self, Py_ssize_t slabs) except -1
     cdef void _walk(self, Py_ssize_t start, Py_ssize_t slabs, bint exact) noexcept
     cdef bint _may_hold(self, double width, double height) noexcept
     cdef void _offer(self, double x1, double x2, double y1, double y2) noexcept
     cdef void _solve(self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t start, Py_ssize_t end) noexcept
-
-    @cython.locals(
-        ys="double[::1]", rank="Py_ssize_t[::1]", line="double[::1]", first="Py_ssize_t[::1]", start="Py_ssize_t[::1]",
-        filled="Py_ssize_t[::1]", edge="double[::1]", total=Py_ssize_t, across=Py_ssize_t, p=Py_ssize_t,
-        low=Py_ssize_t, high=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t, i=Py_ssize_t
-    )
     cdef Py_ssize_t _cut(self, double angle) except -1
     cdef Py_ssize_t _rank(self) noexcept
     cdef void _turn(self, double angle) noexcept
@@ -38,8 +26,6 @@ cdef class OutlineRectangles:
         self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t start, Py_ssize_t end
     ) noexcept
     cdef Py_ssize_t _clip(self, Py_ssize_t n, double x1, double x2, Py_ssize_t at, double low, double high) noexcept
-
-    @cython.locals(ring="double[::1]", kept="double[::1]")
     cdef Py_ssize_t _keep_left(self, Py_ssize_t n, double x1, double y1, double x2, double y2) noexcept
 
 cdef Py_ssize_t _add(double[::1] ring, Py_ssize_t n, double x, double y) noexcept

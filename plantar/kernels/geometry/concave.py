@@ -12,10 +12,10 @@ __all__ = ["OutlineRectangles"]
 
 
 class OutlineRectangles:
-    """Largest rectangles of outlines, with the work arrays they need.
+    """Largest rectangles of outlines, with their work arrays.
 
     Args:
-        lists: Keep lists instead of arrays, which the interpreted form reads faster.
+        lists: Keep lists instead of arrays, faster when interpreted.
     """
 
     def __init__(self, lists):
@@ -28,7 +28,6 @@ class OutlineRectangles:
         self.corner = work_arrays.numbers(8, self.lists)
 
     def _make_room(self, points, rings):
-        """Work arrays for what is looked at, so many points and rings."""
         self.room = points
         self.points = work_arrays.numbers(2 * points, self.lists)
         self.xs = work_arrays.numbers(points, self.lists)
@@ -41,7 +40,6 @@ class OutlineRectangles:
         self.start = work_arrays.places(rings + 1, self.lists)
 
     def _make_many(self, total):
-        """Work arrays for so many edges across slabs."""
         self.many = total
         self.edge = work_arrays.numbers(3 * total, self.lists)
         self.trapezoid = work_arrays.numbers(2 * total + 4, self.lists)
@@ -68,14 +66,13 @@ class OutlineRectangles:
             self.start[r] = starts[r]
 
     def largest(self, angle, out):
-        """Largest rectangle in the outline taken last whose first side has a given angle.
+        """Largest rectangle in the last outline whose first side has a given angle.
 
         Lines through every vertex cut the area into slabs and these into trapezoids. A rectangle starts in one
-        trapezoid, ends in another and crosses those between; what it may then use is convex: a window in y, and the
-        slants of the first and the last trapezoid. Branch and bound over the pairs: the box of the window bounds what a
-        pair can give, and the pairs that are left are solved as convex polygons. Where all of a pair's window passes
-        through one way into the trapezoid before the first, the pair with that one may use as much: the pair is left
-        out, likewise at the end.
+        trapezoid, ends in another and crosses those between; it may use a convex region: a window in y, cut by the
+        slants of first and last trapezoid. Branch and bound over the pairs: the window's box bounds a pair, and the
+        remaining pairs are solved as convex polygons. A pair whose whole window passes one way into the trapezoid
+        before the first is left out, as that one's pair includes it; likewise at the end.
 
         Args:
             angle: Angle of the first side in rad.
@@ -118,7 +115,7 @@ class OutlineRectangles:
         return self.best
 
     def _find_ways(self, slabs):
-        """Find how far to the right a rectangle can get from each trapezoid, and the widest ways through its sides."""
+        """Find how far right a rectangle can reach from each trapezoid, and the widest ways through its sides."""
         for t in range(self.first[0], self.first[1]):
             self.left[2 * t] = 1.0
             self.left[2 * t + 1] = 0.0
@@ -150,7 +147,7 @@ class OutlineRectangles:
                 self.reach[start] = far
 
     def _walk(self, start, slabs, exact):
-        """Walk from a trapezoid to all those to the right in which a rectangle that starts in it may end."""
+        """Walk from a trapezoid to all those to the right in which its rectangles may end."""
         i = self.slab[start]
         below = self.trapezoid[4 * start]
         above = self.trapezoid[4 * start + 1]
@@ -214,7 +211,7 @@ class OutlineRectangles:
             self.y2 = y2
 
     def _solve(self, i, k, low, high, start, end):
-        """Keep the largest rectangle of a pair of trapezoids if it is larger than the best so far (see `_octagon`)."""
+        """Keep the largest rectangle of a pair of trapezoids if it beats the best so far (see `_octagon`)."""
         floor = self.best
         n = self._octagon(i, k, low, high, start, end)
         if n < 3:
@@ -316,7 +313,7 @@ class OutlineRectangles:
             gap //= 3
 
     def _rank(self):
-        """Find the lines across through the vertices, and which each vertex is on; the number of lines."""
+        """Find the lines across through the vertices, and each vertex's line; the number of lines."""
         m = self.m
         lines = 0
         tolerance = 1e-14 * (self.xs[self.order[m - 1]] - self.xs[self.order[0]])
@@ -358,10 +355,10 @@ class OutlineRectangles:
         self.first[slabs] = count
 
     def _octagon(self, i, k, low, high, start, end):
-        """What a rectangle may use from slab i to slab k: the window from low to high, cut by the slants at its ends.
+        """The region from slab i to slab k: the window from low to high, cut by the slants at its ends.
 
         Returns:
-            Number of vertices, up to 8, in `ring`, counter-clockwise; fewer than 3 where nothing is left.
+            Number of vertices, up to 8, in `ring`, counter-clockwise; fewer than 3 if empty.
         """
         ring = self.ring
         x1 = self.line[i]
@@ -374,7 +371,7 @@ class OutlineRectangles:
         return n if start == end else self._clip(n, self.line[k], x2, 4 * end, low, high)
 
     def _clip(self, n, x1, x2, at, low, high):
-        """Keep of the ring what is between bottom and top of a trapezoid from x1 to x2, where these cut the window."""
+        """Clip the ring to bottom and top of a trapezoid from x1 to x2, where these cut the window."""
         left = self.trapezoid[at]
         right = self.trapezoid[at + 2]
         if left > low or right > low:
@@ -386,7 +383,7 @@ class OutlineRectangles:
         return n
 
     def _keep_left(self, n, x1, y1, x2, y2):
-        """Keep of the ring what is left of the line from point 1 to point 2; its number of vertices."""
+        """Clip the ring to the left of the line from point 1 to point 2; its number of vertices."""
         ring = self.ring
         kept = self.kept
         dx = x2 - x1

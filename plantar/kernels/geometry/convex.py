@@ -1,7 +1,4 @@
-"""Kernels on one convex polygon: area, centroid, closest point, margin, inner offset.
-
-Points are float64 arrays (n, 2), strided or not; polygons have no repeated last point.
-"""
+"""Kernels on one convex polygon (n, 2) without repeated last point: area, centroid, closest point, margin, offset."""
 
 from __future__ import annotations
 
@@ -33,15 +30,9 @@ _FEW = 64  # vertices: room for polygons of up to so many is kept
 
 
 def area(polygon):
-    """Signed area by the shoelace formula about the first vertex.
+    """Signed area in m^2 of a simple polygon (k, 2) by the shoelace formula about the first vertex; 0 below 3 vertices.
 
-    Error below 1e-15 times vertices times extent squared.
-
-    Args:
-        polygon: Polygon (k, 2) in m, simple.
-
-    Returns:
-        Area in m^2, positive for counter-clockwise; 0 for fewer than 3 vertices.
+    Error below 1e-15 times vertices times extent^2.
     """
     total = 0.0
     k = polygon.shape[0]
@@ -57,7 +48,7 @@ def area(polygon):
 
 
 def area_of(polygon):
-    """`area`, where the polygon comes from Python: a small one is read without asking for its buffer."""
+    """`area` of a polygon from Python, a small one read without its buffer."""
     room = _borrow(0)
     total = area(_entered(polygon, room))
     _FREE.append(room)
@@ -65,15 +56,10 @@ def area_of(polygon):
 
 
 def area_and_centroid(polygon):
-    """Signed area, and the centroid of the area.
+    """Signed area in m^2, and x and y of the centroid in m of a simple polygon (k, 2), k 1 or more.
 
-    The centroid's error is below 1e-15 times the extent; for thin polygons over their width per length.
-
-    Args:
-        polygon: Polygon (k, 2) in m, simple, k 1 or more.
-
-    Returns:
-        Area in m^2 as `area` gives it, and x and y of the centroid in m: the mean of the vertices where the area is 0.
+    The centroid is the mean of the vertices where the area is 0; its error is below 1e-15 times the extent; for thin
+    polygons over their width per length.
     """
     k = polygon.shape[0]
     x0, y0 = polygon[0, 0], polygon[0, 1]
@@ -98,7 +84,7 @@ def _nearest(polygon, turn, x, y):
 
     Args:
         polygon: Ring (k, 2) in m: clean, or of 1 or 2 vertices.
-        turn: 1.0 where it goes round counter-clockwise, else -1.0.
+        turn: 1.0 for counter-clockwise, else -1.0.
         x: The point in m; likewise y.
     """
     k = polygon.shape[0]
@@ -146,7 +132,7 @@ def _nearest(polygon, turn, x, y):
 
 
 def _nearest_of_any(polygon, x, y):
-    """`_nearest` of the ring that counts of any one (see `clean`); -inf and NaN where nothing is left of it."""
+    """`_nearest` of any ring, cleaned (see `clean`); -inf and NaN for an empty one."""
     turn = clean.turning(polygon, 0.0, 0.0, 0.0)
     if turn != 0:
         return _nearest(polygon, turn, x, y)
@@ -158,17 +144,9 @@ def _nearest_of_any(polygon, x, y):
 
 
 def closest_point(polygon, x, y):
-    """Point of a convex polygon that is closest to a given one (T Algorithm 1, corrected: either orientation).
+    """`plantar.geometry.polygon.closest_point` (2,) to x, y in m; NaN where the point, or no vertex, is finite.
 
     Error below 1e-15 of the largest distance to a vertex.
-
-    Args:
-        polygon: Convex polygon (k, 2) in m.
-        x: The point in m.
-        y: The same.
-
-    Returns:
-        The closest point (2,), the point itself where it is inside; NaN where the point, or no vertex, is finite.
     """
     qx, qy = nearest(polygon, x, y)
     return vectors.vector2(qx, qy)
@@ -183,15 +161,8 @@ def nearest(polygon, x, y):
 
 
 def signed_margin(polygon, x, y):
-    """Signed distance of a point to the edge of a convex polygon; reference and error as `closest_point`.
-
-    Args:
-        polygon: Convex polygon (k, 2) in m, either orientation.
-        x: The point in m.
-        y: The same.
-
-    Returns:
-        Distance in m, positive inside, negative outside; NaN where the point is not finite, -inf where no vertex is.
+    """`plantar.geometry.polygon.signed_margin` of x, y in m; NaN where the point is not finite, -inf where no vertex
+    is.
     """
     room = _borrow(0)
     margin, _qx, _qy = _nearest_of_any(_entered(polygon, room), x, y)
@@ -200,15 +171,11 @@ def signed_margin(polygon, x, y):
 
 
 def seen_from_above(polygon, rotation, position):
-    """A polygon of one frame's x-y plane, turned, shifted and seen along the other frame's z axis.
+    """A polygon (k, 2) in m of a frame's x-y plane in another frame, seen along its z axis.
 
     Args:
-        polygon: Polygon (k, 2) in m.
         rotation: Rotation (3, 3) from its frame to the other.
         position: Position (3,) of its frame's origin in the other in m.
-
-    Returns:
-        Polygon (k, 2) in the other frame in m.
     """
     out = np.empty((polygon.shape[0], 2))
     _place(polygon, rotation, position, out)
@@ -216,7 +183,6 @@ def seen_from_above(polygon, rotation, position):
 
 
 def _place(polygon, rotation, position, out):
-    """`seen_from_above` into an array."""
     for i in range(polygon.shape[0]):
         x, y = polygon[i, 0], polygon[i, 1]
         out[i, 0] = rotation[0, 0] * x + rotation[0, 1] * y + position[0]
@@ -224,11 +190,7 @@ def _place(polygon, rotation, position, out):
 
 
 class OffsetRoom:
-    """What one inner offset works in at a time.
-
-    Args:
-        corners: Largest number of vertices of a polygon that fits.
-    """
+    """Work arrays of one inner offset of a polygon with up to `corners` vertices."""
 
     def __init__(self, corners):
         room = 2 * corners + 8
@@ -238,7 +200,7 @@ class OffsetRoom:
         self.result = np.zeros((room, 2))
 
     def copied(self, size):
-        """The polygon of `size` vertices that `offset` left in `result`, as an array of its own."""
+        """The `size` vertices of `result` as a new array."""
         return vectors.points_of(self.result, size)
 
 
@@ -246,7 +208,7 @@ _FREE: list = []  # type: ignore[type-arg]  # rooms for `_FEW` vertices that no 
 
 
 def _borrow(corners):
-    """A room for so many vertices: for a few a kept one, which is to be put back into `_FREE`."""
+    """A room for so many vertices; a small one is to be put back into `_FREE`."""
     if corners > _FEW:
         return OffsetRoom(corners)
     try:
@@ -256,8 +218,9 @@ def _borrow(corners):
 
 
 def _entered(polygon, room):
-    """A polygon (k, 2) where loops read it: copied into a room with space for it, which takes a tenth of the time that
-    an array is asked for its buffer; one that is strided or of another kind is asked."""
+    """A polygon (k, 2) copied into a room, in a tenth of the time of a buffer; by its buffer if strided or another
+    kind.
+    """
     k = memory.rows(polygon, 2)
     if not 0 <= k <= room.given.shape[0]:
         return polygon
@@ -269,18 +232,10 @@ def _entered(polygon, room):
 
 
 def inner_offset(polygon, distance):
-    """Convex polygon of the points that keep a distance from every edge.
+    """`plantar.geometry.polygon.inner_offset` by a distance above 0 in m of a polygon with a vertex.
 
-    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman). Where nothing is left, the
-    depth of the deepest point is bisected.
-
-    Args:
-        polygon: Convex polygon (k, 2) in m, either orientation, with 1 vertex or more.
-        distance: Distance in m, above 0.
-
-    Returns:
-        Counter-clockwise polygon (m, 2), clean; where nothing is left, the deepest point (1, 2), the middle where the
-        polygon has no area; none (0, 2) where no vertex is finite.
+    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman). Where nothing is left, the depth
+    of the deepest point is bisected. None (0, 2) where no vertex is finite.
     """
     room = _borrow(len(polygon))
     found = room.copied(offset(_entered(polygon, room), distance, room))
@@ -290,15 +245,7 @@ def inner_offset(polygon, distance):
 
 
 def offset(polygon, distance, room):
-    """`inner_offset` into the `result` of a room.
-
-    Args:
-        polygon: As in `inner_offset`; likewise distance.
-        room: The `OffsetRoom`.
-
-    Returns:
-        Number of vertices.
-    """
+    """`inner_offset` of a polygon by a distance into the `result` of a room; returns the number of vertices."""
     i = clean.anchor(polygon)
     x0, y0 = polygon[i, 0], polygon[i, 1]
     turn = clean.turning(polygon, x0, y0, 0.0)
@@ -320,8 +267,7 @@ def offset(polygon, distance, room):
 
 
 def _shifted(room, size, x0, y0, near):
-    """Ring 0, moved back to the polygon's place and clean there: edges that just vanish leave near-duplicates, and
-    rounding far from the origin may turn a sliver over."""
+    """Ring 0, moved back to the polygon's place and cleaned of near-duplicates and slivers turned over by rounding."""
     rings, result = room.rings, room.result
     for i in range(size):
         result[i, 0] = rings[0, i, 0] + x0
@@ -336,8 +282,7 @@ def _shifted(room, size, x0, y0, near):
 
 
 def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
-    """Offset a clean polygon into ring 0, about a point; a ring's third column is the line of the edge that starts at
-    the vertex."""
+    """Offset a clean polygon into ring 0, about a point; a ring's third column is the line of the vertex's edge."""
     k = polygon.shape[0]
     reach = 0.0
     for i in range(k):
@@ -383,7 +328,7 @@ def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
 
 
 def _keep_lines(lines, used, rings, size):
-    """Keep the lines that still bound ring 0: an edge that has vanished stays so at greater depth."""
+    """Keep the lines that still bound ring 0: a vanished edge stays so at greater depth."""
     kept = 0
     for line in range(used):
         found = False
@@ -398,7 +343,7 @@ def _keep_lines(lines, used, rings, size):
 
 
 def _cut(lines, used, depth, rings, size):
-    """Cut ring 0 by the lines moved inwards; ring 0 becomes the result unless nothing is left."""
+    """Cut ring 0 by the lines moved inwards; ring 0 becomes the result unless empty."""
     room = rings.shape[1]
     source = 0
     for line in range(used):

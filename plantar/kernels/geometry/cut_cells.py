@@ -1,4 +1,4 @@
-"""Kernel of cells that straight lines cut: what of each cell is left, and the chords along which it is cut."""
+"""Kernel of cells cut by straight lines: what is left of each, and the chords of the cuts."""
 
 from __future__ import annotations
 
@@ -6,21 +6,19 @@ __all__ = ["cut_cells"]
 
 
 def cut_cells(points, start, lines, scratch, tags, measure, chords):
-    """Clip every cell by the half-planes n . x <= h, one after the other (Sutherland and Hodgman 1974).
-
-    Sums run about each cell's first corner: areas are exact to 1e-12 of the cell's.
+    """Clip every cell by the half-planes n . x <= h (Sutherland and Hodgman 1974); areas exact to 1e-12 of the cell's.
 
     Args:
         points: Corners (c, 2) of all cells in m, cell by cell, counter-clockwise.
         start: Offsets (n + 1,) of each cell's corners.
         lines: Half-planes (m, 3): n of length 1, and h in m.
-        scratch: Room (2, r, 2) for a cell's corners; one that is convex needs r of its corners + m + 1.
+        scratch: Room (2, r, 2) for a cell's corners; a convex one needs r of its corners + m + 1.
         tags: Room (2, r) for the lines that edges lie on.
-        measure: Receives (n, 3): area in m^2 of what is left, and its first moments about the origin in m^3.
-        chords: Receives (n, m, 3): length in m of the edge that each line makes, and its middle in m.
+        measure: Receives (n, 3): area in m^2 left, and its first moments about the origin in m^3.
+        chords: Receives (n, m, 3): length in m of each line's edge, and its middle in m.
 
     Returns:
-        Whether the room was enough; if not, what was received is not complete.
+        Whether the room was enough; if not, the results are not complete.
     """
     count = lines.shape[0]
     room = scratch.shape[1]

@@ -1,5 +1,8 @@
 # cython: infer_types=True
-"""Kernels around a convex ring: oriented box of least area, enclosing parallelogram of least area."""
+"""Kernels around a clean ring of n vertices, 3 or more: oriented box and parallelogram of least area.
+
+They write 4 corners to `out`, flat, counter-clockwise, and return the area.
+"""
 
 from __future__ import annotations
 
@@ -9,16 +12,7 @@ __all__ = ["least_box", "least_parallelogram"]
 
 
 def least_box(ring, n, out):
-    """Rectangle of least area around a clean ring, by rotating calipers: one side lies on an edge of the ring.
-
-    Args:
-        ring: Clean ring of n vertices.
-        n: Number of vertices, 3 or more.
-        out: Receives the 4 corners, flat, counter-clockwise, the first side along the edge.
-
-    Returns:
-        Its area.
-    """
+    """Rectangle of least area, by rotating calipers: its first side lies on an edge of the ring."""
     best = -1.0
     right = 0
     top = 0
@@ -75,17 +69,7 @@ def _walk(ring, n, k, dx, dy):
 
 
 def least_parallelogram(ring, n, work, out):
-    """Parallelogram of least area around a clean ring: both pairs of its sides lie on an edge of the ring.
-
-    Args:
-        ring: Clean ring of n vertices.
-        n: Number of vertices, 3 or more.
-        work: Room for 4 n numbers.
-        out: Receives the 4 corners, flat, counter-clockwise.
-
-    Returns:
-        Its area.
-    """
+    """Parallelogram of least area: both pairs of its sides lie on an edge of the ring; `work` holds 4 n numbers."""
     # Of each edge: its direction, the level of its line along the inward normal, and how far the ring reaches from it.
     top = 0
     for i in range(n):

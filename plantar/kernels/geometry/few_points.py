@@ -1,4 +1,4 @@
-"""Kernel of the convex hull of a few points, for which making arrays costs more than the hull itself."""
+"""Kernel of the convex hull of a few points, cheaper than making arrays of them."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ _INFINITE = float("inf")
 
 
 class FewPoints:
-    """A few points, gathered again and again, and the convex hull of some of them.
+    """A few points, gathered repeatedly, and the convex hull of some of them.
 
     Attributes:
         count: Number of points.
-        corners: Number of corners of the hull that was made last.
+        corners: Number of corners of the last hull.
     """
 
     def __init__(self):
@@ -28,7 +28,7 @@ class FewPoints:
         self._make_room(16)
 
     def _make_room(self, room):
-        """Room for so many points; those that are there stay, the hull is forgotten."""
+        """Room for so many points; keeps the points, drops the hull."""
         points = np.zeros((room, 2))
         for i in range(self.count):
             points[i, 0], points[i, 1] = self.points[i, 0], self.points[i, 1]
@@ -40,54 +40,30 @@ class FewPoints:
         self.corners = 0
 
     def clear(self):
-        """No points at all."""
+        """Drop all points."""
         self.count = 0
         self.corners = 0
 
     def add(self, x, y):
-        """Add a point.
-
-        Args:
-            x: Where it is in m.
-            y: The same.
-        """
+        """Add the point x, y in m."""
         if self.count == self.room:
             self._make_room(2 * self.room)
         self.points[self.count, 0], self.points[self.count, 1] = x, y
         self.count += 1
 
     def add_some(self, other, first, end):
-        """Add some of another's points.
-
-        Args:
-            other: Other `FewPoints`.
-            first: Number of the first of them there.
-            end: Number after the last one.
-        """
+        """Add the points `first` to `end`, exclusive, of another `FewPoints`."""
         for i in range(first, end):
             self.add(other.points[i, 0], other.points[i, 1])
 
     def hull(self, first, end):
-        """Make the convex hull of some points: exact, as `convex_hull` of an array.
-
-        Args:
-            first: Number of the first of them.
-            end: Number after the last one.
-        """
+        """Make the exact convex hull of the points `first` to `end`, exclusive."""
         chosen = self.points[first:end]
         self.corners = hull.hull_of_cloud(chosen, self.order, self.chain)
         hull.gather(chosen, self.chain, self.corners, self.ring)
 
     def margin(self, x, y):
-        """Signed distance in m of a point to the hull's edge.
-
-        Args:
-            x: Point in m.
-            y: Point in m.
-
-        Returns:
-            The distance, positive inside; -inf for an empty hull.
-        """
+        """Signed distance in m of the point x, y in m to the hull's edge, positive inside; -inf for an empty hull."""
         count = self.corners
         if count == 0:
             return -_INFINITE
@@ -121,17 +97,9 @@ class FewPoints:
         return 0.5 * total
 
     def points_of(self, first, end):
-        """Some points as tuples.
-
-        Args:
-            first: Number of the first of them.
-            end: Number after the last one.
-
-        Returns:
-            The points (x, y) in m as a list.
-        """
+        """The points `first` to `end`, exclusive, as tuples (x, y) in m."""
         return [(self.points[i, 0], self.points[i, 1]) for i in range(first, end)]
 
     def corners_of(self):
-        """The hull's corners (x, y) in m as a list of tuples, counter-clockwise from the lowest x."""
+        """The hull's corners (x, y) in m as tuples, counter-clockwise from the lowest x."""
         return [(self.ring[i, 0], self.ring[i, 1]) for i in range(self.corners)]

@@ -1,4 +1,4 @@
-"""Kernel of what of a polygon lies on one side of a line."""
+"""Kernel of the part of a polygon on one side of a line."""
 
 from __future__ import annotations
 
@@ -8,16 +8,12 @@ __all__ = ["part_below"]
 
 
 def part_below(polygon, nx, ny, h):
-    """Part of a polygon where n . x <= h, as it is cut: near-duplicates of a corner that the line meets stay.
+    """Corners (j, 2) of the part of a convex polygon where n . x <= h; keeps near-duplicates of a corner on the line.
 
     Args:
         polygon: Convex polygon (k, 2) in m, contiguous.
-        nx: The line's normal n, along x.
-        ny: The same along y.
+        nx: The line's normal n, along x; ny along y.
         h: Distance in m of the line from the origin, along the normal.
-
-    Returns:
-        Its corners (j, 2) in m, in the same order.
     """
     size = memory.rows(polygon, 2)
     given, room = memory.values(polygon), memory.new_matrix(2 * max(size, 1), 2)

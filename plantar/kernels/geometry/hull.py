@@ -1,7 +1,4 @@
-"""Kernel of the convex hull: every turn decided exactly, so that the ring is exactly convex.
-
-Points are float64 arrays (n, 2), strided or not.
-"""
+"""Kernel of the convex hull of points (n, 2): every turn decided exactly, so that the ring is exactly convex."""
 
 from __future__ import annotations
 
@@ -17,20 +14,17 @@ _INFINITE = float("inf")
 
 
 def hull_tolerance(largest, extent):
-    """How far a corner has to stand out of its neighbours' line to be one.
+    """Least distance in m of a corner from its neighbours' line: 4 ulp of `largest`, at most 1e-13 of `extent`.
 
     Args:
         largest: Largest absolute coordinate in m: its rounding moves points that were meant to be on one line.
         extent: Larger side of the points' box in m.
-
-    Returns:
-        Four units in the last place of the largest coordinate, no more than 1e-13 of the extent, in m.
     """
     return min(8.9e-16 * largest, 1e-13 * extent)
 
 
 def _product_tail(a, b, product):
-    """What `product` = a * b lost by rounding, exactly (Dekker; Veltkamp's split)."""
+    """Rounding error of `product` = a * b, exact (Dekker; Veltkamp's split)."""
     t = 134217729.0 * a
     a_high = t - (t - a)
     a_low = a - a_high
@@ -41,20 +35,15 @@ def _product_tail(a, b, product):
 
 
 def _sum_tail(a, b, total):
-    """What `total` = a + b lost by rounding, exactly (Knuth)."""
+    """Rounding error of `total` = a + b, exact (Knuth)."""
     b_part = total - a
     a_part = total - b_part
     return (a - a_part) + (b - b_part)
 
 
 def turn_is_left(ax, ay, bx, by, cx, cy):
-    """Whether a, b, c turn left, decided exactly (Shewchuk 1997: the determinant as an expansion of doubles).
-
-    Args:
-        ax: Coordinates in m, up to 1e100; likewise ay, bx, by, cx and cy.
-
-    Returns:
-        True for a left turn, False for a right turn or a straight line.
+    """Whether a, b, c turn left, decided exactly up to 1e100 m (Shewchuk 1997: the determinant as an expansion of
+    doubles).
     """
     terms = [0.0] * 16
     pairs = [bx - ax, 0.0, cy - ay, 0.0, ay - by, 0.0, cx - ax, 0.0]
@@ -87,7 +76,7 @@ def turn_is_left(ax, ay, bx, by, cx, cy):
 
 
 def _is_corner(ax, ay, bx, by, cx, cy, tolerance):
-    """Whether b is a corner to the left of a and c: it turns left, by more than a rounding unless it is a tip."""
+    """Whether b is a corner to the left of a and c: by more than a rounding unless it is a tip."""
     dx, dy = bx - ax, by - ay
     lx, ly = cx - ax, cy - ay
     one, two = dx * ly, dy * lx
@@ -110,22 +99,15 @@ def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
 
 
 def hull_ring(points, way, forth, count, tolerance, ring):
-    """Hull of sorted points by Andrew's monotone chain, without vertices on straight edges.
-
-    Turns are decided by a filtered determinant with an exact one behind it; a vertex out of the line of its
-    neighbours by no more than the tolerance is left out.
+    """Hull of sorted points by Andrew's monotone chain, without vertices on straight edges; returns its number of
+    corners.
 
     Args:
         points: Points (n, 2) in m, finite.
-        way: Indices (count,): first the points that may lie on the lower chain, sorted by x, then y, from the lowest
-            to the highest of all points; then those that may lie on the upper chain, back to the lowest.
-        forth: How many of them lie on the way forth.
-        count: How many there are.
+        way: Indices (count,): first `forth` candidates of the lower chain, sorted by x, then y, from the lowest to the
+            highest of all points; then those of the upper chain, back to the lowest.
         tolerance: See `hull_tolerance`.
         ring: Receives the indices of the corners, counter-clockwise from the lowest x; room for count.
-
-    Returns:
-        Number of corners.
     """
     if count == 0:
         return 0
@@ -175,20 +157,12 @@ def hull_ring(points, way, forth, count, tolerance, ring):
 
 
 def _ring_is_straight(points, a, b, c, tolerance):
-    """`_is_straight` of three points by index."""
     return _is_straight(points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1], tolerance)
 
 
 def convex_hull(points):
-    """Convex hull of any points.
-
-    No point lies outside by more than `hull_tolerance` times the points left out as straight.
-
-    Args:
-        points: Points (n, 2) in m; those that are not finite are left out.
-
-    Returns:
-        Hull (k, 2), counter-clockwise.
+    """`plantar.geometry.polygon.convex_hull`; no point is outside by more than `hull_tolerance` times the points left
+    out.
     """
     n = points.shape[0]
     work = np.empty(4 * n, dtype=np.intp)
@@ -200,16 +174,7 @@ def convex_hull(points):
 
 
 def hull_of_cloud(points, order, ring):
-    """Find the hull of points, of which some may not be finite.
-
-    Args:
-        points: The points (n, 2).
-        order: Room for n indices.
-        ring: Receives the indices of the corners, counter-clockwise.
-
-    Returns:
-        Number of corners.
-    """
+    """Find the hull of points (n, 2), some perhaps not finite, as indices in `ring`; returns its number of corners."""
     count = 0
     tiny = False
     left = bottom = _INFINITE
@@ -251,7 +216,6 @@ def hull_of_cloud(points, order, ring):
 
 
 def _without_tiny(points):
-    """The points with coordinates of 0 instead of tiny ones."""
     cloud = np.array(points)
     cloud[np.abs(cloud) < _TINY] = 0.0
     return cloud
@@ -265,14 +229,7 @@ def _sort_many(points, order, count):
 
 
 def gather(points, ring, size, out):
-    """Copy the points of a ring.
-
-    Args:
-        points: The points (n, 2).
-        ring: Indices of those to copy.
-        size: How many they are.
-        out: Receives them (size, 2).
-    """
+    """Copy the first `size` points of a `ring` of indices of points (n, 2) to `out`."""
     for i in range(size):
         out[i, 0] = points[ring[i], 0]
         out[i, 1] = points[ring[i], 1]

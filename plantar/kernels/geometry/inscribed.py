@@ -1,7 +1,7 @@
 # cython: infer_types=True
-"""Kernels on a convex ring: ends of a flat one, largest inscribed triangle and circle.
+"""Kernels on a clean ring of n vertices, 3 or more: ends of a flat one, largest inscribed triangle and circle.
 
-A ring is flat, x0, y0, x1, y1, ..., clean (see `clean`), counter-clockwise and near the origin.
+A ring is flat, x0, y0, x1, y1, ..., counter-clockwise and near the origin. They write to `out` and return the size.
 """
 
 from __future__ import annotations
@@ -12,14 +12,8 @@ __all__ = ["ends_of_flat", "largest_circle", "largest_triangle"]
 
 
 def ends_of_flat(ring, n):
-    """Ends of a ring without area: at most 1e-14 of its size squared.
-
-    Args:
-        ring: Clean ring of n vertices; of one without area it receives the two ends.
-        n: Number of vertices, 3 or more.
-
-    Returns:
-        Number of vertices: 2 for a ring without area, else n.
+    """Write the two ends of a ring without area, at most 1e-14 of its size squared, into it; its number of vertices: 2,
+    else n.
     """
     x0 = ring[0]
     y0 = ring[1]
@@ -63,16 +57,7 @@ def ends_of_flat(ring, n):
 
 
 def largest_triangle(ring, n, out):
-    """Largest triangle on the vertices of a clean ring: for each first corner, the third one walks with the second.
-
-    Args:
-        ring: Clean ring of n vertices.
-        n: Number of vertices, 3 or more.
-        out: Receives the 3 corners, flat, counter-clockwise.
-
-    Returns:
-        Its area.
-    """
+    """Largest triangle on the vertices of a ring: for each first corner, the third one walks with the second."""
     best = -1.0
     bi = 0
     bj = 1
@@ -108,19 +93,11 @@ def largest_triangle(ring, n, out):
 
 
 def largest_circle(ring, n, work, out):
-    """Largest circle in a clean ring.
+    """Center x, y of the largest circle in a ring; returns the radius, the least distance of the center to an edge
+    line.
 
-    The least distance to an edge is concave; so is its largest value over y at an x. Both maxima are found with
-    cuts (tangents).
-
-    Args:
-        ring: Clean ring of n vertices.
-        n: Number of vertices, 3 or more.
-        work: Room for 3 n + 2 numbers.
-        out: Receives the centre x, y.
-
-    Returns:
-        The radius: the least distance of the centre to an edge line.
+    The least distance to an edge is concave; so is its largest value over y at an x. Cuts (tangents) find both. `work`
+    has room for 3 n + 2 numbers.
     """
     x_low = ring[0]
     x_high = x_low
@@ -186,7 +163,7 @@ def largest_circle(ring, n, work, out):
 
 
 def _deepest(work, n, x, start, low, high, tolerance):
-    """Greatest depth over y at an x; leaves y, and how the depth rises with x, behind the lines."""
+    """Greatest depth over y at an x; writes y, and the slope of the depth in x, after the lines."""
     rising = -1  # the lines that bound the depth: one that rises with y, one that falls
     falling = -1
     y = start

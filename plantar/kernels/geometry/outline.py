@@ -13,14 +13,9 @@ __all__ = ["EdgeTable", "Rings", "area_and_centroid", "ring_areas"]
 
 
 def area_and_centroid(points, starts):
-    """Area and centroid of an outline, holes left out.
+    """Area in m^2 and centroid x, y in m of an outline with vertices (k, 2) and ring offsets (r + 1), holes left out.
 
-    Args:
-        points: Vertices (k, 2) in m, one or more.
-        starts: Offsets (r + 1) of the rings.
-
-    Returns:
-        Area in m^2 and centroid x, y in m; the first vertex where the area is 0.
+    The first vertex where the area is 0.
     """
     x0 = points[0, 0]
     y0 = points[0, 1]
@@ -46,15 +41,7 @@ def area_and_centroid(points, starts):
 
 
 def ring_areas(points, starts):
-    """Signed area of each ring, about its first vertex.
-
-    Args:
-        points: Vertices (k, 2) in m.
-        starts: Offsets (r + 1) of the rings.
-
-    Returns:
-        Areas (r) in m^2, a list: 0 for a ring of fewer than 3 vertices.
-    """
+    """Signed areas (r) in m^2 of rings of vertices (k, 2) with offsets (r + 1), a list; 0 below 3 vertices."""
     areas = []
     for r in range(len(starts) - 1):
         first = starts[r]
@@ -73,7 +60,7 @@ def ring_areas(points, starts):
 
 
 class Rings:
-    """Rings around an area of the plane, what `plantar.geometry.outline.Outline` adds to and checks.
+    """Rings around an area of the plane, base of `plantar.geometry.outline.Outline`.
 
     Args:
         points: Vertices (k, 2) of all rings in m, one ring after another.
@@ -97,10 +84,10 @@ class EdgeTable:
     """The directed edges of a sole's cells, each cell's counter-clockwise and one after another.
 
     Args:
-        edges: Offsets (n + 1,) of each cell's edges and, for each edge, its cell (h,), the same edge seen from the
-            neighbour (h,), -1 where there is none, the cell's next edge (h,) and the vertex (h,) it starts at.
+        edges: Offsets (n + 1,) of each cell's edges and, for each edge (h,), its cell, the neighbour's same edge or -1,
+            the cell's next edge, and the vertex it starts at.
         vertices: Coordinates of the v vertices, flat (2 v,), in m.
-        straight: A vertex whose neighbours' line passes within this distance in m is no corner.
+        straight: Distance in m of a corner from its neighbours' line.
         reuse: Keep the work arrays from walk to walk. Compiled walks cannot interleave; interpreted ones can.
 
     Example:
@@ -128,28 +115,22 @@ class EdgeTable:
         return type(self), (edges, np.array(self.vertices), self.straight, self.reuse)
 
     def walk(self, active):
-        """Rings around the active cells, the contact on their left.
-
-        Args:
-            active: For each of the n cells a byte, other than 0 where it is active.
+        """Rings around the active cells, a byte each that is not 0, the contact on their left.
 
         Returns:
-            Points (k, 2) of all rings in m, one ring after another; offsets (r + 1) of the rings; their signed areas
-            (r) in m^2, above 0 for the rim of an island and below 0 for that of a hole.
+            Points (k, 2) of all rings in m; offsets (r + 1) of the rings; their signed areas (r) in m^2, below 0 for a
+            hole.
         """
         starts = [0]
         areas = []
         return self._trace(active, starts, areas), starts, areas
 
     def rings(self, active, kind):
-        """Rings around the active cells as an object.
+        """Rings around the `active` cells (as in `walk`) as an object; None where there are not n bytes.
 
         Args:
             active: As in `walk`.
-            kind: Its class, `Rings` or one derived from it; made without a call of its `__init__`.
-
-        Returns:
-            The object; None where there are not n bytes.
+            kind: `Rings` or a class derived from it, whose `__init__` is not called.
         """
         if len(active) != len(self.cell_start) - 1:
             return None
@@ -163,7 +144,7 @@ class EdgeTable:
         return found
 
     def _trace(self, active, starts, areas):
-        """Walk; the points, with offsets and areas of the rings added to two lists."""
+        """Walk; returns the points, and adds offsets and areas of the rings to two lists."""
         n = len(self.cell_start) - 1
         # Of each edge: 0 not on the outline, 1 on it, 2 walked. Of each vertex: how many edges of the outline leave it.
         mark = self.mark
@@ -233,7 +214,7 @@ class EdgeTable:
         return vectors.points_of(points, used)
 
     def _keep(self, path, low, high, points, used, starts, areas):
-        """Write the ring path[low:high] to the points, without vertices on straight lines; how many points are used."""
+        """Write the ring path[low:high] to the points, without vertices on straight lines; number of points used."""
         base = used
         b = path[high - 1]
         bx = self.vertices[2 * b]

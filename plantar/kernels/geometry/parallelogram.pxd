@@ -11,7 +11,6 @@ cdef class _ChordWalk:
     cdef double x, y, t, end, turn
     cdef double b0x, b0y, bx, by, c0x, c0y, cx, cy, d0x, d0y, dx, dy
     cdef double g0, g1, e0, e1, q1, q2
-
     cdef void start(self, double[::1] ring, Py_ssize_t n) noexcept
     cdef void walk_from(self, Py_ssize_t a) noexcept
     cdef Py_ssize_t farthest(self) noexcept
@@ -30,5 +29,4 @@ cdef class _ChordWalk:
     cdef void keep(self, double ux, double uy, double vx, double vy) noexcept
     cdef void step_over(self, int event) noexcept
 
-@cython.locals(walk=_ChordWalk)
 cpdef double largest_parallelogram(double[::1] ring, Py_ssize_t n, double[::1] out) noexcept

@@ -2,8 +2,8 @@
 """Kernel for the largest parallelogram in a convex ring.
 
 One corner A of some largest parallelogram A B C D lies on a vertex and the others on the boundary. For each vertex A
-the corner B walks once round the boundary; C and D are the ends of the far chord that is parallel and equal to AB.
-While B, C and D stay on their edges they move linearly and the area is a parabola in the way of B.
+the corner B walks once round; C and D are the ends of the far chord that is parallel and equal to AB. While B, C and D
+stay on their edges they move linearly and the area is a parabola.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _C_RETURNS = 3  # or C does, walking back
 
 
 class _ChordWalk:
-    """The walk of B round a ring from a vertex A, with C and D on the far side. All points are relative to A.
+    """The walk of B round a ring from a vertex A, with C and D on the far side, all relative to A.
 
     Attributes:
         best: Largest area so far.
@@ -27,7 +27,6 @@ class _ChordWalk:
     """
 
     def start(self, ring, n):
-        """Begin with a ring of n vertices."""
         self.ring = ring
         self.n = n
         self.size = 0.0
@@ -84,7 +83,7 @@ class _ChordWalk:
         return far
 
     def read_edges(self):
-        """Beginning and way of the edges that B, C and D are on."""
+        """Beginning and direction of the edges of B, C and D."""
         i = self.vertex(self.b)
         j = self.after(i)
         self.b0x = self.ring[2 * i] - self.x
@@ -106,11 +105,9 @@ class _ChordWalk:
         self.turn = self.cx * self.dy - self.cy * self.dx
 
     def vertex(self, k):
-        """Index of the k-th vertex after a."""
         return self.a + k if self.a + k < self.n else self.a + k - self.n
 
     def after(self, i):
-        """Index of the vertex after one."""
         return i + 1 if i + 1 < self.n else 0
 
     def lengths(self):
@@ -118,7 +115,7 @@ class _ChordWalk:
         return (abs(self.cx) + abs(self.cy)) * (abs(self.dx) + abs(self.dy))
 
     def slide(self):
-        """Slide the chord between parallel edges: C goes back or D goes on, whichever meets a vertex first."""
+        """Slide the chord between parallel edges: C back or D on, whichever meets a vertex first."""
         if self.c >= self.d:  # the chord lies on one edge: slide along it, D to the next
             self.d = self.c + 1
             return
@@ -181,8 +178,8 @@ class _ChordWalk:
     def try_places(self, event):
         """Try both ends of the stretch and the summit between them.
 
-        D is taken from its edge, then C from its own: where C's and D's edges are almost parallel, rounding moves one
-        of them off, and only what stays on the boundary counts.
+        With D from its edge, then C from its own: where these edges are almost parallel, rounding moves one of them
+        off.
         """
         self.try_from_d(self.t, -1)
         self.try_from_c(self.t, -1)
@@ -195,7 +192,7 @@ class _ChordWalk:
                 self.try_from_c(s, -1)
 
     def try_from_d(self, s, event):
-        """Keep the parallelogram at s with D on its edge, where it is larger and C stays on its own."""
+        """Keep the parallelogram at s with D on its edge, if larger and C stays on its own."""
         ux = self.b0x + s * self.bx
         uy = self.b0y + s * self.by
         e = min(1.0, max(0.0, self.e0 + self.e1 * s))
@@ -210,7 +207,7 @@ class _ChordWalk:
                 self.keep(ux, uy, vx, vy)
 
     def try_from_c(self, s, event):
-        """Keep the parallelogram at s with C on its edge, where it is larger and D stays on its own."""
+        """Keep the parallelogram at s with C on its edge, if larger and D stays on its own."""
         ux = self.b0x + s * self.bx
         uy = self.b0y + s * self.by
         g = min(1.0, max(0.0, self.g0 + self.g1 * s))
@@ -230,7 +227,6 @@ class _ChordWalk:
         return abs(off) <= 1e-14 * self.size * (abs(ex) + abs(ey)) and -1e-13 <= along <= 1.0 + 1e-13
 
     def keep(self, ux, uy, vx, vy):
-        """Keep a parallelogram as the best, with its sides AB and AD."""
         self.best = ux * vy - uy * vx
         self.corner = self.a
         self.side_x = ux
@@ -239,7 +235,7 @@ class _ChordWalk:
         self.other_y = vy
 
     def step_over(self, event):
-        """Go to the next edge of what has met a vertex."""
+        """Continue on the next edge of the corner that met a vertex."""
         if event == _B_ENDS:
             self.b += 1
             self.t = 0.0
@@ -252,15 +248,8 @@ class _ChordWalk:
 
 
 def largest_parallelogram(ring, n, out):
-    """Largest parallelogram in a clean ring.
-
-    Args:
-        ring: Clean ring of n vertices.
-        n: Number of vertices, 3 or more.
-        out: Receives the 4 corners, flat, counter-clockwise.
-
-    Returns:
-        Its area.
+    """Largest parallelogram in a clean ring of n vertices, 3 or more: writes 4 corners to `out`, flat, and returns its
+    area.
     """
     walk = _ChordWalk()
     walk.start(ring, n)

@@ -9,18 +9,18 @@ __all__ = ["largest_rectangle", "write_corners"]
 
 
 class _Gap:
-    """The gap between the upper and the lower chain of a rotated ring, seen by a rectangle of some width.
+    """The gap between upper and lower chain of a rotated ring, for a rectangle of some width.
 
     Attributes:
         x: Where the rectangle begins.
-        height: Height of the gap there: min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)).
-        slope: How the largest height of a width changes with the width, by the cut (tangent) taken last.
+        height: min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)).
+        slope: Slope of the largest height in the width, by the last cut (tangent).
         top: Upper side of the rectangle.
         bottom: Its lower side.
     """
 
     def start(self, work, upper, tops, lower, bottoms):
-        """Begin with the chains that stand in work (x, y, slope of each vertex): where each begins, and its length."""
+        """Begin with the chains in work (x, y, slope of each vertex): where each begins, and its length."""
         self.work = work
         self.upper = upper
         self.tops = tops
@@ -42,7 +42,7 @@ class _Gap:
         self.in_w = 0.0
 
     def edge_at(self, at, count, edge, x):
-        """Edge at an x of the chain that begins at a place in work, walked from one of its edges."""
+        """Edge at an x of the chain that begins at an index in work, walked from one of its edges."""
         while edge > 0 and self.work[at + 3 * edge] > x:
             edge -= 1
         while edge < count - 2 and self.work[at + 3 * edge + 3] < x:
@@ -80,7 +80,7 @@ class _Gap:
         self.height = self.top - self.bottom
 
     def find_highest(self, w):
-        """Go to the highest gap of a width, from where x stands, and take a cut through it."""
+        """Move to the highest gap of a width, from the current x, and take a cut through it."""
         rise = fall = 0.0  # slopes in x of the two cuts
         rise_w = fall_w = 0.0  # and in w
         rise_x = self.first
@@ -140,7 +140,6 @@ class _Gap:
                 return
 
     def keep(self, x, height, top, bottom):
-        """Take a gap that was measured before."""
         self.x = x
         self.height = height
         self.top = top
@@ -162,7 +161,7 @@ class _Widths:
         self.has_right = False
 
     def cut(self, w, height, slope):
-        """Take in a cut at a width; False where the area has its maximum there."""
+        """Add a cut at a width; False where the area has its maximum there."""
         rate = height + slope * w  # of the area
         if rate > 0.0:
             self.left = w
@@ -179,15 +178,13 @@ class _Widths:
         return True
 
     def under_left(self, w):
-        """What the left cut leaves of the height at a width."""
         return self.left_height + self.left_slope * (w - self.left)
 
     def under_right(self, w):
-        """What the right cut leaves of the height at a width."""
         return self.right_height + self.right_slope * (w - self.right)
 
     def next_width(self, best):
-        """Width of the largest area that the cuts leave; below 0 where that is no more than the best one."""
+        """Width of the largest area under the cuts; below 0 where it does not beat the best one."""
         w = 0.0
         bound = -1.0
         if self.has_left:
@@ -217,21 +214,16 @@ class _Widths:
 
 
 def largest_rectangle(ring, n, angle, floor, work, out):
-    """Largest rectangle in a clean ring whose first side stands at an angle.
+    """Largest rectangle in a clean ring of n vertices, 3 or more, whose first side is at an angle; returns its area.
 
-    Height h(w) = max over x of min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)), concave and piecewise
-    linear; cuts (tangents) find both maxima.
+    Height h(w) = max over x of min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)), concave and piecewise linear;
+    cuts (tangents) find both maxima.
 
     Args:
-        ring: Clean ring of n vertices.
-        n: Number of vertices, 3 or more.
         angle: Angle of the first side in rad.
-        floor: Give up where no rectangle of more than this area is left to find; 0 to find the largest.
+        floor: Give up where no rectangle above this area is left; 0 to find the largest.
         work: Room for 8 n + 16 numbers.
         out: Receives the 4 corners, flat, counter-clockwise; untouched unless the area is above the floor.
-
-    Returns:
-        Its area; at most the floor where the search gave up.
     """
     cosine = math.cos(angle)
     sine = math.sin(angle)
@@ -287,7 +279,7 @@ def largest_rectangle(ring, n, angle, floor, work, out):
 
 
 def _edge_out(work, n, bottom, top, x, way):
-    """How far out a side may go to the left (way -1) or right (1) within the ring at the height of its corners."""
+    """How far out a side may move to the left (way -1) or right (1) within the ring at its corners' height."""
     for i in range(n):
         j = i + 1 if i + 1 < n else 0
         dx = work[2 * j] - work[2 * i]
@@ -300,10 +292,10 @@ def _edge_out(work, n, bottom, top, x, way):
 
 
 def write_corners(out, cosine, sine, x1, x2, y1, y2):
-    """Write the corners of a rectangle, turned about the origin.
+    """Write the corners of a rectangle, turned about the origin, flat, counter-clockwise.
 
     Args:
-        out: Receives the 4 corners, flat, counter-clockwise.
+        out: Receives the 4 corners.
         cosine: Cosine of the angle; sine its sine.
         x1: First x in the turned frame in m, up to x2; likewise y1 and y2.
     """
@@ -320,7 +312,7 @@ def write_corners(out, cosine, sine, x1, x2, y1, y2):
 def _chain(work, n, low, high, step, tolerance, at):
     """Lower (step 1) or upper (step -1) chain of rotated vertices from low to high: x, y, slope each, at work[at:].
 
-    Upright sides are left out, so every slope is finite.
+    Without upright sides, so that every slope is finite.
     """
     width = work[2 * high] - work[2 * low]
     i = low

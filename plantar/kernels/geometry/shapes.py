@@ -1,5 +1,5 @@
 # cython: infer_types=True
-"""Kernels from a polygon as it comes to the corners of a shape in or around it."""
+"""Kernels from any polygon to the corners of a shape in or around it."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _QUARTER = 0.5 * math.pi
 
 
 class ConvexShapes:
-    """Shapes of convex polygons (k, 2), with the work arrays they need.
+    """Shapes of convex polygons (k, 2), with their work arrays.
 
     Args:
-        lists: Keep lists instead of arrays, which the interpreted form reads faster.
+        lists: Keep lists instead of arrays, faster when interpreted.
     """
 
     def __init__(self, lists):
@@ -35,7 +35,7 @@ class ConvexShapes:
         self.y = 0.0
 
     def _clean(self, polygon):
-        """Take a polygon; the number of vertices that count, with those in `ring`, clean and counter-clockwise."""
+        """Copy a polygon into `ring`, clean and counter-clockwise; its number of vertices."""
         k = polygon.shape[0]
         if 2 * k + 2 > len(self.ring):
             self.ring = work_arrays.numbers(4 * k + 2, self.lists)
@@ -63,7 +63,7 @@ class ConvexShapes:
         self.n = n
 
     def _corners(self, count):
-        """The first corners of `out`, where the polygon stands."""
+        """The first corners of `out`, at the polygon's place."""
         room = np.empty((count, 2))
         corners = room
         for i in range(count):
@@ -72,7 +72,7 @@ class ConvexShapes:
         return room
 
     def _flat(self, count):
-        """Shape without area of a polygon without area: from one end to the other and back; none where it is empty."""
+        """Shape of a polygon without area: from one end to the other and back; none if empty."""
         if self.n == 0:
             return np.empty((0, 2))
         for i in range(count):
@@ -82,7 +82,7 @@ class ConvexShapes:
         return self._corners(count)
 
     def _middle(self, count):
-        """Corners that all stand at the middle of a polygon without area; none where it is empty."""
+        """Corners that all are at the middle of a polygon without area; none if empty."""
         if self.n == 0:
             return np.empty((0, 2))
         for i in range(count):
@@ -105,7 +105,7 @@ class ConvexShapes:
         return self._corners(4)
 
     def circle(self, polygon):
-        """Centre (1, 2), none where the polygon is empty, and radius of the largest circle inside."""
+        """Center (1, 2), none for an empty polygon, and radius of the largest circle inside."""
         if self._clean(polygon) < 3:
             return self._middle(1), 0.0
         radius = inscribed.largest_circle(self.ring, self.n, self.work, self.out)
@@ -130,7 +130,7 @@ class ConvexShapes:
         return self._corners(4)
 
     def _leans(self, angle):
-        """Whether an edge stands almost, not quite, at a right angle to a direction."""
+        """Whether an edge is almost, not quite, at a right angle to a direction."""
         c = math.cos(angle)
         s = math.sin(angle)
         for i in range(self.n):

@@ -1,1 +1,1 @@
-"""From tasks to joints: inverse kinematics, whole-body torque, static loads, set-points of servos."""
+"""Inverse kinematics, whole-body torque, static loads, and set-points of servos."""

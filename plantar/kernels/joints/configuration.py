@@ -1,4 +1,4 @@
-"""Kernel of a configuration that moves: `mj_integratePos` over one unit of time, with its sums in its order."""
+"""Kernel of `mj_integratePos` over one unit of time, summed in its order."""
 
 from __future__ import annotations
 
@@ -13,12 +13,8 @@ class Configuration:
     """A configuration (nq,) and its velocity (nv,).
 
     Args:
-        ways: Places (w,) in the configuration that a velocity adds to.
-        speeds: Which velocity that is (w,).
-        turns: Where each quaternion begins (t,), w first.
-        rates: Where its angular velocity begins (t,), in the body's frame.
-        configuration: The configuration.
-        velocity: The velocity.
+        ways: Indices (w,) in the configuration that the velocities `speeds` (w,) add to.
+        turns: Where each quaternion begins (t,), w first; `rates` (t,) its angular velocity, in the body's frame.
     """
 
     def __init__(self, ways, speeds, turns, rates, configuration, velocity):
@@ -26,14 +22,14 @@ class Configuration:
         self.configuration, self.velocity = configuration, velocity
 
     def move(self):
-        """Move on at the velocity for one unit of time."""
+        """Integrate the velocity over one unit of time."""
         for k in range(self.ways.shape[0]):
             self.configuration[self.ways[k]] += self.velocity[self.speeds[k]]
         for k in range(self.turns.shape[0]):
             self._turn(self.turns[k], self.rates[k])
 
     def _turn(self, place, rate):
-        """Turn the quaternion at a place: it is made one of length 1, and multiplied by that of the turn."""
+        """Normalise a quaternion and multiply it by that of the turn."""
         q, velocity = self.configuration, self.velocity
         w, x, y, z = q[place], q[place + 1], q[place + 2], q[place + 3]
         length = math.sqrt((w * w + x * x) + (y * y + z * z))

@@ -1,4 +1,4 @@
-"""Kernel of the legs' targets: CoM, torso and both soles, written where their tasks read them."""
+"""Kernel that copies the legs' targets to where their tasks read them."""
 
 from __future__ import annotations
 
@@ -23,11 +23,7 @@ class LegTargets:
         self.right, self.right_turn = right
 
     def take(self, com, torso, left, left_turn, right, right_turn):
-        """Copy the targets, in the order of the arguments above.
-
-        Raises:
-            ValueError: If one of them is no contiguous array of float64.
-        """
+        """Copy the targets, in the order of the arguments above; ValueError unless contiguous float64 arrays."""
         a, b, c = memory.values(com), memory.values(left), memory.values(right)
         d, e, f = memory.values(torso), memory.values(left_turn), memory.values(right_turn)
         for i in range(3):

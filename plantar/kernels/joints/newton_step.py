@@ -1,4 +1,4 @@
-"""Kernel of `plantar.robots.kinematics.inverse_kinematics`: a Newton step by the normal equations."""
+"""Kernel of a Newton step of inverse kinematics by the normal equations."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ class NewtonStep:
     Args:
         columns: Velocities (n,) that a step may use.
         row_units: Factor (m,) of each row of error and Jacobian.
-        column_units: Factor (nv,) of each column of the Jacobian and velocity of the step.
+        column_units: Factor (nv,) of each column of the Jacobian and velocity.
         movable: Entries (k,) of a step that move a joint.
-        places: Places (k,) of these joints in the configuration.
+        places: Indices (k,) of these joints in the configuration.
         middle: Middle of each joint's range (k,).
         half: Half of that range (k,); inf without one.
         diagonal: Term on the diagonal.
-        least_pivot: Least pivot of the Cholesky factor of a valid step.
-        given: Jacobian (m, nv) in m and rad, error (m,) in m and rad, and configuration (nq,), written by the caller.
+        least_pivot: Least Cholesky pivot of a valid step.
+        given: Jacobian (m, nv) and error (m,) in m and rad, and configuration (nq,), written by the caller.
         jacobian: Receives the Jacobian (m, n) in units.
         step: Receives the step (n,) in units.
         velocity: Receives the step (nv,) in m and rad.
@@ -41,7 +41,7 @@ class NewtonStep:
         self.column = np.zeros(len(columns))
 
     def solve(self, largest):
-        """Whether a step of at most `largest` in units is valid: finite, no small pivot, within the joints' limits.
+        """Whether a step of at most `largest` in units is valid: finite, no small pivot, within joint limits.
 
         Afterwards the error is in units.
         """
@@ -65,7 +65,7 @@ class NewtonStep:
         return self._factor(n) and self._stays(n, largest)
 
     def _factor(self, n):
-        """Cholesky factor of the equations, and their solution; whether all pivots are large enough."""
+        """Cholesky factor and solution; whether all pivots are large enough."""
         normal, step, column = self.normal, self.step, self.column
         for k in range(n):
             if not normal[k, k] > self.least_pivot * self.least_pivot:
@@ -101,7 +101,7 @@ class NewtonStep:
         return True
 
     def worst(self):
-        """Largest absolute value of the error; not a number where one of them is not."""
+        """Largest absolute error; NaN if one is."""
         error, largest = self.error, 0.0
         for r in range(self.row_units.shape[0]):
             value = math.fabs(error[r])
@@ -112,6 +112,6 @@ class NewtonStep:
         return largest
 
     def write(self):
-        """Write the step, as it was found or changed since, as a velocity of the model where it has entries."""
+        """Write the step, as found or changed since, to the model's velocity."""
         for i in range(self.columns.shape[0]):
             self.velocity[self.columns[i]] = self.step[i] * self.column_units[self.columns[i]]

@@ -1,7 +1,4 @@
-"""Kernel of the torques that hold a tree of bodies at rest against gravity, less what other forces take.
-
-It is MuJoCo's `mj_rne` at rest, with its sums in its order. `static_load.pxd` gives the C types.
-"""
+"""Kernel of the joint torques at rest against gravity, less those of other forces (`mj_rne`, summed in its order)."""
 
 from __future__ import annotations
 
@@ -13,12 +10,12 @@ __all__ = ["StaticLoad"]
 
 
 class StaticLoad:
-    """Loads of a model, and those of its joints.
+    """Loads of a model and of its joints.
 
     Args:
         parents: Parent of each body (b,), which comes before it; the first is the world.
         bodies: Body of each velocity (nv,).
-        inertias: Each body's `cinert` (b, 10) about the center of its tree; the last four are mass times way, and mass.
+        inertias: Each body's `cinert` (b, 10); the last four are mass times way, and mass.
         motions: Unit motion (nv, 6) of each velocity: w, then v.
         gravity: Acceleration (3,) of a falling body.
         places: Velocities (k,) of the joints.
@@ -32,7 +29,7 @@ class StaticLoad:
         self.load = np.zeros(len(bodies))
 
     def weigh(self):
-        """Begin with what gravity asks for."""
+        """Begin with the load of gravity."""
         wrenches, inertias, motions = self.wrenches, self.inertias, self.motions
         x, y, z = -self.gravity[0], -self.gravity[1], -self.gravity[2]
         count = self.parents.shape[0]
@@ -52,7 +49,7 @@ class StaticLoad:
             self.load[v] = (even + odd) + (motions[v, 4] * wrenches[b, 4] + motions[v, 5] * wrenches[b, 5])
 
     def less(self, share):
-        """Subtract loads (nv,) that something else takes: a contiguous array of float64."""
+        """Subtract loads (nv,) that something else carries: a contiguous float64 array."""
         numbers = memory.values(share)
         for v in range(self.load.shape[0]):
             self.load[v] -= numbers[v]

@@ -1,8 +1,7 @@
-"""Kernels of the tasks of inverse kinematics: error and Jacobian of each.
+"""Kernels of error and Jacobian of the tasks of inverse kinematics, equal to `mj_jac` to the last bit.
 
-A velocity moves a body by the unit motion (w, v), MuJoCo's `cdof`: a point p goes along v + w x (p - c). The results
-are those of `mj_jac` to the last bit. `plantar.robots.kinematics.tasks` is the public face. Each object writes to its
-own arrays, which begin at zero.
+A velocity moves a body by the unit motion (w, v) in `motions` (nv, 6), MuJoCo's `cdof`: a point p moves by v + w x (p -
+c), c the `center` of the body's tree. `chain` (c,) are the velocities that move the body.
 """
 
 from __future__ import annotations
@@ -16,30 +15,22 @@ class Rows:
     """Error and Jacobian of a task."""
 
     def write(self):
-        """Write both.
+        """Write both, into arrays that begin at zero.
 
         Returns:
-            Whether the error is as it should be: a turn that is missing is so up to a quarter turn, and beyond that is
-            another one, which is left to the task.
+            Whether the error is valid: a missing turn is so up to a quarter turn, and left to the task beyond.
         """
         return True
 
 
 class PointRows:
-    """How a point of a body moves.
-
-    Args:
-        chain: Velocities (c,) that move the body.
-        motions: Unit motion (nv, 6) of each velocity: w, then v.
-        center: Center (3,) of the body's tree.
-        jacobian: Receives the velocity (3, nv) of the point.
-    """
+    """How a point of a body moves: receives the velocity (3, nv) in `jacobian`."""
 
     def __init__(self, chain, motions, center, jacobian):
         self.chain, self.motions, self.center, self.jacobian = chain, motions, center, jacobian
 
     def write(self, x, y, z):
-        """Write how the point (x, y, z) moves."""
+        """Write the rows of the point (x, y, z)."""
         chain, motions, center, out = self.chain, self.motions, self.center, self.jacobian
         x, y, z = x - center[0], y - center[1], z - center[2]
         for k in range(chain.shape[0]):
@@ -50,15 +41,8 @@ class PointRows:
 
 
 class TurnRows(Rows):
-    """A body's orientation.
-
-    Args:
-        chain: Velocities (c,) that move the body.
-        motions: Unit motion (nv, 6) of each velocity: w, then v.
-        wanted: Wanted rotation (3, 3) from the body to the world frame.
-        actual: Its rotation.
-        error: Receives the missing turn (3,) in the world frame.
-        jacobian: Receives the angular velocity (3, nv) in the world frame.
+    """A body's orientation: the missing turn (3,) from `actual` to `wanted` (3, 3), and angular velocity (3, nv), in
+    the world.
     """
 
     def __init__(self, chain, motions, wanted, actual, error, jacobian):
@@ -76,18 +60,11 @@ class TurnRows(Rows):
 
 
 class PoseRows(Rows):
-    """The pose of a frame that a body carries.
+    """The pose of a frame that a body carries: missing way (3,) and turn (3,) in the world, and Jacobian (6, nv).
 
     Args:
-        chain: Velocities (c,) that move the body.
-        motions: Unit motion (nv, 6) of each velocity: w, then v.
-        center: Center (3,) of the body's tree.
-        position: Wanted origin (3,).
-        rotation: Wanted rotation (3, 3) from the frame to the world frame.
-        at: The origin (3,).
-        turned: The rotation (3, 3).
-        error: Receives the missing way (3,) and turn (3,) in the world frame.
-        jacobian: Receives the velocity (3, nv) of the origin and the angular velocity (3, nv) in the world frame.
+        position: Desired origin (3,); `at` the current one.
+        rotation: Desired rotation (3, 3) to the world; `turned` the current one.
     """
 
     def __init__(self, chain, motions, center, position, rotation, at, turned, error, jacobian):
@@ -105,21 +82,13 @@ class PoseRows(Rows):
 
 
 class ComRows(Rows):
-    """The CoM of bodies.
+    """The CoM `com` (3,) of bodies at a `target` (3,): missing way (3,) and Jacobian (3, nv).
 
     Args:
-        chains: Velocities that move each of b bodies, one after the other.
-        ends: End (b,) of each body's velocities there.
-        masses: Mass (b,) of each body.
-        share: One over their sum.
-        motions: Unit motion (nv, 6) of each velocity: w, then v.
-        centers: Centers (t, 3) of trees.
-        trees: Tree (b,) of each body.
+        chains: Velocities that move each of b bodies, one after the other, up to its `ends` (b,).
+        masses: Mass (b,) of each body; `share` one over their sum.
+        centers: Centers (t, 3) of trees; `trees` (b,) that of each body.
         places: CoM (b, 3) of each body.
-        target: Wanted CoM (3,) of all.
-        com: Their CoM (3,).
-        error: Receives the missing way (3,).
-        jacobian: Receives the velocity (3, nv) of the CoM.
     """
 
     def __init__(self, chains, ends, masses, share, motions, centers, trees, places, target, com, error, jacobian):

@@ -1,9 +1,9 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 # cython: infer_types=True
-"""Kernel of strict task hierarchies: directions of acceleration that levels of tasks own, and what is left.
+"""Kernel of strict task hierarchies: directions of acceleration that levels of tasks own, and the rest.
 
-In mass-weighted coordinates y = L^T q'', M = L L^T, a row of a Jacobian becomes L^-1 J^T. Each level's rows are brought
-to triangular form by Householder reflections of what the levels before left; y is in the basis that these make
+In mass-weighted coordinates y = L^T q'', M = L L^T, a row of a Jacobian is L^-1 J^T. Householder reflections of what is
+left by the levels before bring each level's rows to triangular form and make the basis of y
 (`plantar.wholebody.fusion.hierarchy`).
 """
 
@@ -17,7 +17,7 @@ __all__ = ["TaskSpace"]
 
 
 class TaskSpace:
-    """Owned directions and y; made once for n coordinates, and begun again at each tick.
+    """Owned directions and y of n coordinates, begun again at each tick.
 
     Args:
         size: Number n of generalized coordinates.
@@ -27,9 +27,9 @@ class TaskSpace:
         y: Mass-weighted acceleration (n,) in the basis of the owned directions, these first.
         columns: Rows of the last level in that basis as columns (n, m), in the order in which they were owned.
         sizes: Size (m,) of each before any was owned.
-        full: Size (m,) that each would have with a row of the Jacobian as long as the level's longest.
-        missing: What each (m,) lacks of what is wanted of it; 0 where it was met.
-        order: Place (m,) of each in the level.
+        full: Size (m,) of each with a Jacobian row as long as the level's longest.
+        missing: Unmet part (m,) of the wanted acceleration; 0 where met.
+        order: Index (m,) of each in the level.
     """
 
     def __init__(self, size):
@@ -54,11 +54,7 @@ class TaskSpace:
         self.room = count
 
     def begin(self, mass):
-        """Forget what is owned, and factor a mass matrix.
-
-        Args:
-            mass: M (n, n).
-        """
+        """Clear what is owned, and factor a mass matrix (n, n)."""
         n, factor = self.size, self.factor
         self.used = 0
         for i in range(n):
@@ -76,27 +72,23 @@ class TaskSpace:
         return True
 
     def push(self, torque):
-        """Let a generalized force (n,) act in what is left.
-
-        Args:
-            torque: The force; it is written over.
-        """
+        """Apply a generalized force (n,), which is overwritten, in what is left."""
         self._turn(torque)
         for i in range(self.used, self.size):
             self.y[i] += torque[i]
 
     def own(self, jacobian, wanted, meet, least):
-        """Own the directions of a level's rows, as far as they are left, and meet in them what is wanted.
+        """Own the directions left of a level's rows, and meet the wanted accelerations in them.
 
         Args:
             jacobian: Rows (m, n).
-            wanted: Acceleration (m,) along each; counts where it is to be met.
-            meet: Whether it is.
+            wanted: Acceleration (m,) along each, used to meet it.
+            meet: Whether it is met.
             least: Share of a row's size below which the rest of it is no direction.
 
         Returns:
-            Number of directions, and a lower bound on the singular values of these rows, each divided by its full
-            size. Where that is small, or rows have no direction of their own, the caller uses `rows` and `missing`.
+            Number of directions, and a lower bound on the singular values of these rows over their full size. Where it
+            is small, or rows have no direction left, the caller uses `rows` and `missing`.
         """
         n, count, first = self.size, jacobian.shape[0], self.used
         if count > self.room:
@@ -142,11 +134,7 @@ class TaskSpace:
         return rank, self._bound(rank)
 
     def meet(self, rank):
-        """Meet what the rows of the last level lack, as many as have a direction of their own.
-
-        Args:
-            rank: How many these are.
-        """
+        """Meet the missing accelerations of the last level's first `rank` rows, which have directions."""
         first = self.used - rank
         columns, missing, y = self.columns, self.missing, self.y
         for i in range(rank):
@@ -157,13 +145,13 @@ class TaskSpace:
             y[first + j] += missing[j]
 
     def fit(self, rank, count, least):
-        """Meet what the rows of the last level lack by least squares; the rows are overwritten.
+        """Meet the missing accelerations of the last level by least squares; overwrites its rows.
 
-        With L the rows that have a direction of their own and X L the others, w along the former solves
-        (I + X^T X) w = missing_L + X^T missing_X. The longest rows were taken first, so X is small.
+        With L the rows that have a direction and X L the others, w along the former solves (I + X^T X) w = missing_L +
+        X^T missing_X. The longest rows are first, so X is small.
 
         Args:
-            rank: Number of rows with a direction of their own.
+            rank: Number of rows with a direction.
             count: Number of rows.
             least: Share of the largest row's size below which a row does not count.
         """
@@ -207,11 +195,7 @@ class TaskSpace:
         self.meet(rank)
 
     def acceleration(self, out):
-        """The generalized acceleration that y stands for.
-
-        Args:
-            out: Receives it (n,).
-        """
+        """Write the generalized acceleration of y to `out` (n,)."""
         n, factor, vectors = self.size, self.factor, self.vectors
         for i in range(n):
             out[i] = self.y[i]
@@ -228,7 +212,7 @@ class TaskSpace:
                 out[k] -= factor[i, k] * out[i]
 
     def _turn(self, row):
-        """A row (n,) of a Jacobian as a mass-weighted one in the basis of the owned directions, in its place."""
+        """Turn a Jacobian row (n,) into the mass-weighted basis, in place."""
         n, factor, vectors = self.size, self.factor, self.vectors
         begin = 0
         while begin < n and row[begin] == 0.0:
@@ -259,7 +243,7 @@ class TaskSpace:
                 row[i] -= total * vectors[k, i]
 
     def _turn_all(self, count):
-        """The same for all columns of the level at once: nothing waits for a sum."""
+        """The same for all columns of the level at once."""
         n, factor, vectors, columns, sums = self.size, self.factor, self.vectors, self.columns, self.sums
         for i in range(n):
             for k in range(i):
@@ -284,7 +268,6 @@ class TaskSpace:
                     columns[i, j] -= share * sums[j]
 
     def _norms(self, begin, count, out):
-        """Size of each column from one of its places on."""
         columns = self.columns
         for j in range(count):
             out[j] = 0.0
@@ -295,8 +278,7 @@ class TaskSpace:
             out[j] = math.sqrt(out[j])
 
     def _bound(self, rank):
-        """Bound from below of the singular values of the scaled triangle: of its inverse, the Frobenius norm's
-        inverse."""
+        """Lower bound of the scaled triangle's singular values: one over the Frobenius norm of its inverse."""
         columns, full, column, first = self.columns, self.full, self.left, self.used - rank
         squares = 0.0
         for k in range(rank):
@@ -312,7 +294,6 @@ class TaskSpace:
         return 1.0 / math.sqrt(squares) if rank else 0.0
 
     def _swap(self, a, b):
-        """Exchange two columns of the level."""
         columns, sizes, left, order, full = self.columns, self.sizes, self.left, self.order, self.full
         for i in range(self.size):
             columns[i, a], columns[i, b] = columns[i, b], columns[i, a]
@@ -322,7 +303,7 @@ class TaskSpace:
         order[a], order[b] = order[b], order[a]
 
     def _reflect(self, place, count, smallest):
-        """Turn the first direction that is left into that of the column at `place`; the others and y turn with it."""
+        """Turn the first free direction into that of the column at `place`; the others and y turn with it."""
         n, columns, sizes, left, y, first = self.size, self.columns, self.sizes, self.left, self.y, self.used + place
         vector, sums = self.vectors[first], self.sums
         total = 0.0

@@ -1,4 +1,3 @@
-# C types of task_step.py. Without a compiler this file is not read.
 cimport cython
 from .configuration cimport Configuration
 from .newton_step cimport NewtonStep
@@ -10,8 +9,6 @@ cdef class TaskStep:
     cdef NewtonStep newton
     cdef Configuration configuration
     cdef readonly bint near
-
     @cython.locals(rows=Rows)
     cpdef bint step(self, double largest) except *
-
     cpdef void move(self) noexcept

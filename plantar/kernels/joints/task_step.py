@@ -1,4 +1,4 @@
-"""Kernel of a step of inverse kinematics: rows of all tasks, Newton's step, and the configuration that it moves."""
+"""Kernel of a step of inverse kinematics: rows of all tasks, Newton's step, and the configuration."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ __all__ = ["TaskStep"]
 
 
 class TaskStep:
-    """Takes a step where it is plain.
+    """Takes a step in the plain case.
 
     Args:
-        rows: Rows of the tasks that have a kernel (`task_rows.Rows`), a list.
-        newton: Newton's step of error and Jacobian (`newton_step.NewtonStep`).
-        configuration: What moves at its velocity (`configuration.Configuration`).
+        rows: The tasks' `task_rows.Rows`, a list.
+        newton: The `NewtonStep`.
+        configuration: The `Configuration` to move.
 
     Attributes:
         near: Whether the rows held all errors at the last step; else a task has to write its own.
@@ -22,11 +22,7 @@ class TaskStep:
         self.near = True
 
     def step(self, largest):
-        """Write the rows, and take the step if they hold all errors and it may stay as it is.
-
-        Args:
-            largest: Largest entry of a step in units.
-        """
+        """Write the rows, and take a step of at most `largest` in units if they hold all errors."""
         self.near = True
         for rows in self.rows:
             if not rows.write():
@@ -37,6 +33,6 @@ class TaskStep:
         return True
 
     def move(self):
-        """Take the step as it stands."""
+        """Take the current step."""
         self.newton.write()
         self.configuration.move()

@@ -1,1 +1,1 @@
-"""What the judge of a walk follows physics step by physics step, and tick by tick."""
+"""Figures that the judge of a walk follows at each physics step and tick."""

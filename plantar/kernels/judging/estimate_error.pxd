@@ -1,7 +1,5 @@
-# C types of estimate_error.py. Without a compiler this file is not read.
 cimport cython
 from ..contacts.ground_reaction cimport GroundReaction
-
 
 @cython.final
 cdef class EstimateError:
@@ -10,6 +8,5 @@ cdef class EstimateError:
     cdef readonly double[::1] com
     cdef readonly double squares
     cdef readonly Py_ssize_t compared
-
-    @cython.locals(axis=Py_ssize_t, estimated=double, off=double, x=double, y=double, dx=double, dy=double)
+    @cython.locals(estimated=double, off=double, x=double, y=double, dx=double, dy=double)
     cpdef int update(self, list com, list zmp) except -1

@@ -1,4 +1,4 @@
-"""Kernel of how far a controller's estimates are from the truth."""
+"""Kernel of the errors of a controller's estimates."""
 
 from __future__ import annotations
 
@@ -15,9 +15,8 @@ class EstimateError:
         reaction: `GroundReaction` of both feet, with the true ZMP.
 
     Attributes:
-        com: Largest error (3,) in m of the CoM; NaN where an estimate was NaN.
-        squares: Sum of the squared errors in m^2 of the ZMP.
-        compared: Number of ticks with both a true and an estimated ZMP.
+        com: Largest error (3,) in m of the CoM; NaN if an estimate was.
+        squares: Sum of the squared errors in m^2 of the ZMP over `compared` ticks.
     """
 
     def __init__(self, center, reaction):
@@ -28,7 +27,7 @@ class EstimateError:
         self.compared = 0
 
     def update(self, com, zmp):
-        """Compare the estimated CoM `com` (3,) and `zmp` (2,) in m, lists or None, with the truth now."""
+        """Compare the estimated CoM `com` (3,) and `zmp` (2,) in m, lists or None, with the truth."""
         for axis in range(3):
             estimated = com[axis]
             off = abs(estimated - self.center[axis])

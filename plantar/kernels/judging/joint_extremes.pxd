@@ -1,6 +1,4 @@
-# C types of joint_extremes.py. Without a compiler this file is not read.
 cimport cython
-
 
 @cython.final
 cdef class JointExtremes:
@@ -10,18 +8,11 @@ cdef class JointExtremes:
     cdef const double[:] torques
     cdef const Py_ssize_t[::1] servos
     cdef const double[::1] per_torque
-    cdef readonly Py_ssize_t steps
-    cdef readonly Py_ssize_t any_held
-    cdef readonly double[::1] high
-    cdef readonly double[::1] low
+    cdef readonly Py_ssize_t steps, any_held
+    cdef readonly double[::1] high, low
     cdef Py_ssize_t[::1] over
-    cdef readonly Py_ssize_t[::1] longest
-    cdef readonly Py_ssize_t[::1] held
+    cdef readonly Py_ssize_t[::1] longest, held
     cdef Py_ssize_t[::1] since
     cdef readonly list stays
-
-    @cython.locals(i=Py_ssize_t, speed=double, share=double, any_held=bint)
     cpdef int step(self) except -1
-
-    @cython.locals(i=Py_ssize_t, lasting=list)
     cpdef list all_stays(self)

@@ -1,4 +1,4 @@
-"""Kernel of joint speeds both ways, and how long joints were at a limit."""
+"""Kernel of joint speeds both ways, and time at limits."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ class JointExtremes:
         per_torque: One over each joint's torque limit (k,) in 1/(N m); 0 for none.
 
     Attributes:
-        steps: Number of steps so far.
-        high: Largest speed (k,) in rad/s so far, 0 at least.
-        low: Least speed (k,) so far, 0 at most.
-        longest: Most steps in a row (k,) in which a joint was faster than its limit.
-        held: Number of steps (k,) in which a joint's torque was at its limit.
-        any_held: Number of steps in which any was.
+        steps: Number of steps.
+        high: Largest speed (k,) in rad/s, 0 at least.
+        low: Least speed (k,) in rad/s, 0 at most.
+        longest: Most steps in a row (k,) above the speed limit.
+        held: Steps (k,) at the torque limit.
+        any_held: Steps with any joint at the torque limit.
         stays: Each past stay at the torque limit: joint, first and last step, counted from 1.
     """
 
@@ -47,7 +47,7 @@ class JointExtremes:
         self.stays = []
 
     def step(self):
-        """Take in the present speeds and torques; NaN counts as beyond a limit."""
+        """Add the present speeds and torques; NaN counts as beyond a limit."""
         self.steps += 1
         any_held = False
         for i in range(self.places.shape[0]):

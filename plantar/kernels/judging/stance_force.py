@@ -1,4 +1,4 @@
-"""Kernel of how steady the ground's force is while one foot carries the robot."""
+"""Kernel of the steadiness of the ground's force in single support."""
 
 from __future__ import annotations
 
@@ -12,17 +12,16 @@ __all__ = ["StanceForce"]
 class StanceForce:
     """Compares the ground's vertical force with the CoM's acceleration, and the ZMP with the edge of the support.
 
-    By Newton's law force and acceleration agree at each instant, so the acceleration is taken over a time: the second
-    difference of the CoM's height over `span` steps each way. The remaining force is faster than that: a contact that
-    flickers.
+    By Newton's law both agree at each instant, so the acceleration is averaged: the second difference of the CoM's
+    height over `span` steps each way. The remaining force is faster: a contact that flickers.
 
     Args:
         reaction: `GroundReaction` of both feet.
         center: CoM (3,) in m, updated by the simulator.
         mass: The robot's mass in kg.
-        gravity: Acceleration of gravity in m/s^2.
+        gravity: In m/s^2.
         period: Physics step in s.
-        steps: Numbers of steps: `span`, and after a landing that are left out.
+        steps: Numbers of steps: `span`, and those left out after a landing.
         least: Vertical force in N from which a foot touches the ground.
         edge: Distance in m below which a ZMP is at the edge of the support.
 
@@ -53,7 +52,7 @@ class StanceForce:
         self.at_edge = 0
 
     def step(self, since):
-        """Take in a physics step, `since` steps after the last landing."""
+        """Add a physics step, `since` steps after the last landing."""
         left, right = self.reaction.loads[0], self.reaction.loads[1]
         place = self.now % self.size
         self.heights[place] = self.center[2]

@@ -1,4 +1,4 @@
-"""Kernel of where loaded feet are, and how far they slip."""
+"""Kernel of the places of loaded feet, and their slip."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class StandWatch:
         enough: Ground force in N from which a foot carries.
 
     Attributes:
-        slip: Largest distance in m of a sole's origin from where its foot began to carry, over all stands.
+        slip: Largest distance in m of a sole's origin from where its foot began to carry.
     """
 
     def __init__(self, enough):
@@ -42,8 +42,7 @@ class StandWatch:
         """All stands that began with a touch and carried, in the order of their touches.
 
         Returns:
-            Rows of the physics step of the touch, the foot, and x, y in m and heading in rad of its sole when it last
-                carried.
+            Rows of the touch's physics step, foot, and x, y in m and heading in rad of its sole when it last carried.
         """
         rows = list(self.over)
         for foot in range(2):
@@ -52,7 +51,7 @@ class StandWatch:
         return sorted(rows)
 
     def carry(self, foot, force, x, y, yaw):
-        """Take in the `force` in N on a `foot`, its sole's origin `x`, `y` in m and heading `yaw` in rad."""
+        """Add the `force` in N on a `foot`, its sole's origin `x`, `y` in m and heading `yaw` in rad."""
         if not force >= self.enough:
             return
         if not self.stood[foot]:

@@ -1,4 +1,3 @@
-# C types of step_watch.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
 from ..contacts.ground_reaction cimport GroundReaction
@@ -6,9 +5,7 @@ from .joint_extremes cimport JointExtremes
 from .stance_force cimport StanceForce
 from .stand_watch cimport StandWatch
 
-cdef double _INFINITE
-cdef double _ROUNDING
-
+cdef double _INFINITE, _ROUNDING
 
 @cython.final
 cdef class StepWatch:
@@ -16,48 +13,24 @@ cdef class StepWatch:
     cdef StandWatch stands
     cdef JointExtremes joints
     cdef StanceForce stance
-    cdef const double[::1] upright
-    cdef const double[::1] center
-    cdef const double[::1] left
-    cdef const double[::1] right
-    cdef const double[::1] left_turn
-    cdef const double[::1] right_turn
+    cdef const double[::1] upright, center, left, right, left_turn, right_turn
     cdef const double[:] legs
     cdef const int[:] warnings
     cdef const Py_ssize_t[::1] divergence
     cdef double least
-    cdef Py_ssize_t airborne
-    cdef Py_ssize_t impact_window
-    cdef Py_ssize_t area_window
-    cdef double tilted
-    cdef double lowest
+    cdef Py_ssize_t airborne, impact_window, area_window
+    cdef double tilted, lowest
     cdef readonly Py_ssize_t now
-    cdef readonly double up
-    cdef readonly double margin
+    cdef readonly double up, margin
     cdef double margin_since
-    cdef Py_ssize_t[::1] touched
-    cdef Py_ssize_t[::1] landed
-    cdef double[::1] impact
-    cdef double[::1] area
-    cdef list rows
-    cdef list last
-
-    @cython.locals(seen=int, foot=Py_ssize_t)
+    cdef Py_ssize_t[::1] touched, landed
+    cdef double[::1] impact, area
+    cdef list rows, last
     cpdef int step(self, tuple feet) except -1
-
     cdef int _land(self, Py_ssize_t foot) except -1
-
-    @cython.locals(foot=Py_ssize_t, number=Py_ssize_t, row=list)
+    @cython.locals(number=Py_ssize_t)
     cdef int _keep(self) except -1
-
-    @cython.locals(row=list)
     cpdef list landings(self)
-
-    @cython.locals(reaction=GroundReaction, foot=Py_ssize_t, force=double, age=Py_ssize_t)
     cdef int _follow(self) except -1
-
-    @cython.locals(seen=int, lower=double, i=Py_ssize_t)
     cdef int _look(self) noexcept
-
-    @cython.locals(force=double)
     cdef int _stand(self, Py_ssize_t foot, const double[::1] place, const double[::1] turn) except -1

@@ -1,4 +1,4 @@
-"""Kernel that follows a walk physics step by physics step: landings, margins, forces, stands, limits and falls."""
+"""Kernel that follows a walk step by step: landings, margins, forces, stands, limits and falls."""
 
 from __future__ import annotations
 
@@ -34,16 +34,15 @@ class StepWatch:
         places: Origins (3,) of the left and the right sole in m.
         turns: Rotations (9,) of both soles.
         legs: A number (1,), above 0 where the legs touch each other.
-        warnings: The simulator's counts of its warnings.
-        divergence: Indices of the warnings that its state diverged.
+        warnings: The simulator's warning counts.
+        divergence: Indices of the warnings of a diverged state.
         least: Vertical ground force in N from which a foot touches the ground.
-        windows: Numbers of steps: in the air before a touch is a landing, and after it in which its impact and its
-            contact area are measured.
+        windows: Steps in the air before a touch is a landing, after it for its impact, and for its contact area.
         fallen: Cosine of the torso's tilt, and height in m of the CoM above the lower sole, below which it has fallen.
 
     Attributes:
-        up: Least cosine of the torso's tilt so far.
-        margin: Least margin of the ZMP in m so far; inf without a ZMP.
+        up: Least cosine of the torso's tilt.
+        margin: Least margin of the ZMP in m; inf without a ZMP.
     """
 
     def __init__(
@@ -90,10 +89,10 @@ class StepWatch:
         self.last = [-1, -1]
 
     def step(self, feet):
-        """Take in a physics step with the `FootContacts` of both feet.
+        """Follow a physics step with the `FootContacts` of both feet.
 
-        Returns the sum of what the judge has to look at: 1 for a left foot that lands, 2 for a right one, `LEGS`,
-        `FALLING` and `DIVERGED`; 0 for none.
+        Returns the sum of the judge's events: 1 for a left landing, 2 for a right one, `LEGS`, `FALLING` and
+        `DIVERGED`.
         """
         self.now += 1
         self.reaction.update(feet)
@@ -119,7 +118,6 @@ class StepWatch:
         self.stands.begin(foot, self.now)
 
     def _keep(self):
-        """Write the latest figures into the landings' rows."""
         for foot in range(2):
             number = self.last[foot]
             if number >= 0:
@@ -130,13 +128,13 @@ class StepWatch:
             row[4] = self.margin_since
 
     def landings(self):
-        """The landings so far: physics step, foot, largest vertical ground force in N and contact area in m^2 in their
-        windows, and least margin in m before the next landing."""
+        """The landings: physics step, foot, largest vertical ground force in N and contact area in m^2 in their
+        windows, and least margin in m before the next landing.
+        """
         self._keep()
         return [tuple(row) for row in self.rows]
 
     def _follow(self):
-        """Take in margin, impacts, contact areas, stands and tilt."""
         reaction = self.reaction
         if reaction.found:
             self.margin = min(self.margin, reaction.margin)
@@ -153,7 +151,6 @@ class StepWatch:
         self.stance.step(self.now - max(self.landed[0], self.landed[1]))
 
     def _look(self):
-        """What to watch in addition to landings."""
         seen = 0
         if self.legs[0] > 0.0:
             seen += 4

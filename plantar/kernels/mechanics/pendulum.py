@@ -1,4 +1,4 @@
-"""The kernel of a pendulum over a VRP that moves along a line: VRP, DCM and CoM at one time, with their rates."""
+"""Kernel of a pendulum over a VRP that moves along a line."""
 
 from __future__ import annotations
 
@@ -10,20 +10,15 @@ __all__ = ["on_segment"]
 
 
 def on_segment(omega, since, until, segment, vrps, rates, growths, shrinkage):
-    """The pendulum within a segment of its plan.
+    """The pendulum within a segment of its plan: VRP, DCM and its rate, CoM and its first and second rate, new arrays
+    (2,).
 
     Args:
         omega: Pendulum frequency in rad/s.
-        since: Time in s since the segment began.
-        until: Time in s until it ends.
+        since: Time in s since the segment began; `until` until it ends.
         segment: Number of the segment.
-        vrps: VRP (k, 2) at the beginning of each segment in m.
-        rates: Rate (k, 2) of the VRP in each in m/s.
-        growths: A e^(w T) (k, 2) of each in m.
-        shrinkage: B (2,) of this one in m.
-
-    Returns:
-        VRP, DCM and its rate, CoM and its first and second rate, each a new array (2,).
+        vrps: VRP (k, 2) at the beginning of each segment in m, with `rates` in m/s.
+        growths: A e^(w T) (k, 2) of each in m; `shrinkage` B (2,) of this one.
     """
     start, rate, growth = memory.values(vrps), memory.values(rates), memory.values(growths)
     offset, i, j = memory.values(shrinkage), 2 * segment, 2 * segment + 1

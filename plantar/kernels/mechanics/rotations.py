@@ -1,8 +1,4 @@
-"""Kernels of rotations in space: products of matrices (3, 3) and vectors (3,), the exponential map, one Newton step
-back to a rotation, and how far one is from another.
-
-Results are written where the caller wants them.
-"""
+"""Kernels of rotations: products of matrices (3, 3) and vectors (3,), exponential map, nearest rotation, errors."""
 
 from __future__ import annotations
 
@@ -28,46 +24,26 @@ _SMALL = 1e-6
 
 
 def turn(rotation, vector, out):
-    """Rotate a vector: R v.
-
-    Args:
-        rotation: R (3, 3).
-        vector: v (3,).
-        out: Receives the vector (3,); another one than v.
-    """
+    """Rotate a vector (3,) by a rotation (3, 3) into `out`, another array: R v."""
     for i in range(3):
         out[i] = rotation[i, 0] * vector[0] + rotation[i, 1] * vector[1] + rotation[i, 2] * vector[2]
 
 
 def turn_back(rotation, vector, out):
-    """Rotate a vector the other way: R^T v; arguments as of `turn`."""
+    """Rotate a vector back: R^T v."""
     for i in range(3):
         out[i] = rotation[0, i] * vector[0] + rotation[1, i] * vector[1] + rotation[2, i] * vector[2]
 
 
 def multiply(a, b, out):
-    """Product of two matrices: A B.
-
-    Args:
-        a: A (3, 3).
-        b: B (3, 3).
-        out: Receives the product (3, 3); another one than A and B.
-    """
+    """Product A B of two matrices (3, 3) into `out`, another array."""
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
 
 
 def between(a, b):
-    """Product of a matrix and another's transpose, A B^T: for rotations to one frame, from B's frame to A's.
-
-    Args:
-        a: A (3, 3).
-        b: B (3, 3).
-
-    Returns:
-        The nine numbers of the product, row by row.
-    """
+    """The nine numbers of A B^T, row by row: for rotations to one frame, from B's frame to A's."""
     xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
     for k in range(3):
         xx += a[0, k] * b[0, k]
@@ -83,14 +59,7 @@ def between(a, b):
 
 
 def exponential(x, y, z, out):
-    """Rotation of a rotation vector (Rodrigues), exact to rounding for every angle.
-
-    Args:
-        x: Axis times angle in rad.
-        y: The same.
-        z: The same.
-        out: Receives the rotation (3, 3).
-    """
+    """Rotation (3, 3) of a rotation vector x, y, z in rad into `out` (Rodrigues), exact to rounding for every angle."""
     xx, xy, xz, yx, yy, yz, zx, zy, zz = _exponential(x, y, z)
     out[0, 0], out[0, 1], out[0, 2] = xx, xy, xz
     out[1, 0], out[1, 1], out[1, 2] = yx, yy, yz
@@ -104,7 +73,6 @@ def rotation_of(x, y, z):
 
 
 def _exponential(x, y, z):
-    """The nine numbers of `exponential`, row by row."""
     angle = math.sqrt(x * x + y * y + z * z)
     if angle < _SMALL:
         s, c = 1.0, 0.5
@@ -116,13 +84,7 @@ def _exponential(x, y, z):
 
 
 def orthonormalise(rotation, work, out):
-    """One Newton step towards the nearest rotation: R (3 I - R^T R) / 2.
-
-    Args:
-        rotation: R (3, 3).
-        work: Room (3, 3).
-        out: Receives the result (3, 3); another one than R.
-    """
+    """One Newton step towards the nearest rotation, R (3 I - R^T R) / 2, into `out`, with `work` (3, 3)."""
     for i in range(3):
         for j in range(3):
             total = rotation[0, i] * rotation[0, j] + rotation[1, i] * rotation[1, j] + rotation[2, i] * rotation[2, j]
@@ -131,15 +93,11 @@ def orthonormalise(rotation, work, out):
 
 
 def missing_turn(wanted, actual, out):
-    """Error of a rotation up to a quarter turn, `plantar.mechanics.rotation.rotation_error`.
-
-    Args:
-        wanted: Rotation (3, 3) to a common frame.
-        actual: Rotation (3, 3) to the same frame.
-        out: Receives the error (3,) in the common frame.
+    """`plantar.mechanics.rotation.rotation_error` of `wanted` and `actual` (3, 3) into `out` (3,), up to a quarter
+    turn.
 
     Returns:
-        Whether it is no more than a quarter turn; beyond that the error is another one.
+        Whether it is at most a quarter turn; beyond that the error is wrong.
     """
     xx, xy, xz, yx, yy, yz, zx, zy, zz = between(wanted, actual)
     out[0], out[1], out[2] = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)
@@ -147,17 +105,8 @@ def missing_turn(wanted, actual, out):
 
 
 def missing_pose(position, rotation, at, turned, out):
-    """Error of a pose: way and turn that are missing.
-
-    Args:
-        position: Wanted position (3,) in m.
-        rotation: Wanted rotation (3, 3) to a common frame.
-        at: Position (3,) in m.
-        turned: Rotation (3, 3) to the same frame.
-        out: Receives the way (3,) in m and the turn (3,), as of `missing_turn`.
-
-    Returns:
-        Whether the turn is no more than a quarter turn; beyond that the error is another one.
+    """Missing way (3,) in m and turn (3,) from `at` and `turned` to `position` and `rotation`; returns as
+    `missing_turn`.
     """
     for i in range(3):
         out[i] = position[i] - at[i]

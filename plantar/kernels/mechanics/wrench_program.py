@@ -1,4 +1,4 @@
-"""Kernel of the quadratic program that shares a net wrench between contacts: what of it changes from call to call."""
+"""Kernel of the quadratic program that shares a net wrench between contacts: what changes from call to call."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ __all__ = ["WrenchProgram"]
 
 
 class WrenchProgram:
-    """The program of n contacts, in its units; it fills the arrays of its caller in place.
+    """The program of n contacts, in its units; it fills the caller's arrays in place.
 
     Args:
         scales: Weight of the robot in N, unit of moments over forces in m, and the costs of the net wrench and of the
             proportion of the normal forces.
-        unit: What 1 of each unknown (6 n,) means in N and N m, contact by contact.
-        jacobian: Receives what the unknowns make of the net wrench about the middle of the contacts (6, 6 n).
-        fixed: What of the Hessian (6 n, 6 n) does not depend on the shares; the caller fills it.
+        unit: Unit of each unknown (6 n,) in N and N m, contact by contact.
+        jacobian: Receives the map (6, 6 n) from unknowns to net wrench about the middle of the contacts.
+        fixed: Part of the Hessian (6 n, 6 n) that does not depend on the shares, filled by the caller.
         hessian: Receives the Hessian (6 n, 6 n).
         wanted: Receives the wanted net wrench (6,) about the middle of the contacts.
-        gradient: Gradient (6 n,) but for a factor; the caller fills it, `finish_gradient` multiplies it.
+        gradient: Gradient (6 n,) but for a factor, filled by the caller.
     """
 
     def __init__(self, scales, unit, jacobian, fixed, hessian, wanted, gradient):
@@ -35,15 +35,11 @@ class WrenchProgram:
         self.request, self.middle = np.zeros(9), np.zeros(3)
 
     def ask(self, wrench, point, shares):
-        """Take in a request.
+        """Set a request; returns whether all numbers are finite, and some share is above 0.
 
         Args:
-            wrench: Wanted net wrench, six numbers in N and N m in the world frame about the point.
-            point: Three numbers of the world frame in m.
+            wrench: Wanted net wrench, six numbers in N and N m in the world frame about the `point` in m.
             shares: Share of the normal force of each contact.
-
-        Returns:
-            Whether all numbers are finite, and some share is above 0.
         """
         request = self.request
         fx, fy, fz, tx, ty, tz = wrench
@@ -59,16 +55,7 @@ class WrenchProgram:
         return math.isfinite(total + some) and some > 0.0
 
     def place(self, i, position, rotation):
-        """Put a contact somewhere.
-
-        Args:
-            i: Which contact.
-            position: Origin (3,) of its frame in the world in m.
-            rotation: Rotation (3, 3) to the world.
-
-        Returns:
-            Whether it was elsewhere before.
-        """
+        """Place contact `i` at a position (3,) in m and rotation (3, 3) to the world; returns whether it moved."""
         moved = False
         for j in range(3):
             moved = moved or self.positions[i, j] != position[j]
@@ -79,11 +66,7 @@ class WrenchProgram:
         return moved
 
     def turn(self):
-        """Fill the Jacobian for where the contacts are.
-
-        Returns:
-            Whether all of it is finite.
-        """
+        """Fill the Jacobian for the contacts' places; returns whether all of it is finite."""
         positions, rotations, jacobian, middle = self.positions, self.rotations, self.jacobian, self.middle
         count, total = positions.shape[0], 0.0
         for i in range(count):
@@ -114,13 +97,10 @@ class WrenchProgram:
         return math.isfinite(total)
 
     def weigh(self, renewed):
-        """Fill the Hessian for the shares asked for.
+        """Fill the Hessian for the requested shares; returns whether it changed.
 
         Args:
-            renewed: Whether what does not depend on them is another than before.
-
-        Returns:
-            Whether the Hessian is another one.
+            renewed: Whether its fixed part has changed.
         """
         hessian, shares, count = self.hessian, self.shares, self.shares.shape[0]
         for i in range(count):
@@ -157,15 +137,8 @@ class WrenchProgram:
             self.gradient[i] *= -self.net
 
     def finish(self, unknowns, names):
-        """What a solution means.
-
-        Args:
-            unknowns: The solution (6 n,).
-            names: Name of each contact.
-
-        Returns:
-            The largest error in the program's units, NaN if some error is none; the net wrench (6,) less the wanted one
-            in N and N m; and the wrench (6,) of each contact by its name. All are new arrays.
+        """The largest error of a solution (6 n,) in the program's units, NaN if any is; the net wrench (6,) less the
+        wanted one in N and N m; and the wrench (6,) of each contact by name.
         """
         jacobian, wanted, unit, largest = self.jacobian, self.wanted, self.unit, 0.0
         solution, error, wrenches = memory.values(unknowns), memory.new_vector(6), {}

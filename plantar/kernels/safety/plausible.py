@@ -1,8 +1,4 @@
-"""Kernel of the safety shell: whether what a robot's sensors report can be, and how far commands move in a tick.
-
-`plantar.gait.safety` is the public
-face.
-"""
+"""Kernel of the safety shell: plausibility of sensors, and largest change of commands in a tick."""
 
 from __future__ import annotations
 
@@ -21,17 +17,17 @@ _SHOCK = 400.0  # m/s^2
 
 
 class BodyCheck:
-    """Whether joint angles and IMU can be, one tick after the other.
+    """Plausibility of joint angles and IMU, tick by tick.
 
     Args:
         joints: Number of joint angles.
-        frozen: Ticks after which sensors that report the very same bits are stuck.
-        slip: Angle in rad by which a joint's step differs from its last one where its encoder has jumped.
+        frozen: Ticks after which sensors that report the same bits are stuck.
+        slip: Difference in rad of a joint's last two steps from which its encoder has jumped.
 
     Attributes:
-        imu_same: Ticks for which the IMU has reported the same.
-        joints_same: Ticks for which all joints have.
-        slipped: Whether an encoder has jumped; `slips` (k,) in rad is by how much each has.
+        imu_same: Ticks without a change of the IMU.
+        joints_same: Ticks without a change of any joint.
+        slipped: Whether an encoder has jumped, by `slips` (k,) in rad.
     """
 
     def __init__(self, joints, frozen, slip=0.02):
@@ -44,15 +40,12 @@ class BodyCheck:
         self.slips, self.steps = np.zeros(joints), np.zeros(joints)
 
     def check(self, joints, gyro, accelerometer):
-        """What is wrong with a reading whose arrays are of the right sizes; NaN is not this check's.
-
-        Args:
-            joints: Joint angles (k,) in rad.
-            gyro: Angular velocity (3,) in rad/s.
-            accelerometer: Specific force (3,) in m/s^2.
+        """Check a reading of the right sizes: joint angles (k,) in rad, gyro (3,) in rad/s and accelerometer (3,) in
+        m/s^2.
 
         Returns:
-            0 for none, 1 for a joint angle and 2 for an IMU that cannot be, 3 for a stuck IMU, 4 for stuck joints.
+            0 for no fault, 1 for an impossible joint angle, 2 for an impossible IMU, 3 for a stuck IMU, 4 for stuck
+            joints. NaN is not checked here.
         """
         q, w, a = memory.values(joints), memory.values(gyro), memory.values(accelerometer)
         kept, n = memory.room(self.kept), self.joints
@@ -97,17 +90,12 @@ class BodyCheck:
 
 
 class SoleCheck:
-    """What the soles carry, and whether they can, one tick after the other.
-
-    Args:
-        weight: Weight of the robot in N.
+    """Plausibility of the forces on the soles of a robot of a weight in N, tick by tick.
 
     Attributes:
-        left: Force in N on the left sole, of the taxels that report one.
-        right: Force on the right sole.
-        left_same: Ticks for which the left sole has reported the same force.
-        right_same: Ticks for which the right one has.
-        swapped: Whether the soles have exchanged what they report.
+        left: Force in N on the left sole, of the taxels that report one; `right` likewise.
+        left_same: Ticks without a change of `left`; `right_same` likewise.
+        swapped: Whether the soles have exchanged their reports.
     """
 
     def __init__(self, weight):
@@ -118,10 +106,8 @@ class SoleCheck:
         self.swapped = False
 
     def update(self, left, left_count, right, right_count):
-        """Take the forces of a tick: `left_count` on the `left` sole, `right_count` on the `right`, as wired.
-
-        Returns:
-            0.
+        """Take the forces of a tick: `left_count` on the `left` sole, `right_count` on the `right`, as wired; Returns
+        0.
         """
         new_left, new_right = _total(memory.values(left), left_count), _total(memory.values(right), right_count)
         if self.swapped:
@@ -146,16 +132,7 @@ class SoleCheck:
 
 
 def farthest(before, now, count):
-    """The largest change of a number in a tick.
-
-    Args:
-        before: Numbers of the tick before.
-        now: Numbers of this one.
-        count: How many there are.
-
-    Returns:
-        The change; NaN where a number is none.
-    """
+    """The largest change of the first `count` numbers from `before` to `now`; returns NaN if any is."""
     a, b = memory.values(before), memory.values(now)
     largest = 0.0
     for i in range(count):
@@ -166,7 +143,6 @@ def farthest(before, now, count):
 
 
 def _total(force, count):
-    """The sum of the forces that are numbers."""
     total = 0.0
     for i in range(count):
         value = force[i]

@@ -1,1 +1,1 @@
-"""What simulated sensors read: IMU, encoders, taxels, rays, and the noise in them."""
+"""Readings of simulated IMU, encoders, taxels and rays, and their noise."""

@@ -1,7 +1,4 @@
-"""Kernel of rays against simple solids, as MuJoCo casts them: the same operations in the same order, to the last bit.
-
-As MuJoCo's `mj_ray`; solids that no ray can reach are left out once for all rays.
-"""
+"""Kernel of rays against simple solids, equal to MuJoCo's `mj_ray` to the last bit."""
 
 from __future__ import annotations
 
@@ -13,19 +10,19 @@ _TINY = 1e-15  # mjMINVAL
 
 
 def cast_rays(starts, ways, reach, ids, kinds, sizes, bounds, positions, frames, lengths):
-    """How far rays go until they meet the first solid.
+    """Length of rays to the first solid; solids that no ray can reach are left out once for all.
 
     Args:
         starts: Where the rays begin (n, 3) in the world in m; at least one.
         ways: Unit vectors (n, 3) along them.
-        reach: Length in m beyond which a meeting need not be found.
+        reach: Length in m beyond which a hit need not be found.
         ids: Rows (k,) of the solids in `positions` and `frames`.
         kinds: Kind (k,) of each, by MuJoCo's numbers: 0 plane, 2 sphere, 4 ellipsoid, 5 cylinder, 6 box.
-        sizes: Half sizes (k, 3) in m as MuJoCo has them.
-        bounds: Radius (k,) in m of the sphere about a solid's middle that holds it; not read for a plane.
+        sizes: Half sizes (k, 3) in m as in MuJoCo.
+        bounds: Radius (k,) in m of the bounding sphere; not read for a plane.
         positions: Middles (m, 3) in the world in m.
         frames: Rotations (m, 9) from a solid to the world, row by row.
-        lengths: Receives the lengths (n,) in m; -1 where a ray meets nothing; beyond `reach` it may be left out.
+        lengths: Receives the lengths (n,) in m; -1 without a hit; may be left out beyond `reach`.
     """
     n = starts.shape[0]
     x = y = z = 0.0
@@ -54,7 +51,7 @@ def cast_rays(starts, ways, reach, ids, kinds, sizes, bounds, positions, frames,
 
 
 def _ray(k, g, i, starts, ways, kinds, sizes, positions, frames):
-    """Length in m of one ray to one solid; -1 where it meets none."""
+    """Length in m of one ray to one solid; -1 without a hit."""
     kind = kinds[k]
     x, y, z = starts[i, 0] - positions[g, 0], starts[i, 1] - positions[g, 1], starts[i, 2] - positions[g, 2]
     u, v, w = ways[i, 0], ways[i, 1], ways[i, 2]
@@ -89,7 +86,7 @@ def _ray(k, g, i, starts, ways, kinds, sizes, positions, frames):
 
 
 def _nearer(a, b, c):
-    """Smaller root of a t^2 + 2 b t + c that is not negative; -1 where there is none."""
+    """Smaller root of a t^2 + 2 b t + c that is not negative; -1 without one."""
     root = b * b - a * c
     if root < _TINY:
         return -1.0
@@ -102,7 +99,7 @@ def _nearer(a, b, c):
 
 
 def _plane(a, b, px, py, pz, wx, wy, wz):
-    """Length to a plane z = 0 that is seen from above, of half sizes a and b where they are above 0."""
+    """Length to a plane z = 0 seen from above, of half sizes a and b if above 0."""
     if wz > -_TINY:
         return -1.0
     t = -pz / wz
@@ -113,7 +110,6 @@ def _plane(a, b, px, py, pz, wx, wy, wz):
 
 
 def _cylinder(radius, half, px, py, pz, wx, wy, wz):
-    """Length to an upright cylinder."""
     best = -1.0
     if abs(wz) > _TINY:
         for side in range(-1, 2, 2):
@@ -129,7 +125,7 @@ def _cylinder(radius, half, px, py, pz, wx, wy, wz):
 
 
 def _face(p, q, r, wp, wq, wr, half_p, half_q, half_r, best):
-    """The best length so far, or that to the two faces of a box across its axis p where it is less."""
+    """The lesser of the length so far and that to the two faces of a box across its axis p."""
     if abs(wp) > _TINY:
         for side in range(-1, 2, 2):
             t = (side * half_p - p) / wp

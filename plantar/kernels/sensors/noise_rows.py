@@ -1,4 +1,4 @@
-"""Kernel of noise that is drawn many samples at a time and handed out one by one."""
+"""Kernel of noise that is drawn many samples at a time."""
 
 from __future__ import annotations
 
@@ -21,11 +21,7 @@ class NoiseRows:
         self.row = 0
 
     def advance(self):
-        """Go on to the next sample, which is `rows[row]` then.
-
-        Returns:
-            The row.
-        """
+        """Move to the next sample, `rows[row]`, and return the row."""
         self.row += 1
         if self.row >= self.rows.shape[0]:
             self.drawn = self.rows = self.draw()

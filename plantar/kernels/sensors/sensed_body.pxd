@@ -1,4 +1,3 @@
-# C types of sensed_body.py. Without a compiler this file is not read.
 cimport cython
 from .noise_rows cimport NoiseRows
 
@@ -6,17 +5,10 @@ from .noise_rows cimport NoiseRows
 cdef class SensedBody:
     cdef const double[::1] positions
     cdef const Py_ssize_t[::1] places
-    cdef const double[::1] rate
-    cdef const double[::1] force
+    cdef const double[::1] rate, force
     cdef NoiseRows noise
-    cdef const double[::1] offsets
-    cdef const double[::1] bias
+    cdef const double[::1] offsets, bias
     cdef tuple arrays
-    cdef double[::1] told_joints
-    cdef double[::1] told_rate
-    cdef double[::1] told_force
-
+    cdef double[::1] told_joints, told_rate, told_force
     cpdef tuple read(self)
-
-    @cython.locals(count=Py_ssize_t, i=Py_ssize_t)
     cdef void _take(self, Py_ssize_t row) noexcept

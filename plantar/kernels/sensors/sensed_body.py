@@ -1,4 +1,4 @@
-"""Kernel of what encoders and an inertial measurement unit read of a simulated body."""
+"""Kernel of the readings of encoders and IMU of a simulated body."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ class SensedBody:
     """Reads k joints and an IMU.
 
     Args:
-        positions: Coordinates (n,) of the body, where the simulator writes them.
-        places: Where each joint's angle stands there (k,).
+        positions: Coordinates (n,) of the body, written by the simulator.
+        places: Index (k,) of each joint's angle there.
         rate: Angular velocity (3,) in rad/s, likewise.
         force: Specific force (3,) in m/s^2, likewise.
         noise: `NoiseRows` of the angles in rad, the rate and the force (k + 6).
-        offsets: What the encoders add (k,) in rad; empty for nothing.
-        bias: What the gyro adds (3,) in rad/s; likewise.
+        offsets: Offsets (k,) of the encoders in rad; empty for none.
+        bias: Bias (3,) of the gyro in rad/s; likewise.
     """
 
     def __init__(self, positions, places, rate, force, noise, offsets, bias):
@@ -32,17 +32,12 @@ class SensedBody:
         self.told_joints, self.told_rate, self.told_force = self.arrays
 
     def read(self):
-        """What they read now.
-
-        Returns:
-            Angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2, to keep.
-        """
+        """New arrays of angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2."""
         self._take(self.noise.advance())
         joints, rate, force = self.arrays
         return joints.copy(), rate.copy(), force.copy()
 
     def _take(self, row):
-        """Read with a row of the noise."""
         count = self.places.shape[0]
         for i in range(count):
             self.told_joints[i] = self.positions[self.places[i]] + self.noise.rows[row, i]

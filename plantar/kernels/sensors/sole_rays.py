@@ -1,4 +1,4 @@
-"""Kernel of the proximity sensors of one sole: a ray of each taxel against the ground, and what is reported of it."""
+"""Kernel of the proximity sensors of one sole: a ray of each taxel against the ground."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ _dot = np.dot
 
 
 class SoleRays:
-    """The rays of n taxels, cast again and again from where the sole is.
+    """The rays of n taxels, cast from the sole's current pose.
 
     Args:
         starts: Where the rays begin (n, 3) in the sole frame in m.
         ways: Unit vectors (n, 3) along them.
         lift: How far in m a ray begins inside the sole.
         most: Range of the sensors in m.
-        origin: The sole's origin (3,) in the world in m, where the simulator writes it.
+        origin: The sole's origin (3,) in the world in m, written by the simulator.
         rotation: Rotation (3, 3) from the sole to the world, likewise.
-        solids: Rows, kinds, sizes and bounds of the solids, as `cast_rays` takes them.
-        positions: Middles (m, 3) of all solids in the world in m, where the simulator writes them.
+        solids: Rows, kinds, sizes and bounds of the solids, as in `cast_rays`.
+        positions: Middles (m, 3) of all solids in the world in m, written by the simulator.
         frames: Rotations (m, 9) from each solid to the world, likewise.
 
     Attributes:
-        starts: Where the rays began (n, 3) in the world in m, of those aimed last.
+        starts: Where the last rays began (n, 3) in the world in m.
         ways: Unit vectors (n, 3) along them in the world.
-        lengths: How far they go (n,) in m until they meet something; below 0 where they meet nothing.
-        distances: Distance (n,) from each taxel to the ground in m; inf where nothing is in range.
+        lengths: Their lengths (n,) in m; below 0 without a hit.
+        distances: Distance (n,) from each taxel to the ground in m; inf out of range.
     """
 
     def __init__(self, starts, ways, lift, most, origin, rotation, solids, positions, frames):
@@ -55,29 +55,23 @@ class SoleRays:
         self.told = self.sample
 
     def lies_below(self, reach, height):
-        """Whether any taxel can be below a height.
-
-        Args:
-            reach: Distance in m of the farthest taxel from the sole's origin.
-            height: The height in the world in m.
-        """
+        """Whether any taxel, at most `reach` in m from the origin, can be below a `height` in m in the world."""
         tilt = math.sqrt(self.lowest[6] * self.lowest[6] + self.lowest[7] * self.lowest[7])
         return self.origin[2] - reach * tilt <= height
 
     def aim(self):
-        """Let the rays begin where the sole is now."""
+        """Begin the rays at the sole's current pose."""
         _dot(self.own_starts, self.turned_back, self.starts)
         _dot(self.own_ways, self.turned_back, self.ways)
         self._shift()
 
     def _shift(self):
-        """Put the turned starts where the sole is."""
         for i in range(self.start.shape[0]):
             for j in range(3):
                 self.start[i, j] = self.start[i, j] + self.origin[j]
 
     def cast(self):
-        """Aim the rays, and let them go until they meet a solid."""
+        """Aim and cast the rays."""
         self.aim()
         ground_rays.cast_rays(
             self.start,
@@ -99,28 +93,19 @@ class SoleRays:
             self.distance[i] = length - self.lift if 0.0 <= length <= self.most + self.lift else _INFINITE
 
     def see_nothing(self):
-        """Set `distances` to the readings of taxels that are out of range."""
+        """Set `distances` to out of range."""
         for i in range(self.distance.shape[0]):
             self.distance[i] = _INFINITE
 
     def tell(self, noise, row, dead):
-        """Readings of the sensors at `distances`.
-
-        Args:
-            noise: `NoiseRows` in m.
-            row: The row of it that is added.
-            dead: Indices of dead taxels.
-
-        Returns:
-            Distances (n,) in m, inf where nothing is in range, NaN of a dead taxel.
-        """
+        """Readings (n,) in m of the sensors at `distances`, with a row of `NoiseRows`: inf out of range, NaN dead."""
         self._take(noise, row)
         for i in range(dead.shape[0]):
             self.told[dead[i]] = _NONE
         return self.sample.copy()
 
     def _take(self, noise, row):
-        """The distances with noise, as far as the sensors reach."""
+        """The distances with noise, up to the sensors' range."""
         for i in range(self.told.shape[0]):
             value = self.distance[i] + noise.rows[row, i]
             self.told[i] = _INFINITE if value > self.most else value

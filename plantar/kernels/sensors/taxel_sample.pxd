@@ -1,4 +1,3 @@
-# C types of taxel_sample.py. Without a compiler this file is not read.
 cimport cython
 from ..contacts.contacts_in_sole cimport ContactsInSole
 from ..contacts.foot_contacts cimport FootContacts
@@ -10,15 +9,10 @@ cdef double _NONE
 @cython.final
 cdef class TaxelSample:
     cdef NoiseRows noise
-    cdef double least
-    cdef double most
+    cdef double least, most
     cdef const Py_ssize_t[::1] dead
     cdef object sample
     cdef double[::1] told
-
     cpdef of(self, const double[:] force)
-
     cpdef of_contacts(self, PressedSole sole, FootContacts contacts, ContactsInSole seen, double reach)
-
-    @cython.locals(i=Py_ssize_t, value=double)
     cdef void _take(self, const double[:] force, Py_ssize_t row) noexcept

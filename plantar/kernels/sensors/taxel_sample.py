@@ -1,4 +1,4 @@
-"""Kernel of the samples of taxels: what their electronics make of the forces on them."""
+"""Kernel of the samples of taxels: their electronics' readings of forces."""
 
 from __future__ import annotations
 
@@ -29,35 +29,17 @@ class TaxelSample:
         self.told = self.sample
 
     def of(self, force):
-        """What the taxels read.
-
-        Args:
-            force: Force (n,) on each taxel in N.
-
-        Returns:
-            Readings (n,) in N, NaN of a dead taxel.
-        """
+        """Readings (n,) in N of forces (n,) in N; NaN of a dead taxel."""
         self._take(force, self.noise.advance())
         return self.sample.copy()
 
     def of_contacts(self, sole, contacts, seen, reach):
-        """What the taxels read of what presses on their sole.
-
-        Args:
-            sole: The `PressedSole`.
-            contacts: As its `stand` takes them.
-            seen: Likewise.
-            reach: Likewise.
-
-        Returns:
-            Readings as of `of`.
-        """
+        """Readings of the contacts of their `PressedSole`; arguments as of its `stand`."""
         sole.stand(contacts, seen, reach)
         self._take(sole.forces, self.noise.advance())
         return self.sample.copy()
 
     def _take(self, force, row):
-        """One sample with a row of the noise."""
         for i in range(self.told.shape[0]):
             value = force[i] + self.noise.rows[row, i]
             if value < self.least:

@@ -1,6 +1,6 @@
-"""Kernels over many readings of one sole: one pass over the forces, nothing kept but the results.
+"""Kernels over many readings (frames, n) in N of one `SoleKernel` in one pass, without the interpreter lock.
 
-They release the interpreter lock: threads may each do a part of the frames.
+Forces up to `threshold`, NaN, and from `saturation` on are left out.
 """
 
 from __future__ import annotations
@@ -17,17 +17,9 @@ _NONE = float("nan")
 
 
 def wrenches(sole, force, threshold, saturation, out):
-    """Wrench of the active taxels of each frame; reference and error as `SoleKernel.loads`.
+    """Wrench of the active taxels of each frame (frames, 6); reference and error as `SoleKernel.loads`.
 
-    Each sum runs in its own loop over every fourth taxel, which the compiler vectorises without changing its
-    order.
-
-    Args:
-        sole: The `SoleKernel`.
-        force: Normal forces (frames, n) in N.
-        threshold: Forces up to this, and NaN, are left out; in N.
-        saturation: Forces from this on are left out; in N.
-        out: Receives the wrenches (frames, 6) about the sole frame's origin in N and N m.
+    Each sum runs over every fourth taxel, which the compiler vectorises without changing its order.
     """
     scratch = sole.borrow()
     with cython.nogil:
@@ -36,7 +28,6 @@ def wrenches(sole, force, threshold, saturation, out):
 
 
 def _wrenches(sole, force, threshold, saturation, kept, out):
-    """`wrenches` with room (n,) to work in."""
     frames, n = force.shape[0], sole.taxels
     columns = sole.columns
     lever_x, lever_y = sole.lever_x, sole.lever_y
@@ -84,16 +75,9 @@ def _wrenches(sole, force, threshold, saturation, kept, out):
 
 
 def loads(sole, force, threshold, saturation, out):
-    """Wrench, contact area and CoP of each frame: to the last bit what `SoleKernel.loads` gives.
+    """Wrench, area in m^2 and CoP in m of each frame (frames, 9), equal to `SoleKernel.loads` to the last bit.
 
     A taxel that is not active adds a 0. On a flat sole the moments are those of the CoP.
-
-    Args:
-        sole: The `SoleKernel`.
-        force: Normal forces (frames, n) in N.
-        threshold: Forces up to this, and NaN, are left out; in N.
-        saturation: Forces from this on are left out; in N.
-        out: Receives (frames, 9): wrench about the sole frame's origin, area in m^2, CoP in m, NaN where there is none.
     """
     scratch = sole.borrow()
     with cython.nogil:
@@ -102,7 +86,6 @@ def loads(sole, force, threshold, saturation, out):
 
 
 def _loads(sole, force, threshold, saturation, kept, covered, out):
-    """`loads` with rooms (n,) to work in."""
     n = sole.taxels
     columns, areas = sole.columns, sole.areas
     lever_x, lever_y = sole.lever_x, sole.lever_y
@@ -142,19 +125,13 @@ def _loads(sole, force, threshold, saturation, kept, covered, out):
 
 
 def hulls(sole, force, threshold, saturation, size, measure, points):
-    """Support polygon of each frame, with its area and centroid; reference and error as `SoleKernel.hull`.
+    """Support polygon of each frame, as `SoleKernel.hull`; returns the number of frames done, fewer if the room is used
+    up.
 
     Args:
-        sole: The `SoleKernel`.
-        force: Normal forces (frames, n) in N.
-        threshold: Taxels up to this, and NaN, are not active; in N.
-        saturation: Taxels from this on are not active; in N.
         size: Receives the number of vertices (frames,).
-        measure: Receives area in m^2 and centroid in m (frames, 3), NaN where there is no contact.
-        points: Receives the vertices (room, 2) in m, one polygon after the other; of no length where none are wanted.
-
-    Returns:
-        Number of frames done: fewer than all where the room is used up.
+        measure: Receives area in m^2 and centroid in m (frames, 3), NaN without contact.
+        points: Receives the vertices (room, 2) in m, one polygon after the other; empty where not wanted.
     """
     scratch = sole.borrow()
     with cython.nogil:
@@ -164,7 +141,6 @@ def hulls(sole, force, threshold, saturation, size, measure, points):
 
 
 def _hulls(sole, force, threshold, saturation, scratch, size, measure, points):
-    """`hulls` with arrays to work in."""
     filled = 0
     room = points.shape[0]
     for k in range(force.shape[0]):

@@ -1,4 +1,4 @@
-"""Kernel of the ground's plane under a sole: least squares, and least median of squares where some taxels see else."""
+"""Kernel of the ground's plane under a sole: least squares, or least median of squares if taxels disagree."""
 
 from __future__ import annotations
 
@@ -19,11 +19,7 @@ _DRAWS = 80  # triples of taxels that a robust fit tries: with 40 % outliers all
 
 
 class GroundScratch:
-    """What the fit of one reading works in.
-
-    Args:
-        n: Number of taxels.
-    """
+    """Work arrays of the fit of one reading of n taxels."""
 
     def __init__(self, n):
         self.points = np.zeros((n, 3))
@@ -36,10 +32,10 @@ class GroundScratch:
 
 
 class GroundFit:
-    """Fits planes to what the taxels of one sole see.
+    """Fits planes to the ground distances of one sole's taxels.
 
     Args:
-        positions: Taxel centres (n, 3) in the sole frame in m.
+        positions: Taxel centers (n, 3) in the sole frame in m.
         normals: z axes (n, 3) of the taxels in the sole frame.
     """
 
@@ -52,16 +48,16 @@ class GroundFit:
         self.free = []
 
     def frames(self, distance, reach, tolerance, out, directions, inliers):
-        """Fit a plane to each of some readings, without the interpreter lock.
+        """Fit a plane to each reading, without the interpreter lock.
 
         Args:
             distance: Distances (frames, n) in m.
             reach: Distance in m from which a reading, also a negative one, is out of range.
             tolerance: Distance in m from the plane that noise and rough ground explain.
-            out: Receives height in m, slopes along x and y, and root mean square residual in m (frames, 4): NaN where
-                no taxel sees the ground.
-            directions: Receives the directions (frames,) in which the points determine a slope; -1 where there is none.
-            inliers: Receives the taxels (frames, n) that were used; of zeros.
+            out: Receives height in m, slopes along x and y, and root mean square residual in m (frames, 4): NaN without
+                ground.
+            directions: Receives the number of determined slopes (frames,); -1 without ground.
+            inliers: Receives the used taxels (frames, n); of zeros.
         """
         scratch = self._borrow()
         with cython.nogil:
@@ -69,31 +65,25 @@ class GroundFit:
         self.free.append(scratch)
 
     def _fit_each(self, distance, reach, tolerance, out, directions, inliers, scratch):
-        """`frames` with arrays to work in."""
         for k in range(distance.shape[0]):
             directions[k] = self._fit(distance[k], reach, tolerance, out[k], inliers[k], scratch)
         return 0
 
     def fit(self, distance, reach, tolerance, out, inliers):
-        """Fit a plane to one reading; the rows of `frames`.
-
-        Returns:
-            The directions.
-        """
+        """Fit a plane to one reading, the rows of `frames`; returns the directions."""
         scratch = self._borrow()
         directions = self._fit(distance, reach, tolerance, out, inliers, scratch)
         self.free.append(scratch)
         return directions
 
     def _borrow(self):
-        """Arrays to work in, owned by the call until they are given back; those of a call that failed never are."""
+        """Work arrays, owned by the call until given back; those of a failed call are dropped."""
         try:
             return self.free.pop()
         except IndexError:
             return GroundScratch(self.taxels)
 
     def _fit(self, distance, reach, tolerance, out, inliers, scratch):
-        """`fit` with arrays to work in."""
         seen = 0
         for i in range(self.taxels):
             d = distance[i]
@@ -127,10 +117,8 @@ class GroundFit:
         return directions
 
     def _agree(self, seen, tolerance, scratch):
-        """Keep the points that agree with the plane of least median of squares through three of them.
-
-        Returns:
-            Whether there is one.
+        """Keep the points that agree with the plane of least median of squares through three of them; whether there is
+        one.
         """
         if scratch.triples_of != seen:
             with cython.gil:
@@ -169,7 +157,6 @@ class GroundFit:
         return True
 
     def _find_triples(self, seen, scratch):
-        """Let the scratch hold the triples of so many points."""
         triples = self.triples.get(seen)
         if triples is None:
             triples = self.triples[seen] = _triples(seen)
@@ -179,7 +166,7 @@ class GroundFit:
 
 
 def _misses(seen, scratch):
-    """Distance along z of every point from the plane; the largest of those that are kept."""
+    """Distance along z of every point from the plane; returns the largest of kept ones."""
     worst = 0.0
     for i in range(seen):
         scratch.miss[i] = abs(
@@ -194,7 +181,7 @@ def _misses(seen, scratch):
 
 
 def _least_squares(seen, scratch):
-    """Plane through the kept points; the directions it is determined in, the flattest plane where not in both."""
+    """Plane through the kept points, the flattest if not determined; the number of determined directions."""
     x = y = z = 0.0
     count = 0
     for i in range(seen):
@@ -235,7 +222,7 @@ def _least_squares(seen, scratch):
 
 
 def _ranked(seen, rank, scratch):
-    """The value of `miss` with so many below it; the values change their places (Hoare's selection)."""
+    """The value of `miss` with so many below it; reorders the values (Hoare's selection)."""
     miss = scratch.miss
     low, high = 0, seen - 1
     while low < high:
@@ -260,7 +247,7 @@ def _ranked(seen, rank, scratch):
 
 
 def _triples(n):
-    """Index triples (3, m) of n points: all of them where they are few, else the same random ones each time."""
+    """Index triples (3, m) of n points: all of a few, else the same random ones each time."""
     if n * (n - 1) * (n - 2) <= 6 * _DRAWS:
         a, b, c = np.meshgrid(*[np.arange(n)] * 3, indexing="ij")
         ordered = (a < b) & (b < c)

@@ -1,4 +1,4 @@
-"""What a percept is made of, and the results that most of its members read: what is active, sums of loads, the hull."""
+"""Fields of a percept, and the results that most of its members read: active taxels, sums of loads, the hull."""
 
 from __future__ import annotations
 
@@ -10,19 +10,7 @@ _INFINITE = float("inf")
 
 
 class PerceptFields:
-    """The fields of `plantar.Percept`.
-
-    That has `PLAIN`, the classes of layout and reading and the options that need no check, and a method `_checked`,
-    which gives threshold, masks and options where something else came.
-
-    Args:
-        layout: The sole, n taxels.
-        reading: What its taxels measured.
-        force_threshold: Activation threshold in N; the layout's own where None.
-        active: Mask (n,) of taxels to take as active; those above the threshold where None.
-        stuck: Mask (n,) of stuck taxels; none where None.
-        options: Other options; the usual ones where None.
-    """
+    """The fields of `plantar.Percept`, which has `PLAIN`, the classes that need no check, and `_checked`."""
 
     def __init__(self, layout, reading, force_threshold=None, *, active=None, stuck=None, options=None):
         of_layout, of_reading, usual = self.PLAIN
@@ -36,30 +24,27 @@ class PerceptFields:
             self._keep(layout, reading, *self._checked(layout, reading, force_threshold, active, stuck, options))
 
     def _keep(self, layout, reading, force_threshold, active, stuck, options):
-        """Keep fields that are right."""
         compared = active is None and stuck is None and not options.fill
         self._fill(layout.kernel, layout, reading, force_threshold, active, stuck, options, compared)
 
     def _fill(self, kernel, layout, reading, force_threshold, active, stuck, options, compared):
-        """`_keep`, where it is known whether what is active is only a comparison, which a kernel then makes on
-        its way."""
+        """`_keep`, where it is known whether a comparison, made by a kernel, decides what is active."""
         self._kernel, self._compared = kernel, compared
         self.layout, self.reading, self.force_threshold, self.options = layout, reading, force_threshold, options
         self._given_active, self._stuck = active, stuck
         self._summed = self._found = None
 
     def _take_loads(self, loads):
-        """Keep loads that are summed already."""
         self._summed = loads
 
     def _active_above(self):
-        """Mask (n,) of the taxels above the threshold; None where more than a comparison decides what is active."""
+        """Mask (n,) of the taxels above the threshold; None where more than a comparison decides."""
         if self._compared:
             return self._kernel.active(self.reading.force, self.force_threshold, self._kernel.limit)
         return None
 
     def _loads(self):
-        """Wrench, contact area and CoP (9,), summed in one pass when the first of them is asked for."""
+        """Wrench, contact area and CoP (9,), summed in one pass."""
         if self._summed is None:
             kernel, force = self._kernel, self.reading.force
             if self._compared:
@@ -75,7 +60,7 @@ class PerceptFields:
         return self._loads()[:6]
 
     def _cop(self):
-        """Centre of pressure (2,) in m; None without load."""
+        """Center of pressure (2,) in m; None without load."""
         loads = self._loads()
         vertical = memory.values(loads)[2]
         return loads[7:] if 0.0 < vertical < _INFINITE else None
@@ -86,7 +71,7 @@ class PerceptFields:
         return vectors.vector2(x, y) if len(polygon) else None
 
     def _hull(self):
-        """Support polygon (k, 2) in m, its area and x and y of its centroid, found when the first is asked for."""
+        """Support polygon (k, 2) in m, its area, and x and y of its centroid."""
         if self._found is None:
             kernel = self._kernel
             if self._compared:

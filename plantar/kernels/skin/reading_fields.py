@@ -1,4 +1,4 @@
-"""What a reading keeps: a call that runs no Python where time and arrays come as they should."""
+"""Fields of a reading, kept without running Python where time and arrays are plain."""
 
 from __future__ import annotations
 
@@ -16,15 +16,7 @@ _LARGEST = 1e300
 
 
 class ReadingFields:
-    """The fields of `plantar.Reading`, whose method `_checked` gives them where they are not plain.
-
-    Args:
-        time: Time in s.
-        force: Normal force (n,) on each taxel in N.
-        proximity: Distance (n,) in m, or None.
-        temperature: Temperature (n,) in degC, or None.
-        acceleration: Acceleration (n, 3) in m/s^2, or None.
-    """
+    """The fields of `plantar.Reading`, whose method `_checked` converts those that are not plain."""
 
     def __init__(self, time, force, proximity=None, temperature=None, acceleration=None):
         copy = vectors.kept(force)
@@ -38,11 +30,9 @@ class ReadingFields:
             self._keep(*self._checked(time, force, proximity, temperature, acceleration))
 
     def _keep(self, time, force, proximity, temperature, acceleration):
-        """Keep fields that are right."""
         self._fill(time, force, proximity, temperature, acceleration)
 
     def _fill(self, time, force, proximity, temperature, acceleration):
-        """`_keep`, for the compiled form."""
         if cython.compiled:
             self.time, self.force, self.proximity = time, force, proximity
             self.temperature, self.acceleration = temperature, acceleration

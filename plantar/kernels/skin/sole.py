@@ -1,7 +1,6 @@
-"""Kernels of one sole: loads and support polygon of its active taxels, one call each for a reading.
+"""Kernels of one sole: loads and support polygon of its active taxels.
 
-What does not change from reading to reading is prepared once. A call borrows the arrays that it works in: calls from
-several threads do not meet in them.
+Constants of the sole are prepared once. A call borrows its work arrays, so that threads do not share them.
 """
 
 from __future__ import annotations
@@ -22,12 +21,12 @@ _NOT_UPPER = 2
 
 
 class SoleScratch:
-    """What one call works in at a time.
+    """Work arrays of one call.
 
     Args:
         taxels: Number of taxels.
-        corners: Number of points that their cells have as corners.
-        levels: Number of x that those differ in.
+        corners: Number of corner points of their cells.
+        levels: Number of different x of those.
     """
 
     def __init__(self, taxels, corners, levels):
@@ -53,22 +52,17 @@ class SoleScratch:
         return made
 
     def hull(self, size):
-        """The hull (size, 2) in m that `SoleKernel.find_hull` left in `polygon`, as a new array."""
+        """The hull (size, 2) in m in `polygon`, as a new array."""
         return vectors.points_of(self.polygon, size)
 
     def copy_hull(self, size, out):
-        """Copy the hull that `SoleKernel.find_hull` left in `polygon`.
-
-        Args:
-            size: Number of its corners.
-            out: Receives them (size, 2) in m.
-        """
+        """Copy the hull in `polygon` to `out` (size, 2) in m."""
         for i in range(size):
             out[i, 0] = self.polygon[i, 0]
             out[i, 1] = self.polygon[i, 1]
 
     def measure_hull(self, size):
-        """Area in m^2 and centroid in m of that hull of `size` corners; NaN where it is empty."""
+        """Area in m^2 and centroid in m of the hull of `size` corners in `polygon`; NaN if empty."""
         if size == 0:
             return 0.0, _NONE, _NONE
         return convex.area_and_centroid(self.polygon[:size])
@@ -77,14 +71,16 @@ class SoleScratch:
 class SoleKernel:
     """The taxels of one sole, prepared for the kernels.
 
+    A taxel up to `threshold` in N, from `saturation` on, and NaN is not active.
+
     Args:
-        positions: Taxel centres (n, 3) in the sole frame in m.
+        positions: Taxel centers (n, 3) in the sole frame in m.
         normals: z axes (n, 3) of the taxels in the sole frame.
         areas: Cell areas (n,) in m^2.
         vertices: Corner points (v, 2) in m in the sole plane, shared between cells that meet.
         corner_start: Offsets (n + 1,) of each taxel's corners.
         corner_vertex: Vertex indices of the corners, taxel by taxel, counter-clockwise.
-        threshold: Force in N up to which a taxel is not active, by default.
+        threshold: Default force in N up to which a taxel is not active.
         limit: Force in N from which one is saturated.
     """
 
@@ -150,35 +146,24 @@ class SoleKernel:
         self.free = [SoleScratch(self.taxels, self.corners, self.levels)]
 
     def borrow(self):
-        """Arrays to work in, owned by the call until they are given back; those of a call that failed never are."""
+        """Work arrays, owned by the call until given back; those of a failed call are dropped."""
         try:
             return self.free.pop()
         except IndexError:
             return SoleScratch(self.taxels, self.corners, self.levels)
 
     def give_back(self, scratch):
-        """Take back what was borrowed."""
         self.free.append(scratch)
         return 0
 
     def active(self, force, threshold, saturation):
-        """Active taxels (T 4.22), as `plantar.activation.active_taxels`.
-
-        Args:
-            force: Normal forces (n,) in N.
-            threshold: A taxel up to this, and NaN, is not active; in N.
-            saturation: A taxel from this on is not active; in N.
-
-        Returns:
-            Mask (n,).
-        """
+        """Mask (n,) of active taxels (T 4.22), as `plantar.activation.active_taxels`."""
         scratch = self._borrow_with_active(force, threshold, saturation)
         mask = self._copied(scratch.mask)
         self.give_back(scratch)
         return mask
 
     def _copied(self, mask):
-        """A mask (n,) as a new array."""
         made = memory.new_mask(self.taxels)
         out = memory.flags(made)
         for i in range(self.taxels):
@@ -186,8 +171,7 @@ class SoleKernel:
         return made
 
     def _borrow_with(self, force):
-        """Borrowed arrays with the forces: to copy them takes a tenth of the time that an array is asked for its
-        buffer; one that is strided or of another kind is asked."""
+        """Borrowed arrays with the forces, copied in a tenth of a buffer's time unless strided or of another kind."""
         if memory.size(force) != self.taxels:
             self._check(force)
         scratch = self.borrow()
@@ -200,7 +184,6 @@ class SoleKernel:
         return scratch
 
     def _take_mask(self, active, scratch):
-        """Copy a mask to what was borrowed, likewise."""
         if memory.is_mask(active, self.taxels):
             values = memory.flags(active)
             for i in range(self.taxels):
@@ -210,18 +193,17 @@ class SoleKernel:
         return 0
 
     def _check(self, force):
-        """Refuse forces that are not one a taxel: a loop over the taxels would read past them."""
+        """Refuse forces that are not one a taxel: a loop would read past them."""
         if force is None or force.shape[0] != self.taxels:
             raise ReadingError(f"{_count(force)} forces for {self.taxels} taxels; expected one each")
         return 0
 
     def _read(self, force, scratch):
-        """Copy forces through their buffer."""
         for i in range(self.taxels):
             scratch.force[i] = force[i]
 
     def _read_mask(self, active, scratch):
-        """Copy a mask through its buffer, and refuse one that is not one value a taxel."""
+        """Copy a mask through its buffer, and refuse a wrong length."""
         if active is None or active.shape[0] != self.taxels:
             raise ReadingError(f"mask has {_count(active)} values for {self.taxels} taxels; expected one each")
         for i in range(self.taxels):
@@ -240,15 +222,7 @@ class SoleKernel:
             out[i] = (force[i] > threshold) & (force[i] < saturation)
 
     def faults(self, force, saturation):
-        """Dead and saturated taxels, as `plantar.health.dead_taxels` and `saturated_taxels`.
-
-        Args:
-            force: Normal forces (n,) in N.
-            saturation: A taxel from this on, up to the largest finite number, is saturated; in N.
-
-        Returns:
-            Masks (n,): taxels that read NaN or inf, and saturated ones.
-        """
+        """Masks (n,) of dead taxels and of saturated ones, as `plantar.health.dead_taxels` and `saturated_taxels`."""
         scratch = self._borrow_with(force)
         for i in range(self.taxels):
             finite = -_INFINITE < scratch.force[i] < _INFINITE
@@ -259,16 +233,10 @@ class SoleKernel:
         return masks
 
     def loads(self, force, active):
-        """Wrench, contact area and CoP of the active taxels (T 4.21-4.23).
+        """Wrench about the sole frame's origin, area in m^2 and CoP in m (9,) of the active taxels (T 4.21-4.23); NaN
+        without load.
 
         Error of each sum below n * 1.2e-16 of the sum of its terms' absolute values.
-
-        Args:
-            force: Normal forces (n,) in N; those of taxels that are not active are not read.
-            active: Mask (n,).
-
-        Returns:
-            (9,): wrench about the sole frame's origin in N and N m, area in m^2, CoP in m: NaN where there is none.
         """
         scratch = self._borrow_with(force)
         self._take_mask(active, scratch)
@@ -278,16 +246,7 @@ class SoleKernel:
         return sums
 
     def loads_above(self, force, threshold, saturation):
-        """`loads` of the taxels that `active` gives, without a mask for anybody else.
-
-        Args:
-            force: Normal forces (n,) in N.
-            threshold: A taxel up to this, and NaN, is not active; in N.
-            saturation: A taxel from this on is not active; in N.
-
-        Returns:
-            (9,), as `loads`.
-        """
+        """`loads` of the taxels of `active`, without a mask."""
         scratch = self._borrow_with_active(force, threshold, saturation)
         self._loads(scratch.force, scratch.mask, scratch.sums)
         sums = scratch.summed(0, 9)
@@ -295,16 +254,7 @@ class SoleKernel:
         return sums
 
     def unsaturated_loads(self, force, threshold, saturation):
-        """`loads_above` of a sole without a saturated taxel.
-
-        Args:
-            force: Normal forces (n,) in N.
-            threshold: A taxel up to this, and NaN, is not active; in N.
-            saturation: A taxel from this on is saturated; in N.
-
-        Returns:
-            (9,), as `loads`; None where a taxel is saturated.
-        """
+        """`loads_above`, but None where a taxel is saturated."""
         if not self.flat or memory.size(force) != self.taxels:
             return None if self.reaches(force, saturation) else self.loads_above(force, threshold, saturation)
         # What is active is finite here, so that of the sums those with a column of 0 are 0, and two others are the
@@ -329,15 +279,7 @@ class SoleKernel:
         return sums
 
     def reaches(self, force, level):
-        """Whether some taxel's force is as large as a level.
-
-        Args:
-            force: Normal forces (n,) in N.
-            level: The level in N.
-
-        Returns:
-            True where one is; NaN is not.
-        """
+        """Whether some taxel's force reaches a level in N; False for NaN."""
         scratch = self._borrow_with(force)
         largest = -_INFINITE
         for i in range(self.taxels):
@@ -347,7 +289,6 @@ class SoleKernel:
         return bool(self.taxels and largest >= level)
 
     def _loads(self, force, active, out):
-        """`loads` into an array."""
         fx = fy = fz = tx = ty = tz = area = sx = sy = 0.0
         for i in range(self.taxels):
             if active[i]:
@@ -368,36 +309,22 @@ class SoleKernel:
             out[7] = out[8] = _NONE
 
     def hull(self, active):
-        """Convex hull of the active cells (T 4.24), with its area and centroid.
+        """Convex hull (k, 2) in m of the active cells (T 4.24), with its area and x and y of its centroid, NaN without
+        contact.
 
-        Only the ends of each row of shifted copies count; their corners come sorted. Errors as
-        `hull.convex_hull`, `convex.area_and_centroid`.
-
-        Args:
-            active: Mask (n,).
-
-        Returns:
-            Polygon (k, 2) in m, counter-clockwise; area in m^2; x and y of the centroid in m, NaN without contact.
+        Only the ends of each row of shifted copies count; their corners are sorted. Errors as `hull.convex_hull`,
+        `convex.area_and_centroid`.
         """
         scratch = self.borrow()
         self._take_mask(active, scratch)
         return self._hull(scratch)
 
     def hull_above(self, force, threshold, saturation):
-        """`hull` of the taxels that `active` gives, without a mask for anybody else.
-
-        Args:
-            force: Normal forces (n,) in N.
-            threshold: A taxel up to this, and NaN, is not active; in N.
-            saturation: A taxel from this on is not active; in N.
-
-        Returns:
-            As `hull`.
-        """
+        """`hull` of the taxels of `active`, without a mask."""
         return self._hull(self._borrow_with_active(force, threshold, saturation))
 
     def _hull(self, scratch):
-        """`hull` of the mask of what was borrowed, which is given back."""
+        """`hull` of the mask in borrowed arrays, which are given back."""
         size = self.find_hull(scratch.mask, scratch)
         area, x, y = scratch.measure_hull(size)
         polygon = scratch.hull(size)
@@ -405,21 +332,17 @@ class SoleKernel:
         return polygon, area, x, y
 
     def tick(self, force, threshold, saturation, offset, x, y):
-        """What a controller needs of one foot, in one call: `active`, `loads`, `hull`, then the hull moved inwards and
-        the point of it that is closest to another one, as `convex.inner_offset` and `convex.closest_point`.
+        """All that a controller needs of one foot: `active`, `loads`, `hull`, `convex.inner_offset`,
+        `convex.closest_point`.
 
         Args:
-            force: Normal forces (n,) in N.
-            threshold: A taxel up to this, and NaN, is not active; in N.
-            saturation: A taxel from this on is not active; in N.
-            offset: How far the hull's edges move inwards in m; 0 or less, and they stay.
-            x: The other point in m.
-            y: The same.
+            offset: How far the hull's edges move inwards in m; not if 0 or less.
+            x: The point in m to be close to; y likewise.
 
         Returns:
-            Mask (n,); wrench (6,) in N and N m, contact area in m^2, CoP (2,) in m or None without load; polygon (k, 2)
-            in m, its area in m^2, its centroid (2,) in m; the smaller polygon (m, 2) in m; the closest point (2,) in m.
-            The two points are None without contact.
+            Mask (n,); wrench (6,) in N and N m, contact area in m^2, CoP (2,) in m or None; polygon (k, 2) in m, its
+            area in m^2, its centroid (2,) in m; the smaller polygon (m, 2) in m; its closest point (2,) in m. The last
+            two points are None without contact.
         """
         scratch = self._borrow_with_active(force, threshold, saturation)
         self._loads(scratch.force, scratch.mask, scratch.sums)
@@ -443,15 +366,7 @@ class SoleKernel:
         return mask, wrench, contact, cop, polygon, area, centroid, safe, nearest
 
     def find_hull(self, active, scratch):
-        """Find the hull of the active cells and leave it in the scratch's `polygon`.
-
-        Args:
-            active: Mask (n,).
-            scratch: What was borrowed.
-
-        Returns:
-            Number of its corners.
-        """
+        """Find the hull of the `active` cells in the scratch's `polygon`; returns its number of corners."""
         left, right = self.levels, -1
         for row in range(self.row_start.shape[0] - 1):
             first, last = self.row_start[row], self.row_start[row + 1] - 1
@@ -513,15 +428,14 @@ def _count(values):
 
 
 def _rows_of_copies(cells, tolerance):
-    """Rows of cells that are copies of each other, shifted along one line: the hull of a row's active cells is that of
-    the first and the last of them.
+    """Rows of cells that are copies, shifted along one line: the first and last active cell of a row make its hull.
 
     Args:
         cells: Corners (k, 2) of each cell in m.
         tolerance: How far in m a copy may be off.
 
     Returns:
-        For each row the indices of its cells from one end to the other; a cell without copies is another row.
+        Indices of each row's cells from one end to the other; a cell without copies is a row.
     """
     kinds = {}  # cells of one kind, the first of which stands for them
     for i, cell in enumerate(cells):
@@ -555,11 +469,11 @@ def _rows_of_copies(cells, tolerance):
 
 
 def _is_behind(cell, along):
-    """Which corners (k,) of a convex cell lie within it and its copies farther along: no corners of their hull.
+    """Which corners (k,) of a convex cell lie within it and its copies along a direction: no corners of their hull.
 
     Args:
-        cell: Corners (k, 2) in m; where they are not convex none is.
-        along: Direction (2,) to the copies, of any length.
+        cell: Corners (k, 2) in m; none if not convex.
+        along: Direction (2,) to the copies.
     """
     edge = np.roll(cell, -1, axis=0) - cell
     length = np.hypot(edge[:, 0], edge[:, 1])
@@ -574,12 +488,7 @@ def _is_behind(cell, along):
 
 
 def _signs(cell, rank):
-    """Where each corner of a cell can be on a hull that holds the cell, as bits (k,).
-
-    Args:
-        cell: Corners (k, 2) in m.
-        rank: Their ranks (k,) by x, then y.
-    """
+    """Bits (k,) of where each corner of a cell can be on a hull that holds the cell, by its ranks (k,) by x, then y."""
     low, high = cell[np.argmin(rank)], cell[np.argmax(rank)]
     along, away = high - low, cell - low
     above = along[0] * away[:, 1] - along[1] * away[:, 0]

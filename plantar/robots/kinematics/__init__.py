@@ -1,1 +1,1 @@
-"""Kinematics of the legs: joint angles for CoM, torso and soles, how large the body is, what its ankles carry."""
+"""Kinematics of the legs: joint angles for CoM, torso and soles, size of the body, limits of the ankles."""

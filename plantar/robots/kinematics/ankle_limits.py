@@ -16,11 +16,10 @@ __all__ = ["ankle_limits"]
 def ankle_limits(
     robot: Robot, model: mujoco.MjModel, weight: float, crouch: float = 0.0
 ) -> dict[Side, NDArray[np.float64]]:
-    """Where the weight may act on each sole while the robot stands on it, without a joint beyond its limit.
+    """Where the weight may act on each sole in single support, without a joint beyond its torque limit.
 
     The weight W e_z at p has the torque a . ((p - c) x W e_z) on a joint with axis a through c: a strip of the sole for
-    each joint. The ankle's joints are the last that pitches and the last that rolls. The knee moves with the hip, which
-    is above p: see `_knee_strip`.
+    each joint. The ankle's joints are the last that pitches and the last that rolls. For the knee see `_knee_strip`.
 
     Args:
         robot: The robot.
@@ -30,7 +29,7 @@ def ankle_limits(
 
     Returns:
         Strips (m, 4) in each sole's frame: a unit normal (x, y), and the strip's middle and half width along it in m;
-        none of a joint without a limit.
+        none for a joint without a limit.
     """
     data = stood(robot, model)
     limits = _torque_limits(model)
@@ -58,13 +57,13 @@ def ankle_limits(
 def _knee_strip(places: NDArray[np.float64], reach: float, crouch: float) -> list[float]:
     """Strip of the sole, across it, in which the knee is within its limit.
 
-    With the hip above p and the ankle at a the knee lies a share s of the way from a to p, and k ahead of that line,
-    where the triangle of thigh and shank has its height. Its lever is |p - (a + s (p - a) + k)| <= r.
+    With the hip above p and the ankle at a the knee is a share s of the way from a to p, and k ahead of that line, the
+    height of the triangle of thigh and shank. Its lever is |p - (a + s (p - a) + k)| <= r.
 
     Args:
         places: Hip, knee and ankle (3, 2), along and above the sole, in m.
-        reach: The lever r in m at which the weight takes the knee's limit.
-        crouch: How much nearer in m the hip comes to the ankle.
+        reach: The lever r in m at which the weight reaches the knee's limit.
+        crouch: How much nearer in m the hip is to the ankle.
     """
     (hip, knee, ankle), up = places, places[0] - places[2]
     thigh, shank = float(np.linalg.norm(hip - knee)), float(np.linalg.norm(knee - ankle))

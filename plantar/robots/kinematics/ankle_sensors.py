@@ -14,7 +14,7 @@ __all__ = ["ankle_sensors"]
 
 
 def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
-    """Where each ankle's force-torque sensor sits and what hangs below it.
+    """Place of each ankle's force-torque sensor in `model`, and the mass below it.
 
     Takes `model` and `robot`; returns the sensors, for the controller.
     """

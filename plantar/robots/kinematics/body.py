@@ -1,4 +1,4 @@
-"""How large a robot is: the body that its settings are shares of."""
+"""Size of a robot, for settings that are shares of it."""
 
 from __future__ import annotations
 
@@ -18,11 +18,8 @@ _ALONG = 0.7  # cosine with an axis of the torso from which a joint turns about 
 
 
 def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
-    """The body that a robot's settings are shares of.
-
-    Returns:
-        Its mass as the model has it, the leg's length as `[gait] leg_length` or else the model has it, the left sole's
-        size as its layout's outline has it, and its pace as `[gait] pace`.
+    """Size of a robot; Returns mass by the model, leg by `[gait] leg_length` or the model, sole by the layout, and
+    pace.
     """
     _, (half_length, half_width) = robot.sole_rectangle("left")
     return BodyScale(
@@ -35,28 +32,21 @@ def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
 
 
 def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
-    """Length of a straight leg from hip to ankle, as the mean of both.
+    """Length in m of a straight leg from hip to ankle, the mean of both.
 
-    It is summed over the joints that pitch, which are hip, knee and ankle of a leg, in the plane in which they bend it;
-    their order and distance do not change with the posture. A leg with fewer than two of them counts from its first to
-    its last joint.
+    Summed over the pitching joints, hip, knee and ankle, in the plane in which they bend the leg, which does not depend
+    on the posture. A leg with fewer than two of them counts from its first to its last joint. Returns the length.
 
     Args:
-        robot: The robot, which names which joints the legs have, and how it stands.
+        robot: The robot, with joint names and posture.
         model: A model with the robot in it.
-
-    Returns:
-        The length in m.
     """
     data = stood(robot, model)
     return round(float(np.mean([_length(robot, side, model, data) for side in SIDES])), _RESOLUTION)
 
 
 def hanging_on(model: Any, body: int) -> list[int]:
-    """A body and all that hang on it, in the model's order, in which none comes before what it hangs on.
-
-    Returns numbers of the bodies.
-    """
+    """Returns ids of a body and its descendants, in the model's order."""
     found = [body]
     for part in range(body + 1, model.nbody):
         if int(model.body_parentid[part]) in found:
@@ -65,10 +55,7 @@ def hanging_on(model: Any, body: int) -> list[int]:
 
 
 def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:
-    """State of a model whose legs are in the robot's posture, with kinematics.
-
-    Returns the state.
-    """
+    """Returns data of a model whose legs are in the robot's posture, with kinematics."""
     data = mujoco.MjData(model)
     for side in SIDES:
         for name, angle in zip(robot.legs[side].joints, robot.posture[side], strict=True):
@@ -78,7 +65,7 @@ def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:
 
 
 def pitching_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
-    """Joints of a leg that turn about the torso's y axis more than about another: hip, knee and ankle.
+    """Joints of a leg that turn mostly about the torso's y axis: hip, knee and ankle.
 
     Takes `robot`, `side`, `model` and `data`; returns their ids from hip to ankle.
     """
@@ -86,7 +73,7 @@ def pitching_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoc
 
 
 def rolling_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
-    """Joints of a leg that turn about the torso's x axis more than about another: hip and, if there is one, ankle.
+    """Joints of a leg that turn mostly about the torso's x axis: hip and, if there is one, ankle.
 
     Takes `robot`, `side`, `model` and `data`; returns their ids from hip to ankle.
     """

@@ -22,7 +22,7 @@ def follow_command(legs: LegModel, command: Command) -> float:
     """Solve a command for the joints; the angles are `legs.joints`.
 
     Returns:
-        The largest task error before the last step, in units of length or rad; not a number if a target is not.
+        The largest task error before the last step, in units of length or rad; NaN if a target is.
     """
     left, right = command.feet["left"], command.feet["right"]
     return legs.follow(

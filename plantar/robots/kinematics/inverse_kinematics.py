@@ -1,35 +1,32 @@
-"""Inverse kinematics of a list of tasks: Newton steps that stay calm near singularities, at limits and out of reach.
+"""Inverse kinematics of a list of tasks: Newton steps that are stable near singularities, at limits and out of reach.
 
-A step solves J dq = e by the normal equations, J^T J dq = J^T e, with 1e-8 on the diagonal against rounding. It stays
-as it is where the equations are well conditioned, no joint leaves its limits and no entry of it is larger than allowed;
-so do almost all steps of a walk. Otherwise these rules hold:
+A step solves J dq = e by J^T J dq = J^T e, with 1e-8 on the diagonal. It is taken as it is where the equations are well
+conditioned, no joint leaves its limits and no entry is larger than allowed, as almost always. Otherwise:
 
-- **Levels.** The tasks of a level are solved in the null space of those of the levels before (Siciliano and Slotine
-  1991): a foot that should carry nothing misses its target rather than move the foot that carries the robot.
-- **Damping.** With the singular values s of a level and near = max(0, 1 - (s / EPSILON)^2), each direction takes the
-  step s r / (s^2 + d) for the residual r along it, with
+- **Levels.** The tasks of a level are solved in the null space of the levels before (Siciliano and Slotine 1991): an
+  unloaded foot misses its target rather than move the foot that carries the robot.
+- **Damping.** With the singular values s of a level and near = max(0, 1 - (s / EPSILON)^2), each direction moves by s r
+  / (s^2 + d) for the residual r along it, with
 
       d = near EPSILON^2 + S R.
 
-  The first term damps the directions near a singularity alone (Maciejewski and Klein 1988, Chiaverini 1997): where s is
-  below EPSILON it makes s^2 + d = EPSILON^2, so the inverse rises to 1 / EPSILON and never beyond, without a jump. R is
-  the length of the residual that no step removes: along directions near a singularity, in the share `near`, and across
-  all directions where joints stand at their limits. It stays when a target is out of reach, and Newton's step, which
-  leaves the curvature of the task out, then jumps to and fro; Sugihara (2011) damps with the residual for that reason.
-  Take a limb bent by x near straight, whose reach falls by c x^2 / 2: s = c x, so out of reach by R the step is
-  -c R x / (c^2 x^2 + d), and x goes to 0 where d >= c R / 2. S is the largest singular value of the level, which holds
-  the levers of its joints: of a limb of n equal links with parallel axes c is 0.7 sqrt(n) S or less, 2 S up to n = 8.
-- The residual of a level counts with a length of 1 (m and rad) at most: from farther away a target only shows where to.
-- The largest step L has to be small enough not to carry a limb over the zone x < EPSILON / c in which damping sets in,
-  from one side to the other: c L / 2 <= EPSILON. A leg with thigh and shank of 0.4 m has c = 0.13 m, so L up to 0.15.
-- **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture: a knee that is
-  exactly straight, where no task moves it, bends again.
-- **Scale.** The step of a level is scaled as a whole, by one factor for all joints, until no entry of the sum is larger
-  than allowed. No joint is clamped by itself.
-- **Unit of length.** Lengths and angles share residuals, singular values and limits, so it matters what length counts
-  as much as 1 rad. It is 1 m for a leg of 0.6 m, and goes with the leg: robots of one shape take the same steps.
-- **Limits.** A joint that would leave its limits stops at the limit, the one that would leave them farthest first, and
-  the step is solved again for the others.
+The first term damps near singularities alone (Maciejewski and Klein 1988, Chiaverini 1997): below EPSILON it makes s^2
++ d = EPSILON^2, so the inverse rises to 1 / EPSILON without a jump. R is the length of the residual that no step
+removes: in the share `near` along directions near a singularity, and whole across all directions where joints are at
+their limits. It stays when a target is out of reach, where Newton's step, without the task's curvature, oscillates
+(Sugihara 2011). A limb bent by x near straight has reach reduced by c x^2 / 2: s = c x, so out of reach by R the step
+is -c R x / (c^2 x^2 + d), and x goes to 0 where d >= c R / 2. S is the level's largest singular value: of a limb of n
+equal links with parallel axes c is 0.7 sqrt(n) S or less, 2 S up to n = 8.
+- The residual of a level counts with a length of 1 (m and rad) at most.
+- The largest step L must not carry a limb across the damped zone x < EPSILON / c: c L / 2 <= EPSILON. A leg with thigh
+  and shank of 0.4 m has c = 0.13 m, so L up to 0.15.
+- **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture, so that a
+  straight knee bends again.
+- **Scale.** One factor scales a level's step for all joints, until no entry of the sum is larger than allowed.
+- **Unit of length.** Lengths and angles share residuals, singular values and limits: 1 rad counts as 1 m for a leg of
+  0.6 m, and in proportion to the leg, so that robots of one shape take the same steps.
+- **Limits.** A joint that would leave its limits stops there, the farthest first, and the step is solved again for the
+  others.
 """
 
 from __future__ import annotations
@@ -64,15 +61,15 @@ class InverseKinematics:
 
     Args:
         model: The model.
-        data: Its data, which holds the configuration and to which the tasks are bound; who changes it calls `move`.
+        data: Its data, with the configuration, to which the tasks are bound; call `move` after a change from outside.
         tasks: The tasks.
         posture: Reference posture, for directions that the tasks leave free.
-        columns: Velocities (n,) of the model that a step may use, in the order in which it solves for them.
+        columns: Velocities (n,) of the model that a step may use, in order.
         unit: Length in m that counts as much as 1 rad.
 
     Attributes:
-        plain: How many steps were those of the normal equations.
-        careful: How many needed null-space projectors, damping or limits.
+        plain: Number of steps by the normal equations.
+        careful: Number of steps with null-space projectors, damping or limits.
     """
 
     def __init__(
@@ -136,7 +133,7 @@ class InverseKinematics:
             largest_step: Largest entry of a step in units of length and rad.
 
         Returns:
-            The largest task error before the last step (units of length or rad); not a number if a target is not.
+            The largest task error before the last step (units of length or rad); NaN if a target is.
         """
         kernel = self._step_kernel
         for _ in range(iterations):
@@ -154,19 +151,17 @@ class InverseKinematics:
         return worst
 
     def place(self) -> None:
-        """Bring the data's poses to its configuration, unless they are there: who asks for them after a solution spares
-        the next one its kinematics."""
+        """Update the data's poses to its configuration, unless done, which spares the next solution its kinematics."""
         if not self._placed:
             mujoco.mj_kinematics(self._model, self._data)
             mujoco.mj_comPos(self._model, self._data)
             self._placed = True
 
     def move(self) -> None:
-        """Say that the configuration has been changed from outside."""
+        """Mark the configuration as changed from outside."""
         self._placed = False
 
     def _step_with_care(self, largest: float) -> None:
-        """A step that the kernel did not take: it could not write all errors, or the plain step may not stay."""
         kernel, plain = self._step_kernel, False
         if not kernel.near:
             for task, error in self._with_rows:
@@ -180,7 +175,7 @@ class InverseKinematics:
         kernel.move()
 
     def _careful(self, jacobian: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
-        """Step (n,) by levels, damped, scaled and within the limits; none if a target is not a number."""
+        """Step (n,) by levels, damped, scaled and within the limits; none if a target is NaN."""
         count = jacobian.shape[1]
         if not np.isfinite(self._error).all():
             return np.zeros(count)
@@ -212,7 +207,7 @@ class InverseKinematics:
         free: NDArray[np.bool_],
         largest: float,
     ) -> NDArray[np.float64]:
-        """Step (n,) level by level, for given steps of the joints that are not free."""
+        """Step (n,) level by level, with given steps of the stopped joints."""
         step = stop.copy()
         basis = np.eye(len(step))[:, free]  # of what the levels so far leave free
         for rows in self._rows_by_level():
@@ -236,7 +231,6 @@ class InverseKinematics:
 
 
 def _moving(model: mujoco.MjModel, configuration: NDArray[np.float64], velocity: NDArray[np.float64]) -> Configuration:
-    """A configuration (nq,) of a model that moves at a velocity (nv,)."""
     kinds, places, rates = model.jnt_type, model.jnt_qposadr.astype(np.intp), model.jnt_dofadr.astype(np.intp)
     free, ball = (kinds == int(kind) for kind in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL))
     single, offsets = ~(free | ball), np.arange(3)
@@ -267,7 +261,7 @@ def _amounts(
 
 
 def _add(step: NDArray[np.float64], more: NDArray[np.float64], largest: float) -> None:
-    """Add as large a share of `more`, up to all of it, as keeps every entry of the step within the largest."""
+    """Add as large a share of `more`, up to 1, as keeps every entry within the largest."""
     room = np.where(more > 0.0, largest - step, largest + step)
     share = np.divide(room, np.abs(more), out=np.full(len(step), np.inf), where=more != 0.0).min(initial=1.0)
     step += max(0.0, float(share)) * more

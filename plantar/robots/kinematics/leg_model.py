@@ -1,4 +1,4 @@
-"""A robot's legs: forward kinematics, joint angles for CoM, torso and soles, and the torques that hold them."""
+"""A robot's legs: forward and inverse kinematics, and static torques."""
 
 from __future__ import annotations
 
@@ -15,12 +15,10 @@ from plantar.kernels.joints.leg_targets import LegTargets
 from plantar.kernels.joints.static_load import StaticLoad
 from plantar.kernels.joints.task_rows import PointRows
 from plantar.robots.kinematics.inverse_kinematics import InverseKinematics
-from plantar.robots.kinematics.tasks.chain import chain
 from plantar.robots.kinematics.tasks.com_task import ComTask
-from plantar.robots.kinematics.tasks.orientation_task import OrientationTask
-from plantar.robots.kinematics.tasks.pose_task import PoseTask
+from plantar.robots.kinematics.tasks.pose_task import OrientationTask, PoseTask, RollingPoseTask
 from plantar.robots.kinematics.tasks.posture_task import PostureTask
-from plantar.robots.kinematics.tasks.rolling_pose_task import RollingPoseTask
+from plantar.robots.kinematics.tasks.task import chain
 from plantar.sides import SIDES, Side
 
 __all__ = ["LegModel"]
@@ -29,19 +27,18 @@ _FULL_LEG = 6  # joints of a leg that can give its sole any pose
 
 
 class LegModel:
-    """Kinematics of a free-floating robot that moves its legs; other joints that it may have are where they are stated
-    to be.
+    """Kinematics of a free-floating robot that moves its legs; other joints stay where they are set.
 
     Args:
         model: The robot alone, first joint free, one hinge a leg joint.
         joints: Names of the leg joints in the order of all joint vectors.
         soles: Name of each sole's site.
         torso: Name of the body that is kept upright.
-        unit: Length in m that counts as much as 1 rad where targets cannot all be met (`InverseKinematics`).
+        unit: Length in m that counts as much as 1 rad out of reach (`InverseKinematics`).
 
     Attributes:
-        joints: Joint angles (k,) in rad that `follow` found; the next solution is written over it.
-        torques: Joint torques (k,) in N m that `carry` found, likewise.
+        joints: Joint angles (k,) in rad of the last `follow`, overwritten by the next.
+        torques: Joint torques (k,) in N m of the last `carry`, likewise.
     """
 
     def __init__(
@@ -118,7 +115,7 @@ class LegModel:
     def set_configuration(
         self, position: NDArray[np.float64], quaternion: NDArray[np.float64], joints: NDArray[np.float64]
     ) -> None:
-        """Set the configuration that the next `solve` starts from, and whose joints are the reference posture.
+        """Set the start of the next `solve`, whose joints are the reference posture.
 
         Args:
             position: Base position (3,) in the world frame in m.
@@ -132,7 +129,7 @@ class LegModel:
         self._reference.target = np.array(joints, dtype=float)
 
     def hold_others(self, joints: NDArray[np.float64]) -> None:
-        """State where the joints are that are of no leg, for all that is computed from now on.
+        """Set the joints of no leg.
 
         Args:
             joints: Their positions (o,) in the model's order in rad or m.
@@ -158,10 +155,9 @@ class LegModel:
     ) -> tuple[NDArray[np.float64], float]:
         """Joint angles for CoM, torso orientation and both soles: Newton steps from the last solution.
 
-        The 18 task rows (CoM 3, torso orientation 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped, so a
-        step is one square solve; so do the 16 of one whose legs have five joints and leave the soles' roll to the
-        ground. Near a straight knee, at a joint's limit and out of reach the rules of
-        `plantar.robots.kinematics.inverse_kinematics` hold.
+        The 18 task rows (CoM 3, torso 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped; the 16 of one
+        whose legs have five joints leave the soles' roll to the ground. For limits see
+        `plantar.robots.kinematics.inverse_kinematics`.
 
         Args:
             com: CoM (3,) in the world frame in m.
@@ -169,13 +165,12 @@ class LegModel:
             positions: Sole frame origin (3,) of each foot in m.
             rotations: Rotation (3, 3) from each sole to the world frame.
             iterations: Newton steps.
-            yielding: Feet that miss their targets where not all can be met, rather than that CoM, torso and the other
-                foot do: those that carry nothing.
-            largest_step: Largest change of a joint in rad, or of the base in units of length or rad, in a Newton step.
+            yielding: Feet that miss their targets first: the unloaded ones.
+            largest_step: Largest change of a joint in rad, or of the base in units of length or rad, in a step.
 
         Returns:
-            Joint angles (k,) in rad within their limits, and the largest task error before the last step
-            (units of length or rad), not a number if a target is not.
+            Joint angles (k,) in rad within their limits, and the largest task error before the last step (units of
+            length or rad), NaN if a target is.
         """
         missed = self.follow(com, rotation_torso, positions, rotations, iterations, yielding, largest_step)
         return self.joints.copy(), missed
@@ -190,12 +185,10 @@ class LegModel:
         yielding: Collection[Side] = (),
         largest_step: float = 0.5,
     ) -> float:
-        """What `solve` does, for a caller who reads `joints` at once.
+        """`solve` without a copy, for a caller that reads `joints` at once.
 
-        Takes `com`, `rotation_torso`, `positions`, `rotations`, `iterations`, `yielding` and `largest_step`.
-
-        Returns:
-            The largest task error before the last step, as of `solve`.
+        Takes `com`, `rotation_torso`, `positions`, `rotations`, `iterations`, `yielding` and `largest_step`; returns
+        the error.
         """
         targets = com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"]
         try:
@@ -213,20 +206,20 @@ class LegModel:
     def static_torques(
         self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]
     ) -> NDArray[np.float64]:
-        """Joint torques (k,) in N m that hold the last solution against gravity and given ground forces.
+        """Joint torques (k,) in N m that hold the last solution: tau = g(q) - sum J^T f.
 
         Args:
             forces: Force (3,) in N that the ground exerts on each sole, world frame.
             points: Point (3,) in m at which it acts, world frame.
 
         Returns:
-            tau = g(q) - sum J^T f.
+            The torques.
         """
         self.carry(forces, points)
         return self.torques.copy()
 
     def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
-        """What `static_torques` does, for a caller who reads `torques` at once.
+        """`static_torques` without a copy, for a caller that reads `torques` at once.
 
         Takes `forces` and `points`.
         """
@@ -244,6 +237,6 @@ class LegModel:
 
 
 def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> tuple[PointRows, NDArray[np.float64]]:
-    """What writes how a point of a body moves, and the array (3, nv) that it writes to."""
+    """Rows of a body's point, and their array (3, nv)."""
     jacobian = np.zeros((3, model.nv))
     return PointRows(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]], jacobian), jacobian

@@ -1,4 +1,4 @@
-"""The robot alone as a MuJoCo model: without ground, as its controller knows it."""
+"""The robot alone as a MuJoCo model, for its controller."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ __all__ = ["Visitor", "build_leg_model", "compiled_model", "robot_spec"]
 
 
 class Visitor(Protocol):
-    """What is added to a model: an arm, a partner, furniture."""
+    """An addition to a model: an arm, a partner, furniture."""
 
     def add_to(self, spec: Any) -> None:
         """Add it to an editable `mujoco.MjSpec`."""
@@ -71,13 +71,14 @@ def compiled_model(spec: Any, robot: Robot) -> Any:
 
 
 def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
-    """Kinematic model of the robot alone, which its controller uses.
-
-    Returns the model.
+    """Kinematic model of the robot alone, for its controller.
 
     Args:
         robot: The robot.
-        worn: What it wears next to its file's model, such as an arm that moves.
+        worn: Additional parts, such as an arm that moves.
+
+    Returns:
+        The model.
 
     Raises:
         RobotError: If the model cannot be read or simulated.

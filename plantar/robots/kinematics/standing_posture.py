@@ -1,4 +1,4 @@
-"""The posture in which a robot waits for its walk to begin."""
+"""The posture of a robot before its walk."""
 
 from __future__ import annotations
 
@@ -30,16 +30,15 @@ def solve_standing(
     Args:
         robot: The robot.
         legs: Its kinematics, which start from this posture afterwards.
-        feet: Where the soles stand.
-        centers: Point (2,) of each sole in the world frame in m that carries its half of the weight.
+        feet: Poses of the soles.
+        centers: Point (2,) of each sole in the world frame in m that carries half the weight.
         com_height: CoM height above the soles in m.
 
     Returns:
         Joint angles (k,) in rad, and the torques (k,) in N m that hold them.
 
     Raises:
-        RobotError: If the left foot is to the right of the other.
-        SceneError: If the legs cannot reach that stance.
+        RobotError, SceneError: If an argument is not valid.
     """
     posture = np.array([*robot.posture["left"], *robot.posture["right"]])
     stands = legs.posture(posture).positions

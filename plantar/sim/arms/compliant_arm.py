@@ -14,9 +14,8 @@ from plantar.sim.companion.dynamics import MujocoDynamics
 from plantar.sim.companion.standing.joint_range import JointRange
 from plantar.sim.model.world import World
 from plantar.wholebody.stack import TaskStack
-from plantar.wholebody.tasks.body_compliance import BodyCompliance
-from plantar.wholebody.tasks.interaction import DirectInteraction
-from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.posture import BodyCompliance, Posture
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 
 __all__ = ["CompliantArm"]
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from plantar.percepts.support import feet_support_polygon
+from plantar.percepts.sole_pose import feet_support_polygon
 from plantar.plotting import COLOURS, new_figure
 from plantar.recordings.recording import Recording
 from plantar.sides import SIDES

@@ -1,1 +1,1 @@
-"""What changes which tasks there are and in which order: reflexes, intentional contact, phases of contact."""
+"""Changes of tasks and their order: reflexes, intentional contact, phases of contact."""

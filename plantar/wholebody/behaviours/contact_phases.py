@@ -1,4 +1,4 @@
-"""The two phases of contact of a hand, and the weight that leads from nearness to force (A Table 1, 3.1)."""
+"""The two phases of contact of a hand, and the weight from proximity to force (A Table 1, 3.1)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class ContactPhases:
 
     Attributes:
         in_contact: Whether the contact phase counts.
-        levels: The levels that count.
+        levels: The current levels.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class ContactPhases:
         return self._arrangements[self.in_contact]
 
     def enter(self, in_contact: bool, time: float) -> bool:
-        """Enter a phase. The weight goes on from where it is, also when the phase changes again midway.
+        """Enter a phase; the weight continues from its current value.
 
         Args:
             in_contact: Whether that is the contact phase.
@@ -67,13 +67,6 @@ class ContactPhases:
         return True
 
     def weight(self, time: float) -> float:
-        """w of A 6: 0 for nearness alone, 1 for force alone.
-
-        Args:
-            time: Time in s.
-
-        Returns:
-            The weight, 0 to 1.
-        """
+        """w of A 6 at a time in s: 0 for proximity alone, 1 for force alone."""
         share = smooth_share(time - self._since, self.settings.duration)
         return self._from + share * (float(self.in_contact) - self._from)

@@ -1,4 +1,4 @@
-"""Intentional contact: what is in the way may be touched and pushed, with no more than a tolerable force (T 3.4.2).
+"""Intentional contact: obstacles may be touched and pushed, with no more than a tolerable force (T 3.4.2).
 
 The conditions of T Table 1 overlap, so an arrangement is kept until those of another have held for a while.
 """
@@ -22,13 +22,13 @@ class ContactSettings(Settings):
     """Thresholds of T Table 1 and the times against chattering.
 
     Attributes:
-        slow: epsilon_v: speed of the end effector in m/s below which it is taken to be stuck.
+        slow: epsilon_v: speed of the end effector in m/s below which it is stuck.
         force_limit: epsilon_c: contact force in N from which it retreats.
         release: Share of the limit below which the force has to fall before it tries again.
         stuck: Time in s for which it has to be slow before it approaches.
         retreat: Least time in s of a retreat.
-        free: Time in s without contact and with nothing near, after which it avoids again.
-        shrink: Time in s in which the sensing range shrinks to nothing while it approaches, and grows again after.
+        free: Time in s without contact or proximity, after which it avoids again.
+        shrink: Time in s in which the sensing range shrinks to zero while it approaches, and grows again after.
     """
 
     slow: float = number(0.02, "m/s", 0.0, 10.0)
@@ -42,11 +42,11 @@ class ContactSettings(Settings):
 
 
 class ContactSigns(NamedTuple):
-    """What arrangements are chosen by.
+    """Measurements that choose the arrangement.
 
     Attributes:
         speed: Speed ||x'|| of the end effector in m/s.
-        near: ||f_p||: virtual force of what the skin sees in its whole range in N.
+        near: ||f_p||: virtual force of proximity in the whole range in N.
         contact: ||f_c||: largest contact force that the skin measures in N.
         arrived: Whether the goal is reached, where the end effector may rest.
     """
@@ -58,17 +58,17 @@ class ContactSigns(NamedTuple):
 
 
 class IntentionalContact:
-    """The arrangement that counts, and how much of the sensing range is used.
+    """The current arrangement, and the used share of the sensing range.
 
     Args:
         goal: Tasks that lead to the goal, tau_g of T 3.40.
         contact: Tasks that yield to a contact, tau_c of T 3.41.
-        avoidance: Tasks that keep away from what is near, tau_p of T 3.33.
+        avoidance: Tasks that avoid obstacles, tau_p of T 3.33.
 
     Attributes:
-        arrangement: Which one counts.
+        arrangement: The current one.
         range_share: Share of the sensing range that avoidance should use, 0 to 1.
-        levels: The levels that count, the highest first.
+        levels: The current levels, the highest first.
     """
 
     def __init__(
@@ -94,14 +94,14 @@ class IntentionalContact:
         return self._levels[self.arrangement]
 
     def update(self, signs: ContactSigns, time: float) -> bool:
-        """Take note of what skin and end effector state; a force over the limit counts at once.
+        """Update with new measurements; a force over the limit counts at once.
 
         Args:
-            signs: What they state.
+            signs: The measurements.
             time: Time in s.
 
         Returns:
-            Whether the arrangement has changed just now: then a transition of priorities begins.
+            Whether the arrangement has changed: then a transition of priorities begins.
         """
         s, before = self.settings, self.arrangement
         period = max(0.0, time - self._time) if math.isfinite(self._time) else 0.0
@@ -120,7 +120,7 @@ class IntentionalContact:
         return self.arrangement != before
 
     def _way_on(self, signs: ContactSigns) -> tuple[bool, float, Arrangement]:
-        """Whether what ends the arrangement holds, for how long it has to, and what follows."""
+        """Whether the arrangement's end condition holds, its required time, and the next one."""
         s, near = self.settings, signs.near > 0.0
         touched = signs.contact > 0.0
         if self.arrangement == "avoid":

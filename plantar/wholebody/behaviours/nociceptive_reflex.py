@@ -1,4 +1,4 @@
-"""Nociceptive reflex: tasks are given up while a pressure hurts (T 3.4.1)."""
+"""Nociceptive reflex: tasks are dropped under painful pressure (T 3.4.1)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class ReflexSettings(Settings):
     """When the reflex begins and ends.
 
     Attributes:
-        threshold: Virtual force ||f_P|| of T 3.27 in N above which tasks are given up; 10 N in T.
+        threshold: Virtual force ||f_P|| of T 3.27 in N above which tasks are dropped; 10 N in T.
         release: Share of the threshold below which the force has to fall before they are taken up again.
         calm: Time in s that it has to stay there.
     """
@@ -26,16 +26,16 @@ class ReflexSettings(Settings):
 
 
 class NociceptiveReflex:
-    """Two arrangements of tasks, and which of them counts.
+    """Two arrangements of tasks, and the current one.
 
     Args:
-        default: Levels while nothing hurts, the highest first.
+        default: Levels without pain, the highest first.
         reflex: Levels of the reflex: the default ones without those that hold the body against the pressure.
         settings: When it begins and ends.
 
     Attributes:
         active: Whether the reflex counts.
-        levels: The levels that count.
+        levels: The current levels.
     """
 
     def __init__(
@@ -54,14 +54,14 @@ class NociceptiveReflex:
         return self._arrangements[self.active]
 
     def update(self, virtual_force: float, time: float) -> bool:
-        """Take note of the virtual force; the reflex begins at once and ends after a calm.
+        """Update with the virtual force; the reflex begins at once and ends after a calm.
 
         Args:
-            virtual_force: Norm of f_P of T 3.27 in N, the largest of all links that count.
+            virtual_force: Norm of f_P of T 3.27 in N, the largest of all links.
             time: Time in s.
 
         Returns:
-            Whether the arrangement has changed just now: then a transition of priorities begins.
+            Whether the arrangement has changed: then a transition of priorities begins.
         """
         s, before = self.settings, self.active
         if virtual_force > (s.threshold * s.release if self.active else s.threshold):

@@ -1,1 +1,1 @@
-"""How the demands of many tasks become one torque: weighted, projected, in strict order, or within limits."""
+"""Fusion of many tasks' demands to one torque: weighted, projected, in strict order, or within limits."""

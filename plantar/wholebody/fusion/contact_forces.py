@@ -1,4 +1,4 @@
-"""What each contact of a standing robot carries: pressing, not pulling, inside its area, without slipping (T 4.4.4)."""
+"""Contact forces of a standing robot: pressing, inside the contact area, without slipping (T 4.4.4)."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ __all__ = ["ContactForces"]
 
 
 class ContactForces:
-    """Shares what acts on a free base among its contacts, as `joint_torques` does with the least force, but in cones.
+    """Shares the load on a free base among its contacts, as `joint_torques`, but within friction cones.
 
     Args:
         support: The task whose contacts carry.
         base: Link whose motion is the free coordinates.
         weight: Weight of the robot in N.
         least: Least normal force of a contact as a share of that.
-        weights: What counts how much where there is a choice.
+        weights: Weights of the distribution's cost.
 
     Attributes:
-        shares: Share of the load that each contact should take by its name; equal ones where None.
-        last: What each contact was given at last, in its own frame.
+        shares: Desired share of the load of each contact by name; equal if None.
+        last: The last wrench of each contact, in its own frame.
     """
 
     def __init__(
@@ -51,11 +51,7 @@ class ContactForces:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
         """Share a generalized force (see `plantar.wholebody.fusion.hierarchy.joint_torques`).
 
-        Returns:
-            Joint torques (k,) and the forces (s,) along those rows.
-
-        Raises:
-            InputError: If there is no support.
+        Returns joint torques (k,) and the forces (s,) along the support's rows; an InputError without a support.
         """
         if support is None:
             raise InputError("contact forces need a support")
@@ -69,14 +65,14 @@ class ContactForces:
         return force[robot.joints] - support.jacobian[:, robot.joints].T @ carried, carried
 
     def share(self, robot: RobotDynamics, force: NDArray[np.float64]) -> WrenchShare:
-        """What each contact would carry of a generalized force (n,) on the base.
+        """The wrench of each contact, in its own frame, under a generalized force on the base.
 
         Args:
             robot: The robot.
             force: Generalized force (n,).
 
         Returns:
-            The wrench of each contact in its own frame.
+            The wrenches.
         """
         return self._shared(robot, force, self._contacts(robot))
 
@@ -88,7 +84,6 @@ class ContactForces:
         return self.last
 
     def _contacts(self, robot: RobotDynamics) -> dict[str, Contact]:
-        """The support's contacts where they are now."""
         contacts = {}
         for name, standing in self._support.contacts.items():
             origin, rotation = robot.pose(standing.link)

@@ -1,8 +1,8 @@
 """The hierarchy of `fusion.hierarchy` as least squares within limits of torques, speeds and positions, level by level.
 
 Each level is met as well as the limits and the levels above it allow (Escande et al. 2014), in mass-weighted
-coordinates, so that without a limit the motion is that of the hierarchy. Where no motion keeps all limits, those of
-speed and position are widened as little as possible, then those of torque, and the output is cut to them.
+coordinates, so that without a limit the motion is that of the hierarchy. Infeasible limits of speed and position are
+widened as little as possible, then those of torque, and the output is cut to them.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ class JointLimits:
         velocity: Largest speed (k,) in rad/s or m/s.
         low: Lowest position (k,) in rad or m; -inf for none.
         high: Highest position (k,).
-        slow_down: Time in s in which the distance to a limit of position may be crossed at most.
-        reach: Time in s in which a speed beyond what is allowed is brought back: some control periods.
+        slow_down: Least time in s in which the distance to a position limit may be crossed.
+        reach: Time in s in which a speed beyond its limit is brought back: some control periods.
         acceleration: Largest acceleration in rad/s^2 or m/s^2 of every joint.
 
     Raises:
@@ -55,7 +55,7 @@ class JointLimits:
             raise InputError(f"a limit of torque, speed or time is {smallest:g}, or a range of positions is empty")
 
     def accelerations(self, robot: RobotDynamics) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lowest and highest acceleration (k,) that keep speed and position in their limits."""
+        """Lowest and highest acceleration (k,) within the limits of speed and position."""
         position, speed = robot.joint_positions, robot.velocity[robot.joints]
         slowest = np.maximum(-self.velocity, (self.low - position) / self.slow_down)
         fastest = np.minimum(self.velocity, (self.high - position) / self.slow_down)
@@ -66,12 +66,12 @@ class JointLimits:
 
 
 class HierarchicalQP:
-    """A fusion, to be called as `plantar.wholebody.fusion.hierarchy.fuse` is.
+    """A fusion, called as `plantar.wholebody.fusion.hierarchy.fuse`.
 
     Args:
         limits: Limits of the joints.
-        shortcut: Whether the hierarchy's motion is taken where it keeps all limits; it is what all levels would come
-            to, for a fraction of the time.
+        shortcut: Whether to use the hierarchy's motion where it keeps all limits: the same result in a fraction of the
+            time.
 
     Attributes:
         limited: Whether a limit acted at the last call.
@@ -116,7 +116,7 @@ class HierarchicalQP:
 def _sublevels(
     levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64] | None, NDArray[np.float64] | None]]:
-    """Rows of what is met together, and the acceleration along them or the generalized force that acts on them."""
+    """Rows met together, with the acceleration along them or the generalized force on them."""
     for level in ([support], *levels):
         meant = [d for d in level if d is not None and d.acceleration is not None]
         pushing = [d for d in level if d is not None and d.acceleration is None and d.force is not None]
@@ -131,7 +131,7 @@ def _sublevels(
 def _descend(
     factor: NDArray[np.float64], box: Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> NDArray[np.float64]:
-    """Meet level after level, the support as if there were no limits; the rest moves least."""
+    """Meet level after level, the support without limits; the rest moves least."""
     y, left = np.zeros(len(factor)), np.eye(len(factor))  # and an orthonormal basis of what is left
     limited = support is None
     for jacobian, wanted, force in _sublevels(levels, support):

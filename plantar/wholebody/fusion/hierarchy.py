@@ -1,7 +1,7 @@
 """Tasks in strict order, dynamically consistent: A 19-25 and, with a support, T 3.13.
 
 In mass-weighted coordinates y = L^T q'', M = L L^T, the dynamically consistent inverse (A 25) is the pseudo-inverse and
-the projector (A 24) is orthogonal, so each level needs one QR decomposition, without loss of digits near singularities.
+the projector (A 24) is orthogonal, so each level needs one QR decomposition, accurate near singularities.
 
 A direction with a singular value above `RANK` of its rows' size belongs to its level, so that priority is strict; below
 `DAMPED` of that size it is driven by s / (s^2 + lambda^2), lambda^2 = (1 - (s / s_0)^2) s_0^2 / 4, so that torques stay
@@ -37,12 +37,12 @@ itself may vanish at a singularity, such as that of the direction in which an ar
 
 
 class Fused(NamedTuple):
-    """What fused tasks come to.
+    """Result of fused tasks.
 
     Attributes:
         torque: Torque or force (k,) of each joint of `RobotDynamics.joints` in N m or N, gravity included.
-        acceleration: The generalized acceleration (n,) that it gives while nothing else pushes.
-        support_force: Force (s,) along the rows of the support that this takes; None without one.
+        acceleration: The resulting generalized acceleration (n,) without other pushes.
+        support_force: Force (s,) along the rows of the support; None without one.
     """
 
     torque: NDArray[np.float64]
@@ -63,16 +63,16 @@ def fuse(
     external: NDArray[np.float64] | None = None,
     split: Split | None = None,
 ) -> Fused:
-    """Torques that meet every level as well as the levels above it leave room for (A 19-25, T 3.8, 3.13).
+    """Torques that meet every level as well as the levels above it allow (A 19-25, T 3.8, 3.13).
 
-    Within a level accelerations are met first, all together; forces add up and act in what these leave (T 3.22).
+    Within a level accelerations are met first, all together; forces add up and act in the rest (T 3.22).
 
     Args:
         robot: Kinematics and dynamics of this instant.
-        levels: Demands of the tasks, the highest priority first; None for a task without one, which costs nothing.
-        support: Rows on which the robot stands, above all levels; a robot whose base is not driven needs them.
+        levels: Demands of the tasks, the highest priority first; None for a task without one.
+        support: Rows of the support, above all levels; needed where the base is not driven.
         external: Known generalized force (n,), such as J^T w of the skin, which joints and support need not produce.
-        split: How joints and support share what is to be done; `joint_torques` where None.
+        split: How joints and support share the load; `joint_torques` if None.
 
     Returns:
         Torques, acceleration and support force.
@@ -101,20 +101,18 @@ def fuse(
 def joint_torques(
     robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Split a generalized force among joints and support: S^T tau + J_s^T f_s (T 3.12).
-
-    The support takes what acts on coordinates that no joint drives, with the least force.
+    """Split a generalized force among joints and support: S^T tau + J_s^T f_s (T 3.12), with the least support force.
 
     Args:
         robot: The robot.
         force: Generalized force (n,).
-        support: Rows on which it stands; None for a robot all of whose coordinates are driven.
+        support: Rows of the support; None if all coordinates are driven.
 
     Returns:
         Joint torques (k,) and support force (s,) or None.
 
     Raises:
-        InputError: If coordinates are not driven and nothing supports them.
+        InputError: If coordinates are neither driven nor supported.
     """
     joints = robot.joints
     if support is None:
@@ -136,7 +134,7 @@ def joint_torques(
 
 
 def _least_norm(matrix: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The shortest x with matrix x = wanted, or nearest to it: by a QR decomposition, by singular values if it must."""
+    """The shortest x with matrix x = wanted, or nearest to it, by QR or, if needed, singular values."""
     rows, columns = matrix.shape
     if rows <= columns:
         factored, scales, _, info = lapack.dgeqrf(matrix.T)
@@ -150,7 +148,7 @@ def _least_norm(matrix: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDA
 
 
 def _add(space: TaskSpace, level: Sequence[Demand], last: bool) -> None:
-    """Meet a level in what is left, and own its rows unless nothing comes after it."""
+    """Meet a level in the free directions, and own its rows unless it is the last."""
     meant = [d for d in level if d.acceleration is not None]
     pushing = [d for d in level if d.acceleration is None]
     if meant and space.used < space.size:
@@ -169,7 +167,6 @@ def _add(space: TaskSpace, level: Sequence[Demand], last: bool) -> None:
 
 
 def _stacked(demands: Sequence[Demand], size: int) -> NDArray[np.float64]:
-    """The rows (m, n) of a level."""
     rows = demands[0].jacobian if len(demands) == 1 else np.vstack([d.jacobian for d in demands])
     if rows.ndim != 2 or rows.shape[1] != size:
         raise InputError(f"a task's Jacobian has shape {rows.shape}; expected rows of {size}")
@@ -177,7 +174,7 @@ def _stacked(demands: Sequence[Demand], size: int) -> NDArray[np.float64]:
 
 
 def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float64]) -> None:
-    """Own rows and meet in them what is wanted; directions below `DAMPED` are damped (see the module's docstring)."""
+    """Own rows and meet what is wanted in them, damped below `DAMPED`."""
     if wanted.shape != (len(rows),):
         raise InputError(f"a task asks for an acceleration of shape {wanted.shape}; expected one a row, ({len(rows)},)")
     rank, bound = space.own(rows, np.ascontiguousarray(wanted), True, RANK)

@@ -1,7 +1,7 @@
-"""Torques of tasks as T prints them: added (T 3.6), or each in the null space of those above it (T 3.3-3.4, 3.7-3.13).
+"""Torques of tasks as printed in T: added (T 3.6), or in the null space of those above (T 3.3-3.4, 3.7-3.13).
 
-For comparison and for tasks that are forces: without the correction by the accelerations that higher tasks cause
-(A 21), and each projector its own matrix. `fusion.hierarchy` is what to use.
+For comparison and for tasks that are forces: without the correction of accelerations by higher tasks (A 21). Use
+`fusion.hierarchy` otherwise.
 """
 
 from __future__ import annotations
@@ -44,14 +44,14 @@ def mass_factor(mass_matrix: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def task_torque(robot: RobotDynamics, demand: Demand) -> NDArray[np.float64]:
-    """Generalized force of one task by itself: J^T f (T 3.4), with f = Lambda (x''* - J' q') where it is a motion.
+    """Generalized force (n,) of one task: J^T f (T 3.4), with f = Lambda (x''* - J' q') for a motion, without bias.
 
     Args:
         robot: The robot.
-        demand: What the task asks for.
+        demand: The task's demand.
 
     Returns:
-        Force (n,), without the robot's bias.
+        The force.
     """
     if demand.acceleration is None:
         return np.asarray(demand.jacobian.T @ np.asarray(demand.force))
@@ -64,14 +64,14 @@ def task_torque(robot: RobotDynamics, demand: Demand) -> NDArray[np.float64]:
 def null_space_projector(
     jacobian: NDArray[np.float64], factor: NDArray[np.float64] | None = None
 ) -> NDArray[np.float64]:
-    """N = I - J^T (J^#)^T (T 3.7): what it lets through of a generalized force leaves a task alone.
+    """N = I - J^T (J^#)^T (T 3.7): the part of a generalized force that does not affect a task.
 
     With M = L L^T, the dynamically consistent inverse of J (A 25) is L^-T times the pseudo-inverse of J L^-T, which is
     defined at singularities too.
 
     Args:
         jacobian: J (m, n) of the task.
-        factor: L (n, n), for the dynamically consistent inverse; the Moore-Penrose inverse where None.
+        factor: L (n, n), for the dynamically consistent inverse; the Moore-Penrose inverse if None.
 
     Returns:
         Projector (n, n) of generalized forces.
@@ -97,10 +97,10 @@ def null_space_torques(
     Args:
         robot: Kinematics and dynamics of this instant.
         levels: Demands of the tasks, the highest priority first; None for a task without one.
-        support: Rows on which the robot stands, above all levels.
-        external: Generalized force (n,) that is known to act.
+        support: Rows of the support, above all levels.
+        external: Known generalized force (n,).
         projection: How higher tasks count.
-        consistent: Whether projectors are dynamically consistent; where not, lower tasks push higher ones.
+        consistent: Whether projectors are dynamically consistent; if not, lower tasks push higher ones.
 
     Returns:
         Torques, acceleration and support force.
@@ -136,20 +136,20 @@ def weighted_sum(
     external: NDArray[np.float64] | None = None,
     weights: Sequence[float | NDArray[np.float64]] | None = None,
 ) -> Fused:
-    """tau = sum W_i tau_i (T 3.6): every task disturbs every other, only a support stays above (T 3.13).
+    """tau = sum W_i tau_i (T 3.6): every task disturbs every other, below the support (T 3.13).
 
     Args:
         robot: Kinematics and dynamics of this instant.
         levels: Demands of the tasks; None for a task without one.
-        support: Rows on which the robot stands.
-        external: Generalized force (n,) that is known to act.
-        weights: Weight of each level: a number, or one (n,) for each coordinate; 1 for all where None.
+        support: Rows of the support.
+        external: Known generalized force (n,).
+        weights: Weight of each level: a number, or one (n,) for each coordinate; 1 for all if None.
 
     Returns:
         Torques, acceleration and support force.
 
     Raises:
-        InputError: If there are not as many weights as levels, or nothing supports a base that is not driven.
+        InputError: If there are not as many weights as levels, or a base that is not driven has no support.
     """
     weights = [1.0] * len(levels) if weights is None else weights
     if len(weights) != len(levels):
@@ -168,7 +168,7 @@ def weighted_sum(
 def _fused(
     robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None, external: NDArray[np.float64] | None
 ) -> Fused:
-    """What a generalized force (n,) without the robot's bias comes to."""
+    """Result of a generalized force (n,) without the robot's bias."""
     acceleration = np.asarray(np.linalg.solve(robot.mass_matrix, force))
     total = force + robot.bias if external is None else force + robot.bias - external
     torque, support_force = joint_torques(robot, total, support)

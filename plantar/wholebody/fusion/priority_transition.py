@@ -1,7 +1,7 @@
-"""Priorities that change smoothly: from the torque of one arrangement of tasks to that of another (T 3.45-3.46).
+"""Smooth changes of priority between the torques of two arrangements of tasks (T 3.45-3.46).
 
-In T 3.46, chi = (1 - tanh(delta_t (t - t_t))) / 2, t_t is the trigger, where chi jumps by a half. Here t_t is the
-middle of the change, and chi is scaled to go from 1 to 0.
+In T 3.46, chi = (1 - tanh(delta_t (t - t_t))) / 2 jumps by a half at the trigger t_t. Here t_t is the middle of the
+change, and chi is scaled to go from 1 to 0.
 """
 
 from __future__ import annotations
@@ -52,10 +52,10 @@ def smooth_share(elapsed: float, duration: float) -> float:
 
 
 class PriorityTransition:
-    """Blends torques while priorities change; they are continuous also when a change begins before the last ended.
+    """Blends torques while priorities change; continuous also when a change begins before the last ended.
 
     Args:
-        settings: How long a change takes.
+        settings: Duration of a change.
     """
 
     def __init__(self, settings: TransitionSettings | None = None) -> None:
@@ -65,7 +65,7 @@ class PriorityTransition:
         self._began = -math.inf
 
     def begin(self, time: float) -> None:
-        """Trigger a change at a time in s: what was put out last is held, and fades (tau_(k-1) of T 3.45)."""
+        """Trigger a change at a time in s: the last output is held, and fades (tau_(k-1) of T 3.45)."""
         if self._last is not None:
             self._held, self._began = self._last, time
 
@@ -73,11 +73,11 @@ class PriorityTransition:
         """tau = chi tau_(k-1) + (1 - chi) tau_k (T 3.45).
 
         Args:
-            torque: Torque (k,) of the arrangement that counts now in N m or N.
+            torque: Torque (k,) of the current arrangement in N m or N.
             time: Time in s.
 
         Returns:
-            Torque (k,) to be put out: the argument itself while nothing changes.
+            Output torque (k,): the argument itself without a change.
         """
         share = smooth_share(time - self._began, self.settings.duration)
         if self._held is None or share >= 1.0:

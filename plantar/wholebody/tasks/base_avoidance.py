@@ -1,4 +1,4 @@
-"""A mobile base keeps away from what its distance sensors see (A 15-17)."""
+"""A mobile base avoids the obstacles of its distance sensors (A 15-17)."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ class AvoidanceField(Settings):
     """The repulsive field (A 16).
 
     Attributes:
-        force: f_max: force at no distance, and the largest that all obstacles together give: more than the drives have
-            would disturb what has priority.
+        force: f_max: force at distance 0, and the largest of all obstacles together: more than the drives have would
+            disturb higher priorities.
         decay: alpha: distance over which it falls to 37 %.
-        reach: Distance from which nothing is done.
+        reach: Distance from which it is 0.
     """
 
     force: float = number(400.0, "N", 0, 1e5)

@@ -41,11 +41,11 @@ class CartesianPose(Task):
     """Draws a point of a link to its target, its speed bounded: x''* = x''_d + K e + D (x'_d - x') (A 4, T 3.42-3.44).
 
     Args:
-        point: Point (3,) in the link's frame in m; its origin where None.
-        rows: Which of it is held.
+        point: Point (3,) in the link's frame in m; its origin if None.
+        rows: Which of position and orientation is held.
 
     Attributes:
-        target_position: Wanted position (3,) in the world in m; None until it is given: where the link is at first.
+        target_position: Wanted position (3,) in the world in m; the first one until set.
         target_rotation: Wanted rotation (3, 3) to the world; likewise.
         target_velocity: Wanted linear velocity (3,) in m/s.
         target_acceleration: Wanted linear acceleration (3,) in m/s^2.
@@ -66,7 +66,7 @@ class CartesianPose(Task):
         self._rows = _ROWS[rows]
 
     def position_error(self, robot: RobotDynamics) -> NDArray[np.float64]:
-        """What is left to the target position (3,) in m in the world; zeros before there is a target."""
+        """Distance (3,) to the target position in m in the world; zeros without a target."""
         if self.target_position is None:
             return np.zeros(3)
         return self.target_position - self._place(robot)[0]

@@ -1,4 +1,4 @@
-"""Place of the centre of mass (T 3.25)."""
+"""Place of the center of mass (T 3.25)."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ __all__ = ["CenterOfMass"]
 
 
 class CenterOfMass(Task):
-    """Draws the centre of mass to its target: x''* = K (x_d - x) + D (x'_d - x') (T 3.25 corrected, A 4).
+    """Draws the center of mass to its target: x''* = K (x_d - x) + D (x'_d - x') (T 3.25 corrected, A 4).
 
     Args:
         target: Wanted position (3,) in the world in m.
         stiffness: K in 1/s^2.
-        damping: D in 1/s; critical where None.
+        damping: D in 1/s; critical if None.
         axes: Which of x, y and z are held.
 
     Attributes:

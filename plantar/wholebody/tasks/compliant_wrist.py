@@ -1,4 +1,4 @@
-"""A wrist that turns a patch of skin to the surface before it: the moment on the patch is brought to zero (A 10)."""
+"""A wrist that turns a patch of skin to the surface by bringing its moment to zero (A 10)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class WristGains(Settings):
         inertia: Lambda_2.
         damping: D_2.
         gain: K_2 on the moment.
-        proximity_stiffness: Force that counts for a metre by which a taxel is nearer than it sees.
+        proximity_stiffness: Force of a metre by which a taxel is nearer than its range.
     """
 
     inertia: float = number(0.02, "kg m^2", 1e-6, 1e3)
@@ -34,15 +34,12 @@ class CompliantWrist(Task):
     """omega'* = (K Gamma - D omega) / Lambda with the moment Gamma on the patch about its middle (A 10 corrected).
 
     Args:
-        patch: Name of the patch.
+        patch: Name of the patch; an InputError if unknown.
         point: Its middle (3,) in its link's frame in m.
 
     Attributes:
-        weight: w of A 6: 0 uses proximity, 1 by force.
-        moment: Gamma (3,) in the link's frame in N m as of the last demand.
-
-    Raises:
-        InputError: If there is no such patch.
+        weight: w of A 6: 0 for proximity, 1 for force.
+        moment: Gamma (3,) of the last demand in the link's frame in N m.
     """
 
     def __init__(self, skin: BodySkin, patch: str, point: NDArray[np.float64], gains: WristGains | None = None) -> None:

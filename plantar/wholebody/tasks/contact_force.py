@@ -21,13 +21,13 @@ class ContactGains(Settings):
     sqrt(gain k_c / inertia) and is critically damped by damping = 2 sqrt(gain k_c inertia).
 
     Attributes:
-        inertia: Lambda_1: mass that the hand should seem to have along the normal.
+        inertia: Lambda_1: apparent mass of the hand along the normal.
         damping: D_1.
         gain: K_1 on the error of the force.
-        integral: Rate at which a lasting error is taken back; 0 leaves it.
-        distance_stiffness: Force that counts for a metre of distance too much, in place of the error of the force.
-        free_damping: Damping while the patch measures nothing, where it is more than D_1; all gains grow with it, so
-            that errors of the robot's mass matter less at the same speeds.
+        integral: Rate at which a lasting error is corrected; 0 for none.
+        distance_stiffness: Force of a metre of distance too much, in place of the error of the force.
+        free_damping: Damping without contact, if more than D_1; all gains grow with it, so that errors of the robot's
+            mass matter less at the same speeds.
     """
 
     inertia: float = number(2.0, "kg", 1e-3, 1e3)
@@ -42,7 +42,7 @@ class ContactForce(Task):
     """x''* = (K (w (f_d - f_c) + (1 - w) k (d - d_d)) - D x') / Lambda along the outward normal of a patch (A 6, 9).
 
     Args:
-        patch: Name of the patch that touches.
+        patch: Name of the patch that touches; an InputError if unknown.
         point: Middle (3,) of the patch in its link's frame in m.
         normal: Direction (3,) out of the body in the link's frame: h_z of A.
 
@@ -50,13 +50,9 @@ class ContactForce(Task):
         weight: w of A 6: 0 holds the distance, 1 the force.
         target_force: f_d in N.
         target_distance: d_d in m.
-        approach_speed: Speed in m/s at which the patch comes nearer while it measures nothing: the error is bounded by
-            what the damping balances at that speed, D v / K. Infinite at first.
-        force: f_c in N as of the last demand.
-        distance: Mean distance in m of the taxels that see something, as of the last demand; inf where none does.
-
-    Raises:
-        InputError: If there is no such patch.
+        approach_speed: Speed in m/s without contact: the error is bounded to D v / K. Infinite at first.
+        force: f_c of the last demand in N.
+        distance: Mean distance in m of the taxels in range in the last demand; inf without.
     """
 
     def __init__(
@@ -95,7 +91,6 @@ class ContactForce(Task):
         return Demand((outward @ jacobian[:3])[None], acceleration=np.array([wanted]), drift=np.array([drift]))
 
     def _error(self, skin: SkinReading, time: float) -> float:
-        """What is missing, in N; sums it up over time while the force counts."""
         measured = np.nan_to_num(skin.force[self._own], nan=0.0, posinf=0.0)
         seen = skin.distance[self._own]
         seen = seen[np.isfinite(seen)]

@@ -1,17 +1,26 @@
-"""A posture of the joints, for what nothing else decides (T 3.2.5.1, A 18)."""
+"""A posture of the joints, for the remaining freedom (T 3.2.5.1, A 18)."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import (
+    ArrayLike,
+    NDArray,
+)
 
 from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
-from plantar.wholebody.tasks.task import Demand, Task
+from plantar.wholebody.tasks.task import (
+    Demand,
+    Task,
+)
 
-__all__ = ["Posture"]
+__all__ = [
+    "BodyCompliance",
+    "Posture",
+]
 
 
 class Posture(Task):
@@ -20,13 +29,13 @@ class Posture(Task):
     Args:
         target: Wanted joint positions (k,) in rad or m, in the order of `RobotDynamics.joints`.
         stiffness: K, one or (k,): in 1/s^2, with `torques` in N m/rad.
-        damping: D likewise; critical for accelerations where None.
-        joints: Places of the joints that are held among the k; all where None.
-        torques: Whether it asks for torques, which other tasks of its level add to, instead of accelerations.
+        damping: D likewise; critical for accelerations if None.
+        joints: Indices of the held joints among the k; all if None.
+        torques: Whether it asks for torques, which add to others of its level, instead of accelerations.
 
     Attributes:
         target: Wanted joint positions (k,).
-        target_velocity: Wanted joint velocities q'_d (k,) in rad/s or m/s: 0 until a posture is moved.
+        target_velocity: Wanted joint velocities q'_d (k,) in rad/s or m/s, 0 at first.
     """
 
     def __init__(
@@ -54,3 +63,23 @@ class Posture(Task):
         )
         asked = pull[self._held]
         return Demand(self._rows, force=asked) if self.torques else Demand(self._rows, acceleration=asked)
+
+
+class BodyCompliance(Task):
+    """tau_c = K (q_d - q) - D q' + tau_skin + tau_oca (A 18 corrected: the body yields to a push).
+
+    Args:
+        posture: The posture, of torques.
+        yields: Tasks that ask for forces: `DirectInteraction` for A 14, `BaseAvoidance` for A 15.
+    """
+
+    def __init__(self, posture: Posture, *yields: Task) -> None:
+        self.posture, self.yields = posture, yields
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        torque = np.zeros(len(robot.velocity))
+        for task in (self.posture, *self.yields):
+            asked = task.demand(robot, skin)
+            if asked is not None and asked.force is not None:
+                torque += asked.jacobian.T @ asked.force
+        return Demand(np.eye(len(torque)), force=torque)

@@ -1,4 +1,4 @@
-"""Links keep away from each other (T 3.2.3.1): a repulsive field between spheres on them, silent while they are far."""
+"""Links avoid each other (T 3.2.3.1): a repulsive field between spheres on them."""
 
 from __future__ import annotations
 
@@ -30,16 +30,13 @@ class Sphere(NamedTuple):
 
 
 class SelfCollision(Task):
-    """Pushes two spheres apart along the line of their centres, one row a pair that is near.
+    """Pushes two spheres apart along the line of their centers, one row for each near pair.
 
     Args:
         pairs: Pairs of spheres that must not meet.
-        margin: Gap in m from which on a pair is pushed apart.
+        margin: Gap in m from which a pair is pushed apart; an InputError unless above 0.
         stiffness: Force in N a metre that the gap is smaller.
         damping: Force in N a m/s at which the gap closes.
-
-    Raises:
-        InputError: If the margin is not above 0.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""The contacts on which a robot with a free base stands (T 3.12-3.13)."""
+"""The contacts that support a robot with a free base (T 3.12-3.13)."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ _POINT = Rectangle(0.0, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Standing:
-    """A contact that does not move: a link's point, and how much of its motion the ground takes.
+    """A contact that does not move: a link's point, and how much of its motion the ground blocks.
 
     Attributes:
         point: Point (3,) in the link's frame in m, best where the force should be.
-        flat: Whether it keeps the link from turning too; a point contact does not.
-        area: What of the contact can carry, about the point, in m; counts where forces are distributed over contacts.
+        flat: Whether it blocks the link's turning too, unlike a point contact.
+        area: Carrying area about the point in m, for the distribution of forces.
         rotation: Rotation (3, 3) from the contact's frame, whose z points into the body, to the link's; None for none.
-        friction: Coefficient of friction; likewise.
+        friction: Coefficient of friction, likewise.
     """
 
     link: str
@@ -41,18 +41,15 @@ class Standing:
 
     @property
     def rows(self) -> int:
-        """Number of rows that it gives a support."""
+        """Number of its rows in a support."""
         return 6 if self.flat else 3
 
 
 class Support(Task):
-    """Keeps contacts where they are: J_s q'' + J_s' q' = 0, above all other tasks (T 3.13).
+    """Keeps contacts at rest: J_s q'' + J_s' q' = 0, above all other tasks (T 3.13).
 
     Args:
-        contacts: Contacts by name, such as the feet; may be assigned again as contacts come and go.
-
-    Raises:
-        InputError: If there is none.
+        contacts: Contacts by name, such as the feet; may be assigned again; an InputError for none.
     """
 
     def __init__(self, contacts: Mapping[str, Standing]) -> None:

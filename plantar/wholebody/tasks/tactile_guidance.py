@@ -1,4 +1,6 @@
-"""The hand is guided by touches on the arm (A 11-12), keeps its place without them, and stays where the arm is bent."""
+"""Guidance of the hand by touches on the arm (A 11-12); it keeps its place without them, and stays where the arm is
+bent.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,7 @@ from plantar.mechanics.easing import minimum_jerk
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, number
 from plantar.wholebody.dynamics import RobotDynamics
-from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 from plantar.wholebody.tasks.task import Demand, Task
 
 __all__ = ["GuidanceGains", "TactileGuidance"]
@@ -27,12 +29,12 @@ class GuidanceGains(Settings):
     """How the hand follows (A 12), and how it rests.
 
     Attributes:
-        inertia: Lambda_3: mass that the hand should seem to have.
+        inertia: Lambda_3: apparent mass of the hand.
         damping: D_3.
         gain: K_3 on the forces on the arm.
-        stiffness: Stiffness with which the hand keeps its place while nothing is measured; 0 as in A, where it drifts
-            with what is misjudged of the arm's weight. Critical is D_3^2 / (4 Lambda_3).
-        slack: Length beyond which that spring is not stretched, but slips.
+        stiffness: Stiffness with which the hand keeps its place without touch; 0 as in A, where errors of the arm's
+            weight make it drift. Critical is D_3^2 / (4 Lambda_3).
+        slack: Length beyond which that spring slips.
     """
 
     inertia: float = number(5.0, "kg", 1e-3, 1e3)
@@ -43,19 +45,18 @@ class GuidanceGains(Settings):
 
 
 class TactileGuidance(Task):
-    """x''* = (K F_arm + k s - D x') / Lambda of the hand, F_arm what is measured on the arm (A 11, A 12 corrected).
+    """x''* = (K F_arm + k s - D x') / Lambda of the hand, F_arm the force on the arm (A 11, A 12 corrected).
 
     The spring k is stretched by s, from the hand to its resting place, which a touch carries along.
 
     Args:
         patches: Names of the patches on the arm.
         point: Point (3,) in its frame in m.
-        arm: Links from the shoulder to the wrist; the hand is not guided further where they become straight. None for
-        no
-            such end.
+        arm: Three or more links from the shoulder to the wrist; the hand is not guided beyond a straight arm. None for
+            no such end.
 
     Raises:
-        InputError: If there is no patch of a name, or an arm has less than three links.
+        InputError: If a patch is unknown, or an arm has less than three links.
     """
 
     def __init__(
@@ -87,7 +88,7 @@ class TactileGuidance(Task):
         return Demand(jacobian, acceleration=wanted, drift=robot.drift(self._link, self._point)[:3])
 
     def _within_reach(self, robot: RobotDynamics, force: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The force (3,) without what of it would stretch a straight arm."""
+        """The force (3,) without the part that would stretch a straight arm."""
         if self._arm is None:
             return force
         joints = [robot.pose(link)[0] for link in self._arm]
@@ -102,7 +103,7 @@ class TactileGuidance(Task):
         return force - (1.0 - share) * outward / apart**2 * along
 
     def _kept(self, robot: RobotDynamics, touched: bool) -> NDArray[np.float64]:
-        """The stretch (3,) in m from the hand to the place that it keeps."""
+        """The stretch (3,) in m from the hand to its resting place."""
         origin, rotation = robot.pose(self._link)
         place = origin + rotation @ self._point
         if self._last is not None and not touched:

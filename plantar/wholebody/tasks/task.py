@@ -1,4 +1,4 @@
-"""What every task is: a Jacobian, and the force or the acceleration that is asked for along its rows."""
+"""The interface of a task: a Jacobian, and the force or acceleration along its rows."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ __all__ = ["Demand", "Task", "wrench_demand"]
 
 
 class Demand(NamedTuple):
-    """What a task asks for at one instant. It gives a force, or an acceleration with its drift.
+    """A task's demand at one instant: a force, or an acceleration with its drift.
 
     Attributes:
         jacobian: J (m, n) of the task (T 3.2, A 2).
         force: Force f (m,) along its rows, which acts as tau = J^T f (T 3.4), in N, N m.
         acceleration: Reference acceleration x''* (m,) (A 4-5), in m/s^2, rad/s^2.
-        drift: J' q' (m,) of A 3; counts with an acceleration only.
+        drift: J' q' (m,) of A 3, with an acceleration.
     """
 
     jacobian: NDArray[np.float64]
@@ -34,7 +34,7 @@ class Task(Protocol):
     """A task. A new one is one new file with one class."""
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
-        """What it asks for now; None while it has nothing to state, and then nothing is computed for it (T 3.24).
+        """The current demand; None for none, which saves its computation (T 3.24).
 
         Args:
             robot: Kinematics and dynamics of this instant.
@@ -46,14 +46,14 @@ class Task(Protocol):
 
 
 def wrench_demand(robot: RobotDynamics, wrenches: Sequence[LinkWrench]) -> Demand | None:
-    """Let wrenches on links act: tau = J^T E w, all links' rows in one demand (T 3.20-3.22, 3.24).
+    """Apply wrenches to links: tau = J^T E w, all links' rows in one demand (T 3.20-3.22, 3.24).
 
     Args:
         robot: The robot.
-        wrenches: What acts on each link; none makes no demand, and no Jacobian is computed.
+        wrenches: Wrench on each link; no demand without any.
 
     Returns:
-        The demand, its rows and forces in the world frame about each link's origin.
+        The demand, in the world frame about each link's origin.
     """
     if not wrenches:
         return None

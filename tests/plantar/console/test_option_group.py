@@ -9,7 +9,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from plantar.console.option_group import with_option_groups
+from plantar.console.command import with_option_groups
 
 
 def option(default: Any, text: str, **more: Any) -> Any:

@@ -19,7 +19,7 @@ from plantar.percepts.foot_tick import walking_tick
 from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PerceptOptions
 from plantar.percepts.sole_pose import SolePose
-from plantar.sensing import activation, force, health, pressure_wrench
+from plantar.sensing import activation, force, health
 
 from .results import differing, not_finite
 from .soles import Block, unit_wrenches
@@ -234,7 +234,7 @@ def _balance_points(block: Block, tally: Tally) -> None:
         _error(pressed, right, np.abs(right).max(axis=1, keepdims=True)),
         1e-12,
     )
-    frames = pressure_wrench.pressure_driven_wrench(block.layout, block.force, block.layout.cell_area)
+    frames = force.pressure_driven_wrench(block.layout, block.force, block.layout.cell_area)
     tally.add(
         "pressure_driven_wrench", block, _error(frames, right, np.abs(right).max(axis=1, keepdims=True) * 1e2), _SUM
     )
@@ -272,7 +272,7 @@ def _balance_points(block: Block, tally: Tally) -> None:
     off = np.where(there_is, np.abs(found - place[:, :2]).max(axis=1), 0.0)
     tally.add("zmp_of_feet", block, off / (1.0 + np.abs(block.layout.positions).max()), 1e-14)
     turns = block.rng.normal(size=(6, 5))
-    torque = pressure_wrench.joint_torque(turns, turn, wrenches)
+    torque = force.joint_torque(turns, turn, wrenches)
     loads = np.hstack([wrenches[:, :3] @ turn.T, wrenches[:, 3:] @ turn.T])
     tally.add("joint_torque", block, _error(torque, loads @ turns, np.abs(loads) @ np.abs(turns) + 1e-300), 1e-14)
 

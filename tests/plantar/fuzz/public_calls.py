@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar import batch
-from plantar.geometry import contact_rectangle, enclosing, inscribed, outline, polygon
+from plantar.geometry import enclosing, inscribed, outline, polygon
 from plantar.geometry.cell_cutting import CellCutter, half_planes
 from plantar.layouts import cell_edges, cell_layout, curved_sole, taxel_values, tiling
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics import external_wrench, lip, wrench, zmp
-from plantar.percepts import foot_tick, sole_pose, support
+from plantar.percepts import foot_tick, sole_pose
 from plantar.percepts.percept import Percept
 from plantar.sensing import (
     activation,
@@ -32,7 +32,6 @@ from plantar.sensing import (
     link_skin,
     net_wrench,
     partial_contact,
-    pressure_wrench,
     proximity,
     taxel_faults,
     temperature,
@@ -259,16 +258,16 @@ def _of_polygons(sole: SoleLayout) -> list[Call]:
         *found,
         Call(_name(polygon.inner_offset), polygon.inner_offset, {"polygon": _polygon()}, {"distance": 0.03125}),
         Call(
-            _name(contact_rectangle.safe_rectangle),
-            contact_rectangle.safe_rectangle,
+            _name(inscribed.safe_rectangle),
+            inscribed.safe_rectangle,
             {"polygon": _polygon()},
             {"offset": 0.03125},
         ),
         Call(_name(outline.concave_outline), lambda active: outline.concave_outline(sole, active), {"active": active}),
-        Call(_name(support.polygon_in_world), support.polygon_in_world, frame),
+        Call(_name(sole_pose.polygon_in_world), sole_pose.polygon_in_world, frame),
         Call(
-            _name(support.feet_support_polygon),
-            lambda polygon: support.feet_support_polygon([polygon, _RING]),
+            _name(sole_pose.feet_support_polygon),
+            lambda polygon: sole_pose.feet_support_polygon([polygon, _RING]),
             {"polygon": _polygon()},
         ),
         Call("cell_cutting.half_planes", half_planes, {"lines": Argument(_LINES, ("k", 3), "lines")}),
@@ -488,8 +487,8 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
         Call("clipping.clipped_mean", clipping.clipped_mean, {"force": anything}, {"noise": 1.0}),
         Call("clipping.unclipped_mean", clipping.unclipped_mean, {"mean": anything}, {"noise": 1.0}),
         Call(
-            "pressure_wrench.joint_torque",
-            pressure_wrench.joint_torque,
+            "force.joint_torque",
+            force.joint_torque,
             {
                 "jacobian": Argument(np.arange(12.0).reshape(6, 2), (6, "j"), "jacobian"),
                 "rotation_to_base": Argument(_TURN, (3, 3), "rotation"),
@@ -497,13 +496,13 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
             },
         ),
         Call(
-            "pressure_wrench.pressure_driven_wrench",
-            lambda force_: pressure_wrench.pressure_driven_wrench(sole, force_, 0.015625),
+            "force.pressure_driven_wrench",
+            lambda force_: force.pressure_driven_wrench(sole, force_, 0.015625),
             {"force_": frames},
         ),
         Call(
-            "pressure_wrench.scaled_by_area",
-            pressure_wrench.scaled_by_area,
+            "force.scaled_by_area",
+            force.scaled_by_area,
             {
                 "wrench": Argument(np.stack([_WRENCH, _WRENCH]), (..., 6), "wrench", nan=True),
                 "contact_area": Argument(np.array([0.5, 0.25]), ("f",), "area"),

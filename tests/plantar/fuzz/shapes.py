@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from plantar.bench import references as exact
 from plantar.geometry import enclosing, inscribed, polygon
-from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.geometry.inscribed import safe_rectangle
 from plantar.geometry.outline import Outline, concave_outline, feet_outline
-from plantar.percepts.support import feet_support_polygon
+from plantar.percepts.sole_pose import feet_support_polygon
 
 from .results import not_finite
 from .rings import Rings

@@ -4,9 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.errors import InputError
-from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.geometry.enclosing import bounding_box
-from plantar.geometry.inscribed import inscribed_rectangle
+from plantar.geometry.inscribed import inscribed_rectangle, safe_rectangle
 from plantar.geometry.polygon import convex_hull
 
 seeds = st.integers(0, 2**32 - 1)

@@ -14,7 +14,6 @@ import pytest
 from plantar import grid_layout, walking_tick
 from plantar.bench import references as exact
 from plantar.bench.soles import sole_of
-from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
 from plantar.geometry.inscribed import (
     inscribed_circle,
@@ -24,11 +23,12 @@ from plantar.geometry.inscribed import (
     inscribed_triangle,
     rectangle_in_outline,
     rectangle_in_outline_any_angle,
+    safe_rectangle,
 )
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
 from plantar.kernels.geometry.clean import turning
-from plantar.percepts.support import feet_support_polygon
+from plantar.percepts.sole_pose import feet_support_polygon
 from plantar.sensing.partial_contact import PartialContact
 
 from ..fuzz.dirty_rings import ExactRing, chamfered_rectangle, dirty_ring, vanishing_depths

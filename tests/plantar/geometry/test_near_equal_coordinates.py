@@ -15,7 +15,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar.geometry.cell_cutting import CellCutter
-from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
 from plantar.geometry.inscribed import (
     inscribed_circle,
@@ -23,6 +22,7 @@ from plantar.geometry.inscribed import (
     inscribed_rectangle,
     inscribed_rectangle_any_angle,
     inscribed_triangle,
+    safe_rectangle,
 )
 from plantar.geometry.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
 from plantar.kernels.geometry.few_points import FewPoints

@@ -9,17 +9,17 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
 from plantar import InputError
-from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
 from plantar.geometry.inscribed import (
     inscribed_circle,
     inscribed_parallelogram,
     inscribed_rectangle,
     inscribed_triangle,
+    safe_rectangle,
 )
 from plantar.geometry.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
 from plantar.layouts.hex_lattice import HexLattice
-from plantar.percepts.support import feet_support_polygon
+from plantar.percepts.sole_pose import feet_support_polygon
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 seeds = st.integers(0, 2**32 - 1)

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from plantar.geometry.polygon import area, signed_margin
-from plantar.percepts.support import feet_support_polygon, polygon_in_world
+from plantar.percepts.sole_pose import feet_support_polygon, polygon_in_world
 
 SOLE = np.array([[-0.1, -0.05], [0.15, -0.05], [0.15, 0.05], [-0.1, 0.05]])
 angles = st.floats(-0.5, 0.5)

@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from plantar import InputError
-from plantar.sensing.force import ground_reaction_wrench
-from plantar.sensing.pressure_wrench import joint_torque, pressure_driven_wrench
+from plantar.sensing.force import ground_reaction_wrench, joint_torque, pressure_driven_wrench
 
 seeds = st.integers(0, 2**32 - 1)
 

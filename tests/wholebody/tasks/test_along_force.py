@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 
 from plantar.wholebody.fusion.hierarchy import fuse
-from plantar.wholebody.tasks.along_force import AlongForce
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose
+from plantar.wholebody.tasks.point_force import AlongForce
 from plantar.wholebody.tasks.task import Demand
 
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from plantar.wholebody.tasks.body_compliance import BodyCompliance
+from plantar.wholebody.tasks.posture import BodyCompliance
 from plantar.wholebody.tasks.task import Demand, Task
 
 

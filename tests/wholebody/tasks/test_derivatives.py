@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+import re
 
 import mujoco
 import numpy as np
@@ -11,22 +12,22 @@ import pytest
 
 import plantar.wholebody.tasks
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
-from plantar.wholebody.tasks.along_force import AlongForce
 from plantar.wholebody.tasks.base_avoidance import BaseAvoidance
-from plantar.wholebody.tasks.body_compliance import BodyCompliance
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose
 from plantar.wholebody.tasks.center_of_mass import CenterOfMass
 from plantar.wholebody.tasks.compliant_wrist import CompliantWrist
 from plantar.wholebody.tasks.contact_force import ContactForce
-from plantar.wholebody.tasks.interaction import DirectInteraction
-from plantar.wholebody.tasks.point_force import PointForce
-from plantar.wholebody.tasks.posture import Posture
-from plantar.wholebody.tasks.pressure import PressureInteraction
-from plantar.wholebody.tasks.proximity import ProximityInteraction
+from plantar.wholebody.tasks.point_force import AlongForce, PointForce
+from plantar.wholebody.tasks.posture import BodyCompliance, Posture
 from plantar.wholebody.tasks.self_collision import SelfCollision, Sphere
+from plantar.wholebody.tasks.skin_interaction import (
+    DirectInteraction,
+    PressureInteraction,
+    ProximityInteraction,
+    TemperatureInteraction,
+)
 from plantar.wholebody.tasks.support import Standing, Support
 from plantar.wholebody.tasks.tactile_guidance import TactileGuidance
-from plantar.wholebody.tasks.temperature import TemperatureInteraction
 
 JOINTS = 9
 STEP = 1e-5
@@ -107,14 +108,14 @@ CASES = {
         lambda a, b, m: m.pose(HAND)[1].T @ moved_pose(a, b, HAND)[3:],
     ),
     "contact_force": (lambda r, s: ContactForce(s, "hand", POINT, NORMAL), along_normal),
-    "interaction": (lambda r, s: DirectInteraction(s), lambda a, b, m: links_that_feel(a, b)),
+    "direct_interaction": (lambda r, s: DirectInteraction(s), lambda a, b, m: links_that_feel(a, b)),
     "point_force": (lambda r, s: pushed(r), lambda a, b, m: moved_pose(a, b, HAND, POINT)[:3]),
     "posture": (
         lambda r, s: Posture(np.zeros(JOINTS), joints=[5, 2]),
         lambda a, b, m: (b.joint_positions - a.joint_positions)[[5, 2]],
     ),
-    "pressure": (lambda r, s: PressureInteraction(s, 1e-3), lambda a, b, m: links_that_feel(a, b)),
-    "proximity": (lambda r, s: ProximityInteraction(s, 100.0), lambda a, b, m: links_that_feel(a, b)),
+    "pressure_interaction": (lambda r, s: PressureInteraction(s, 1e-3), lambda a, b, m: links_that_feel(a, b)),
+    "proximity_interaction": (lambda r, s: ProximityInteraction(s, 100.0), lambda a, b, m: links_that_feel(a, b)),
     "self_collision": (lambda r, s: SelfCollision([BALLS], 9.0, 10.0), lambda a, b, m: np.array([apart(b) - apart(a)])),
     "support": (
         lambda r, s: Support({"a": Standing(HAND, POINT), "b": Standing(ARM, POINT, flat=False)}),
@@ -124,23 +125,16 @@ CASES = {
         lambda r, s: TactileGuidance(s, ["arm"], HAND, POINT),
         lambda a, b, m: moved_pose(a, b, HAND, POINT)[:3],
     ),
-    "temperature": (lambda r, s: TemperatureInteraction(s, 1.0), lambda a, b, m: links_that_feel(a, b)),
+    "temperature_interaction": (lambda r, s: TemperatureInteraction(s, 1.0), lambda a, b, m: links_that_feel(a, b)),
 }
 
 
 def test_no_task_is_left_out():
-    files = {m.name for m in pkgutil.iter_modules(plantar.wholebody.tasks.__path__)}
-    tasks = {
-        name
-        for name in files
-        if any(
-            n.startswith("demand")
-            for c in vars(importlib.import_module(f"plantar.wholebody.tasks.{name}")).values()
-            if isinstance(c, type) and c.__module__ == f"plantar.wholebody.tasks.{name}"
-            for n in dir(c)
-        )
-    }
-    assert tasks - {"task", "skin_interaction"} == set(CASES)
+    modules = [f"plantar.wholebody.tasks.{m.name}" for m in pkgutil.iter_modules(plantar.wholebody.tasks.__path__)]
+    classes = [c for m in modules for c in vars(importlib.import_module(m)).values() if isinstance(c, type)]
+    tasks = {c.__name__ for c in classes if c.__module__ in modules and hasattr(c, "demand")}
+    names = {re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower() for name in tasks - {"Task", "SkinInteraction"}}
+    assert names == set(CASES)
 
 
 @pytest.fixture

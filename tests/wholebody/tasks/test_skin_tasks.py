@@ -5,10 +5,12 @@ import pytest
 
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from plantar.wholebody.stack import TaskStack
-from plantar.wholebody.tasks.interaction import DirectInteraction
-from plantar.wholebody.tasks.pressure import PressureInteraction
-from plantar.wholebody.tasks.proximity import ProximityInteraction
-from plantar.wholebody.tasks.temperature import TemperatureInteraction
+from plantar.wholebody.tasks.skin_interaction import (
+    DirectInteraction,
+    PressureInteraction,
+    ProximityInteraction,
+    TemperatureInteraction,
+)
 
 SIZE = 5
 

@@ -1,4 +1,4 @@
-"""Centre of mass at a point."""
+"""Center of mass at a point."""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.joints.task_rows import ComRows, Rows
-from plantar.robots.kinematics.tasks.chain import chain
-from plantar.robots.kinematics.tasks.task import Target, Task
+from plantar.robots.kinematics.tasks.task import Target, Task, chain
 
 __all__ = ["ComTask"]
 
 
 class ComTask(Task):
-    """The CoM of a body and all that hangs on it should be at a point of the world.
+    """The CoM of a body and its descendants should be at a point of the world.
 
     Attributes:
         target: The point (3,) in m, copied where it is set.
@@ -38,13 +37,9 @@ class ComTask(Task):
         mujoco.mj_jacSubtreeCom(self._model, self._data, out, self._body)
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
-        """A kernel that writes both at once (see `Task.rows_for`).
+        """See `Task.rows_for`.
 
-        Returns the kernel.
-
-        Args:
-            error: Receives the error (rows,).
-            jacobian: Receives the Jacobian (rows, nv).
+        Takes `error` and `jacobian`; returns the kernel.
         """
         model, data, first = self._model, self._data, self._body
         last = first + 1  # the bodies of a tree follow each other

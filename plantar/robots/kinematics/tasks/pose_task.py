@@ -6,13 +6,27 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.joints.task_rows import PoseRows, Rows
-from plantar.kernels.mechanics.rotations import missing_pose
+from plantar.kernels.joints.task_rows import (
+    PoseRows,
+    Rows,
+    TurnRows,
+)
+from plantar.kernels.mechanics.rotations import (
+    missing_pose,
+    missing_turn,
+)
 from plantar.mechanics.rotation import rotation_error
-from plantar.robots.kinematics.tasks.chain import chain
-from plantar.robots.kinematics.tasks.task import Target, Task
+from plantar.robots.kinematics.tasks.task import (
+    Target,
+    Task,
+    chain,
+)
 
-__all__ = ["PoseTask"]
+__all__ = [
+    "OrientationTask",
+    "PoseTask",
+    "RollingPoseTask",
+]
 
 
 class PoseTask(Task):
@@ -34,7 +48,7 @@ class PoseTask(Task):
         self.position, self.rotation = self._position, self._rotation
 
     def error(self, out: NDArray[np.float64]) -> None:
-        """Way (3,) in m and turn (3,) that are missing, in the world frame."""
+        """Missing way (3,) in m and turn (3,), in the world frame."""
         if not missing_pose(self.position, self.rotation, self._position, self._rotation, out):
             out[3:] = rotation_error(self.rotation, self._rotation)
 
@@ -43,13 +57,9 @@ class PoseTask(Task):
         mujoco.mj_jacSite(self._model, self._data, out[:3], out[3:], self._site)
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
-        """A kernel that writes both at once (see `Task.rows_for`).
+        """See `Task.rows_for`.
 
-        Returns the kernel.
-
-        Args:
-            error: Receives the error (rows,).
-            jacobian: Receives the Jacobian (rows, nv).
+        Takes `error` and `jacobian`; returns the kernel.
         """
         model, data = self._model, self._data
         body = int(model.site_bodyid[self._site])
@@ -57,3 +67,66 @@ class PoseTask(Task):
             *(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]]),
             *(self.position, self.rotation, self._position, self._rotation, error, jacobian),
         )
+
+
+class OrientationTask(Task):
+    """A body should have an orientation in the world.
+
+    Attributes:
+        target: Rotation (3, 3) from the body to the world frame, copied where it is set.
+    """
+
+    rows = 3
+    target = Target()
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
+        self._model, self._data, self._body = model, data, body
+        self._rotation = data.xmat[body].reshape(3, 3)
+        self.target = self._rotation
+
+    def error(self, out: NDArray[np.float64]) -> None:
+        """Missing turn (3,) in the world frame (see `plantar.mechanics.rotation.rotation_error`)."""
+        if not missing_turn(self.target, self._rotation, out):
+            out[:] = rotation_error(self.target, self._rotation)
+
+    def jacobian(self, out: NDArray[np.float64]) -> None:
+        """Angular velocity of the body (3, nv) in the world frame."""
+        mujoco.mj_jacBody(self._model, self._data, None, out, self._body)
+
+    def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
+        """See `Task.rows_for`.
+
+        Takes `error` and `jacobian`; returns the kernel.
+        """
+        return TurnRows(
+            *(chain(self._model, self._body), self._data.cdof, self.target, self._rotation, error, jacobian)
+        )
+
+
+class RollingPoseTask(PoseTask):
+    """A site should be at a position and an orientation of the world, with any roll about its own x axis.
+
+    See `PoseTask` for attributes and arguments.
+    """
+
+    rows = 5
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, site: int) -> None:
+        super().__init__(model, data, site)
+        self._turns = np.zeros((3, model.nv))
+
+    def error(self, out: NDArray[np.float64]) -> None:
+        """Missing way (3,) in m, in the world frame, and turn (2,) about the site's own y and z axes."""
+        np.subtract(self.position, self._position, out=out[:3])
+        out[3:] = (self._rotation.T @ rotation_error(self.rotation, self._rotation))[1:]
+
+    def jacobian(self, out: NDArray[np.float64]) -> None:
+        """Velocity of the site (3, nv) in the world frame, and its rate of turn (2, nv) about its own y and z axes."""
+        mujoco.mj_jacSite(self._model, self._data, out[:3], self._turns, self._site)
+        out[3:] = self._rotation.T[1:] @ self._turns
+
+    def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> None:
+        """None: this task has no kernel.
+
+        Takes `error` and `jacobian`.
+        """

@@ -1,22 +1,27 @@
-"""What inverse kinematics asks of a task."""
+"""The interface of inverse kinematics to a task."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import (
+    ABC,
+    abstractmethod,
+)
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.joints.task_rows import Rows
 
-__all__ = ["Target", "Task"]
+__all__ = [
+    "Target",
+    "Task",
+    "chain",
+]
 
 
 class Target:
-    """What a task is asked for: an array of the task's own, at one place, where a kernel reads it.
-
-    The first array that is set gives its shape; each is copied.
-    """
+    """A task's target: an array of its own at one place, where a kernel reads it, of the shape that is set first."""
 
     def __set_name__(self, owner: type[Task], name: str) -> None:
         self._name = name
@@ -35,13 +40,13 @@ class Target:
 class Task(ABC):
     """Something that a configuration should fulfil, bound to a model and its data.
 
-    The error is the displacement that is missing, in the coordinates of the Jacobian's rows: a small step dq with
-    J dq = error removes it. Both are read from the data after `mj_kinematics` and `mj_comPos`.
+    The error is the missing displacement: a small step dq with J dq = error removes it. Both are read after
+    `mj_kinematics` and `mj_comPos`.
 
     Attributes:
         rows: Number of rows of error and Jacobian.
-        lengths: How many of them, the first ones, are lengths in m; the others are angles in rad.
-        level: Where tasks cannot all be fulfilled, those of a lower level go first, and others miss their targets.
+        lengths: Number of the first ones that are lengths in m; the others are angles in rad.
+        level: Priority where tasks conflict, lower first.
     """
 
     rows: int
@@ -57,13 +62,25 @@ class Task(ABC):
         """Write the Jacobian (rows, nv), contiguous, in m and rad over the model's velocities."""
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
-        """A kernel that writes both at once; None for a task that has none, whose solver asks for each.
+        """A kernel that writes both at once, or None for a task without one.
 
         Args:
-            error: Receives the error (rows,), but for a turn of more than a quarter: then `error` is asked as well.
-            jacobian: Receives the Jacobian (rows, nv); an array of zeros that no one else writes to.
+            error: Receives the error (rows,), but for a turn of more than a quarter, which `error` writes.
+            jacobian: Receives the Jacobian (rows, nv); zeros without another writer.
 
         Returns:
-            The kernel, or None.
+            The kernel.
         """
         return None
+
+
+def chain(model: mujoco.MjModel, body: int) -> NDArray[np.intp]:
+    """Returns indices (c,) of the velocities of a model that move a body, from the body to the root."""
+    while body and not model.body_dofnum[body]:  # fixed to its parent
+        body = int(model.body_parentid[body])
+    moving: list[int] = []
+    velocity = int(model.body_dofadr[body] + model.body_dofnum[body]) - 1 if body else -1
+    while velocity >= 0:
+        moving.append(velocity)
+        velocity = int(model.dof_parentid[velocity])
+    return np.array(moving, dtype=np.intp)

@@ -19,8 +19,7 @@ from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
 from plantar.sim.companion.standing.standing import StandingExperiment
 from plantar.sim.companion.standing.visitor import Visitor
-from plantar.wholebody.tasks.interaction import DirectInteraction
-from plantar.wholebody.tasks.proximity import ProximityInteraction
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction, ProximityInteraction
 from plantar.wholebody.tasks.task import Task
 
 __all__ = ["Feather", "FeatherControl", "FeatherSettings"]

@@ -27,7 +27,7 @@ from plantar.sim.companion.standing.standing import StandingExperiment
 from plantar.wholebody.behaviours.nociceptive_reflex import NociceptiveReflex, ReflexSettings
 from plantar.wholebody.fusion.priority_transition import PriorityTransition
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose
-from plantar.wholebody.tasks.pressure import PressureInteraction
+from plantar.wholebody.tasks.skin_interaction import PressureInteraction
 from plantar.wholebody.tasks.task import Task
 
 __all__ = ["Nociception", "NociceptionControl", "NociceptionSettings"]

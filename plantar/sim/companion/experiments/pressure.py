@@ -20,8 +20,7 @@ from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingControl, StandingController
 from plantar.sim.companion.standing.pad import Pad
 from plantar.sim.companion.standing.standing import StandingExperiment
-from plantar.wholebody.tasks.interaction import DirectInteraction
-from plantar.wholebody.tasks.pressure import PressureInteraction
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction, PressureInteraction
 from plantar.wholebody.tasks.task import Task
 
 __all__ = ["Pressure", "PressureControl", "PressureSettings"]

@@ -27,8 +27,8 @@ from plantar.sim.companion.standing.heat import HotPlate, PlateSettings
 from plantar.sim.companion.standing.standing import StandingExperiment
 from plantar.wholebody.fusion.priority_transition import PriorityTransition
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from plantar.wholebody.tasks.skin_interaction import TemperatureInteraction
 from plantar.wholebody.tasks.task import Task
-from plantar.wholebody.tasks.temperature import TemperatureInteraction
 
 __all__ = ["Stove", "StoveControl", "StoveSettings"]
 

@@ -18,12 +18,11 @@ from plantar.wholebody.fusion.null_space import weighted_sum
 from plantar.wholebody.fusion.priority_transition import PriorityTransition
 from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.base_avoidance import AvoidanceField, BaseAvoidance
-from plantar.wholebody.tasks.body_compliance import BodyCompliance
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from plantar.wholebody.tasks.compliant_wrist import CompliantWrist, WristGains
 from plantar.wholebody.tasks.contact_force import ContactForce, ContactGains
-from plantar.wholebody.tasks.interaction import DirectInteraction
-from plantar.wholebody.tasks.posture import Posture
+from plantar.wholebody.tasks.posture import BodyCompliance, Posture
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 from plantar.wholebody.tasks.tactile_guidance import GuidanceGains, TactileGuidance
 from plantar.wholebody.tasks.task import Demand, Task
 

@@ -18,11 +18,10 @@ from plantar.wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
 from plantar.wholebody.fusion.null_space import weighted_sum
 from plantar.wholebody.fusion.priority_transition import PriorityTransition, TransitionSettings
 from plantar.wholebody.stack import TaskStack
-from plantar.wholebody.tasks.along_force import AlongForce
 from plantar.wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
-from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.point_force import AlongForce
 from plantar.wholebody.tasks.posture import Posture
-from plantar.wholebody.tasks.proximity import ProximityInteraction
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction, ProximityInteraction
 from plantar.wholebody.tasks.task import Task
 
 __all__ = ["ReachControl", "ReachController"]

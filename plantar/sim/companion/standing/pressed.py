@@ -20,7 +20,7 @@ from plantar.sim.companion.machine import Machine
 from plantar.sim.companion.standing.controller import StandingController
 from plantar.sim.companion.standing.pad import Pad, PlannedContact, outer_taxel
 from plantar.sim.companion.standing.standing import StandingExperiment, by_active
-from plantar.wholebody.tasks.interaction import DirectInteraction
+from plantar.wholebody.tasks.skin_interaction import DirectInteraction
 from plantar.wholebody.tasks.task import Task
 
 __all__ = ["UPPER_BODY", "PressedExperiment", "PressedSettings"]

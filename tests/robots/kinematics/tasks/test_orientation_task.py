@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from plantar.mechanics.rotation import rotation_from_vector
-from plantar.robots.kinematics.tasks.orientation_task import OrientationTask
+from plantar.robots.kinematics.tasks.pose_task import OrientationTask
 
 
 @pytest.mark.parametrize("seed", range(5))

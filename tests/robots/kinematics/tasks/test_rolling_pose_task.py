@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from plantar.mechanics.rotation import rotation_from_vector
-from plantar.robots.kinematics.tasks.rolling_pose_task import RollingPoseTask
+from plantar.robots.kinematics.tasks.pose_task import RollingPoseTask
 
 
 @pytest.mark.parametrize("seed", range(5))

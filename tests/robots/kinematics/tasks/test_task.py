@@ -5,12 +5,10 @@ import numpy as np
 import pytest
 
 from plantar.mechanics.rotation import rotation_from_vector
-from plantar.robots.kinematics.tasks.chain import chain
 from plantar.robots.kinematics.tasks.com_task import ComTask
-from plantar.robots.kinematics.tasks.orientation_task import OrientationTask
-from plantar.robots.kinematics.tasks.pose_task import PoseTask
+from plantar.robots.kinematics.tasks.pose_task import OrientationTask, PoseTask, RollingPoseTask
 from plantar.robots.kinematics.tasks.posture_task import PostureTask
-from plantar.robots.kinematics.tasks.rolling_pose_task import RollingPoseTask
+from plantar.robots.kinematics.tasks.task import chain
 
 TWO_TREES = """
 <mujoco><worldbody>
