@@ -75,6 +75,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "plantar.sim": (
         *(
             "libraries",
+            "papers",
             "terrain",
             "plant",
             "model",

@@ -1,4 +1,4 @@
-"""`plantar list`: list robots, scenes, formats and settings."""
+"""`plantar list`: list robots, scenes, papers, formats and settings."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ __all__ = ["COMMAND", "list_"]
 
 def list_(
     what: Annotated[
-        str | None, Argument(metavar="WHAT", help="robots, scenes, formats or settings.", show_default=False)
+        str | None, Argument(metavar="WHAT", help="robots, scenes, papers, formats or settings.", show_default=False)
     ] = None,
     name: Annotated[
-        str | None, Argument(help="settings: a table or a setting, such as estimator or balance.dcm_gain.")
+        str | None,
+        Argument(help="settings: a table or a setting, such as estimator or balance.dcm_gain; papers: one of them."),
     ] = None,
     robot: Annotated[
         str | None, Option(help="settings: the robot whose numbers are shown where a default is a share of its body.")
@@ -27,24 +28,29 @@ def list_(
 ) -> None:
     """List what there is: robots to walk, scenes to run, recording formats to analyse, settings to change.
 
+    Papers are presets: `--set paper=K` sets what a paper states for a scene; `plantar list papers K` shows what and where.
+
     Each setting is shown with its default, unit and range; `--set` and `--grid` take its dotted name. A default that
     grows with the robot is shown with its share: "70.02 N = 0.083 weight" for H1, or for `--robot`.
 
     Example: plantar list formats
 
     Example: plantar list settings estimator
+
+    Example: plantar list papers K
     """
     if what is None:
         kinds = {
             "robots": "robots to walk, machines with skin",
             "scenes": "scenes to run: plantar sim",
+            "papers": "papers whose methods and parameters --set paper=NAME switches on",
             "formats": "formats of recordings to analyse",
             "settings": "settings to change with --set, of robots and scenes",
         }
         _print_names("kinds", kinds, as_json)
         return
     for given, words in ((name, "name"), (robot, "robot")):
-        if given is not None and what != "settings":
+        if given is not None and what != "settings" and (what, words) != ("papers", "name"):
             raise InputError(f"'list {what}' takes no {words}, got '{given}'; allowed: plantar list settings NAME")
     if what == "settings":
         need_libraries("sim", "mujoco")
@@ -53,6 +59,11 @@ def list_(
 
         found = settings_of_robot(name, robot)
         end_command({what: setting_rows(found)}, as_json, setting_text(found))
+        return
+    if name is not None:
+        from plantar.sim.papers.preset import paper_rows, paper_text
+
+        end_command({what: paper_rows(name)}, as_json, paper_text(name))
         return
     from plantar.sim.run.setting_list import listed
 
@@ -65,5 +76,5 @@ def _print_names(kind: str, found: dict[str, str], as_json: bool) -> None:
     end_command({kind: [{"name": name, "description": text} for name, text in found.items()]}, as_json, text)
 
 
-COMMAND = Command(list_, "List robots, scenes, recording formats or settings.", 80, name="list")
+COMMAND = Command(list_, "List robots, scenes, papers, recording formats or settings.", 80, name="list")
 """What `plantar.cli` registers."""

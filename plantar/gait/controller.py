@@ -207,7 +207,8 @@ class WalkingController:
             region = footing.zmp_region(phase, footing.follow(phase, time))
         reference = self.plan.at(time)
         law = self.balance if feedback else self._open_loop
-        balanced = law.update(reference, dcm, state.zmp, region if feedback else _UNBOUNDED_REGION)
+        aim, region = footing.regulated(phase, time, tick.pendulum, region if feedback else _UNBOUNDED_REGION)
+        balanced = law.update(aim, dcm, state.zmp, region)
         if feedback:
             footing.conform(phase, balanced.zmp_desired, state, sensed)
         com, torso, posture = self.body_targets.at(phase, balanced.com, 0.0 if body is None else body.lean)

@@ -18,6 +18,7 @@ from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.geometry.polygon import closest_point
 from plantar.settings.part import Part
+from plantar.settings.schema import choice, switch
 from plantar.settings.schema import number as number_setting
 
 __all__ = [
@@ -51,15 +52,20 @@ _NODES, _WEIGHTS = (x.tolist() for x in np.polynomial.legendre.leggauss(10))
 
 
 class AnkleRules(Part, table="ankle_strategy", needs={"control.step_adjustment": (True,)}):
-    """Share of the support polygon that the ankle strategy uses before a step is changed (K 27).
+    """How the ankles keep the balance, and with which share of the support polygon before a step is changed (K 27).
 
     Attributes:
+        law: "tracking" feeds back the DCM's distance from the plan (T 4.28); "regulation" applies the VRP that brings
+            it to its goal by the end of the phase, and changes steps only where that leaves the share (K 25-27).
         forward: Share beta_x of the polygon along the sole (K Table 1).
         sideways: Share beta_y of it across the sole.
+        confident: Whether confidence enlarges the shares, up to the whole polygon; K leaves them constant.
     """
 
+    law: str = choice("tracking", "regulation")
     forward: float = number_setting(0.5, "1", 0, 1)
     sideways: float = number_setting(0.8, "1", 0, 1)
+    confident: bool = switch(True)
 
 
 class Saturation(StrEnum):

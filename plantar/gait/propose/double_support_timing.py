@@ -6,7 +6,13 @@ from __future__ import annotations
 
 import math
 
-from plantar.gait.balance.ankle_strategy import Saturation, double_support_vrp, within_support
+from plantar.gait.balance.ankle_strategy import (
+    AnkleRules,
+    Saturation,
+    double_support_vrp,
+    shrunk_support,
+    within_support,
+)
 from plantar.gait.plan.phases import PhaseKind
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.dsp_opt import DspProblem, DspWeights, solve_dsp
@@ -43,15 +49,24 @@ class DoubleSupportTiming:
         weights: What a change is weighed by.
         confidence: c of K 37.
         period: Control period in s, the unit of a change.
+        ankle: Share of the support polygon that the VRP uses (K 27), with law "regulation"; else all of it.
     """
 
     priority = Priority.TIMING
 
-    def __init__(self, rules: DoubleSupportTimingRules, weights: DspWeights, confidence: float, period: float) -> None:
+    def __init__(
+        self,
+        rules: DoubleSupportTimingRules,
+        weights: DspWeights,
+        confidence: float,
+        period: float,
+        ankle: AnkleRules | None = None,
+    ) -> None:
         self._rules = rules
         self._weights = weights
         self._confidence = confidence
         self._period = period
+        self._ankle = ankle if ankle is not None and ankle.law == "regulation" else None
         self._changed = -math.inf
 
     def propose(self, tick: Tick) -> PlanChange | None:
@@ -80,7 +95,10 @@ class DoubleSupportTiming:
         phase, plan = tick.phase, tick.plan
         end, begun, length = plan.stance_vrp(phase.step), tick.time - phase.start, phase.end - phase.start
         wanted = double_support_vrp(pendulum.dcm, pendulum.goal, end, length, begun, pendulum.offset, pendulum.omega)
-        kept = within_support(wanted, pendulum.zmp_region)
+        region = pendulum.zmp_region
+        if self._ankle is not None:
+            region = shrunk_support(region, self._ankle, region.mean(axis=0), tick.place("left").yaw)
+        kept = within_support(wanted, region)
         if kept.saturated != Saturation.SUPPORT:
             return None
         problem = DspProblem(

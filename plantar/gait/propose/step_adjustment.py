@@ -17,7 +17,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gait.balance.ankle_strategy import AnkleRules, shrunk_support
+from plantar.gait.balance.ankle_strategy import (
+    AnkleRules,
+    Saturation,
+    shrunk_support,
+    single_support_vrp,
+    within_support,
+)
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.plan_change import PlanChange
 from plantar.gait.propose.proposer import Pendulum, Priority, Tick, nearest_place
@@ -125,7 +131,7 @@ class StepAdjustment:
         self._box = region
         self._touching = touching
         self._weights = weights
-        c, (forward, sideways) = rules.confidence, (ankle.forward, ankle.sideways)
+        c, (forward, sideways) = rules.confidence if ankle.confident else 0.0, (ankle.forward, ankle.sideways)
         self._ankle = replace(ankle, forward=forward + c * (1.0 - forward), sideways=sideways + c * (1.0 - sideways))
         self._period = period
         self._changed = -math.inf
@@ -150,6 +156,8 @@ class StepAdjustment:
         if tick.time < self._changed + self._rules.pause or not len(pendulum.zmp_region):
             return None
         left = tick.phase.end - tick.time
+        if self._ankle.law == "regulation":
+            return self._beyond_ankles(tick, pendulum, foot, left, swing)
         # An error grows at most as without any feedback.
         off = math.dist(pendulum.dcm, pendulum.reference.dcm) + math.hypot(
             *(pendulum.offset + pendulum.pushed).tolist()
@@ -158,10 +166,27 @@ class StepAdjustment:
             return None
         if math.hypot(*_missed(pendulum, left)) < self._rules.least_error:
             return self._go_along(tick, pendulum, foot, left)
-        region = self._region(tick, swing)
+        return self._step_elsewhere(tick, pendulum, foot, left, swing)
+
+    def _step_elsewhere(
+        self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, swing: Side
+    ) -> PlanChange | None:
+        """Another footstep for what the ankles' share of the support polygon cannot make up for."""
         pendulum = pendulum.changed(zmp_region=self._relied_on(tick, pendulum.zmp_region))
         find = self._solved if self._rules.method == "ssp_opt" else self._searched
-        return self._change(tick, find(tick, pendulum, foot, left, region), left)
+        return self._change(tick, find(tick, pendulum, foot, left, self._region(tick, swing)), left)
+
+    def _beyond_ankles(
+        self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, swing: Side
+    ) -> PlanChange | None:
+        """Another footstep where u* lies outside the ankles' share f(c) S (K 25, 27)."""
+        if left < 2.0 * self._period:
+            return None
+        wanted = single_support_vrp(pendulum.dcm, pendulum.goal, left, pendulum.offset, pendulum.omega)
+        kept = within_support(wanted, self._relied_on(tick, pendulum.zmp_region))
+        if kept.saturated != Saturation.SUPPORT:
+            return None
+        return self._step_elsewhere(tick, pendulum, foot, left, swing)
 
     def _go_along(self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float) -> PlanChange | None:
         """The step farther along a push, as far as it has not moved already; it never comes back by itself."""

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from plantar.arrays import read_only
 from plantar.errors import InputError
+from plantar.gait.balance.ankle_strategy import shrunk_support, within_support
+from plantar.gait.balance.dcm_regulation import phase_goal, regulated_vrp
 from plantar.gait.contact.ankle_limits import AnkleLimits
 from plantar.gait.contact.foot_contacts import FootContacts
 from plantar.gait.controller_settings import ControllerSettings
@@ -25,6 +27,7 @@ from plantar.gait.feet.swing_compliance import SwingCompliance
 from plantar.gait.plan.feet_view import FeetView
 from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.phases import Phase, PhaseKind
+from plantar.gait.plan.vrp_plan import LipReference
 from plantar.gait.plan.walk_plan import WalkPlan
 from plantar.gait.propose.foothold_refused import StepGuard
 from plantar.gait.propose.proposer import Pendulum, Tick
@@ -92,6 +95,7 @@ class Footing:
         blind = s.footholds == "force" and s.compliance is None
         self._slope = SoleSlope(s.estimator.minimum_load) if blind else None
         self._push = WrenchFilter(s.push_expected, estimation.omega, s.period)
+        self._regulates = s.step_adjustment is not None and s.ankle_strategy.law == "regulation"
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
@@ -209,7 +213,8 @@ class Footing:
 
     def zmp_region(self, phase: Phase, feet: FeetView) -> NDArray[np.float64]:
         """Returns where the desired ZMP may lie in a phase with such feet: polygon (k, 2) in the world in m."""
-        return self.contacts.zmp_region(phase, feet, self.frame.offset, self._settings.balance.zmp_offset)
+        margin = 0.0 if self._regulates else self._settings.balance.zmp_offset  # f(c) S is a share of the whole S
+        return self.contacts.zmp_region(phase, feet, self.frame.offset, margin)
 
     def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
         offset, pushed, omega, plan = _NO_PUSH, _NO_PUSH, self._estimation.omega, self._plan
@@ -219,7 +224,31 @@ class Footing:
                 offset = self._push.mean(max(0.0, phase.end - time))
                 # xi' = w u_w, summed over the time that the low pass remembers.
                 pushed = expected * (omega * self._settings.push_expected.time_constant)
-        return Pendulum(omega, dcm, plan.at(time), plan.dcm_after(phase), region, offset, pushed)
+        goal = phase_goal(plan.view, phase, offset, omega) if self._regulates else None
+        return Pendulum(omega, dcm, plan.at(time), plan.dcm_after(phase) if goal is None else goal, region, offset, pushed)
+
+    def regulated(
+        self, phase: Phase, time: float, pendulum: Pendulum | None, region: NDArray[np.float64]
+    ) -> tuple[LipReference, NDArray[np.float64]]:
+        """What the balance law is handed: the plan now and where the ZMP may lie, or u* and its share of that (K 27).
+
+        Args:
+            phase: The phase, of the plan as it is now.
+            time: Time in s.
+            pendulum: The pendulum before the plan changed; None hands over the plan.
+            region: Where the desired ZMP may lie (k, 2) in m.
+        """
+        reference, plan = self._plan.at(time), self._plan.view
+        if pendulum is None or not self._regulates or not len(region):
+            return reference, region
+        yaw = self.motion.footholds[phase.stance or "left"][1] + self.frame.turn
+        region = shrunk_support(region, self._settings.ankle_strategy, region.mean(axis=0), yaw)
+        goal = phase_goal(plan, phase, pendulum.offset, pendulum.omega)
+        goal = self._plan.dcm_after(phase) if goal is None else goal
+        wanted = regulated_vrp(plan, phase, time, pendulum.dcm, goal, pendulum.offset, pendulum.omega)
+        if wanted is None:
+            return reference, region
+        return reference.changed(vrp=within_support(wanted, region).vrp, dcm=pendulum.dcm), region
 
     def _level(self, slope: SoleSlope, phase: Phase, state: BaseState) -> None:
         """Turn a foot that comes down blindly, or has just landed, parallel to the stance foot."""

@@ -72,8 +72,8 @@ def proposers(
     rules = s.step_adjustment, s.step_region, touching_distance(outlines), s.step_weights, s.ankle_strategy
     found.append(StepAdjustment(*rules, s.period, timing))
     if s.step_adjustment.double_support:
-        confidence = s.step_adjustment.confidence
-        found.append(DoubleSupportTiming(s.double_support_timing, s.dsp_weights, confidence, s.period))
+        timed = s.double_support_timing, s.dsp_weights, s.step_adjustment.confidence, s.period
+        found.append(DoubleSupportTiming(*timed, s.ankle_strategy))
     if s.learned_stride is not None:
         found.append(LearnedStride(s.learned_stride))
     return found

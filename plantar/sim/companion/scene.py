@@ -14,6 +14,7 @@ from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sim.body_skin.sensing import SkinSensing
 from plantar.sim.companion.experiment import CompanionControl, Experiment, experiment_class
 from plantar.sim.companion.lidar import LidarSettings
+from plantar.sim.papers.preset import with_paper
 
 __all__ = ["CompanionScene", "companion_scene", "companion_tables"]
 
@@ -98,6 +99,7 @@ def companion_scene(
     if not isinstance(kind, str):
         raise SceneError(f"{where}: 'experiment' is {kind!r}; allowed: a name, or a table with kind = its name")
     result["experiment"] = table
+    paper, settings = with_paper(settings, path.stem, machine or str(result.get("machine", "")))
     kinds = companion_tables(kind)
     for setting in settings:
         key, text = split_setting(setting)
@@ -119,7 +121,7 @@ def companion_scene(
         name: own.from_table(result.get(name, {}), f"{where}: [{name}]", SceneError) for name, own in kinds.items()
     }
     return CompanionScene(
-        name=result.get("name", path.stem),
+        name=result.get("name", path.stem) + (f" as {paper}" if paper else ""),
         description=result.get("description", ""),
         robot=machine or result["machine"],
         kind=kind,

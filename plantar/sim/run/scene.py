@@ -19,6 +19,7 @@ from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings, choice, number, switch, whole
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sim.arms.settings import ArmSettings
+from plantar.sim.papers.preset import with_paper
 from plantar.sim.partner.settings import GuideSettings, PartnerSettings
 from plantar.sim.plant.settings import Plant
 from plantar.sim.sensing.settings import Sensing
@@ -312,6 +313,7 @@ def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = ()
         SceneError: If a field is not valid.
     """
     given = set(source)
+    paper, settings = with_paper(settings, path.stem, robot or str(source.get("robot", "h1")))
     source = override(source, settings)
     where = f"scene '{path.stem}'"
     refuse_unknown_keys(source, ("name", "description", "robot", *SECTIONS, *CONTROLLER_TABLES), where, SceneError)
@@ -325,7 +327,7 @@ def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = ()
         for section, kind in (SECTIONS | _terrain_kind(source)).items()
     }
     return Scene(
-        name=source.get("name", path.stem),
+        name=source.get("name", path.stem) + (f" as {paper}" if paper else ""),
         description=source.get("description", ""),
         robot=robot or source.get("robot", "h1"),
         controller={

@@ -12,6 +12,7 @@ from plantar.settings.body_scale import REFERENCE_BODY, BodyScale, si_unit
 from plantar.settings.schema import Setting, Settings
 from plantar.sim.companion.experiment import experiment_names
 from plantar.sim.companion.scene import companion_tables
+from plantar.sim.papers.preset import paper_files
 from plantar.sim.run.scene import SECTIONS, Scene
 from plantar.sim.terrain import terrain_kinds
 
@@ -80,7 +81,7 @@ def listed(what: str) -> dict[str, str]:
     """Names with a line that describes each.
 
     Args:
-        what: "robots", "scenes" or "formats".
+        what: "robots", "scenes", "papers" or "formats".
 
     Returns:
         Descriptions by name.
@@ -104,7 +105,10 @@ def listed(what: str) -> dict[str, str]:
         return {
             path.stem: text for path, text in described_files(packaged_files("plantar.sim", "scenes/*.toml")).items()
         }
-    raise InputError(f"cannot list '{what}'; allowed: robots, scenes, formats, settings")
+    if what == "papers":
+        found = paper_files()
+        return dict(zip(found, described_files(found.values()).values(), strict=True))
+    raise InputError(f"cannot list '{what}'; allowed: robots, scenes, papers, formats, settings")
 
 
 def body_told(body: BodyScale) -> dict[str, float]:
