@@ -28,7 +28,7 @@ def list_(
 ) -> None:
     """List what there is: robots to walk, scenes to run, recording formats to analyse, settings to change.
 
-    Papers are presets: `--set paper=K` sets what a paper states for a scene; `plantar list papers K` shows what and where.
+    Papers are presets: `--set paper=K` sets what a paper states of a scene; `plantar list papers K` lists it.
 
     Each setting is shown with its default, unit and range; `--set` and `--grid` take its dotted name. A default that
     grows with the robot is shown with its share: "70.02 N = 0.083 weight" for H1, or for `--robot`.

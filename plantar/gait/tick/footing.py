@@ -225,7 +225,9 @@ class Footing:
                 # xi' = w u_w, summed over the time that the low pass remembers.
                 pushed = expected * (omega * self._settings.push_expected.time_constant)
         goal = phase_goal(plan.view, phase, offset, omega) if self._regulates else None
-        return Pendulum(omega, dcm, plan.at(time), plan.dcm_after(phase) if goal is None else goal, region, offset, pushed)
+        return Pendulum(
+            omega, dcm, plan.at(time), plan.dcm_after(phase) if goal is None else goal, region, offset, pushed
+        )
 
     def regulated(
         self, phase: Phase, time: float, pendulum: Pendulum | None, region: NDArray[np.float64]

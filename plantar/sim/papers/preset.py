@@ -83,7 +83,7 @@ def with_paper(settings: Sequence[str], scene: str, robot: str) -> tuple[str, li
         The mark of the paper, empty without one, and the settings.
 
     Raises:
-        SceneError: If there is no such paper, more than one, or it states nothing of the scene.
+        SceneError: For no such paper, more than one, or one that states nothing of the scene.
 
     Example:
         >>> paper, found = with_paper(["paper=K", "walk.confidence=1"], "push-step", "h1")

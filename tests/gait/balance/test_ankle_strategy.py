@@ -13,15 +13,10 @@ from scipy.integrate import solve_ivp
 
 from plantar.errors import InputError
 from plantar.gait.balance.ankle_strategy import (
-    MOST_GROWTH,
     AnkleRules,
     Saturation,
-    dcm_after_double_support,
-    dcm_after_single_support,
     double_support_pull,
-    double_support_reference,
     double_support_vrp,
-    growth,
     shrunk_support,
     single_support_vrp,
     target_dcms,
@@ -44,19 +39,9 @@ def integrated(dcm, vrp_at, offset, omega, begin, end):
     return found.y[:, -1]
 
 
-@few
-@given(place, place, push, rate, duration)
-def test_single_support_is_the_integral(dcm, vrp, offset, omega, time) -> None:
-    wanted = integrated(dcm, lambda _: vrp, offset, omega, 0.0, time)
-    assert dcm_after_single_support(dcm, vrp, offset, omega, time) == pytest.approx(wanted, rel=1e-10, abs=1e-10)
-
-
-@few
-@given(place, place, place, push, rate, duration, share)
-def test_double_support_is_the_integral(dcm, start, end, offset, omega, time, begun) -> None:
-    wanted = integrated(dcm, lambda t: double_support_reference(t, time, start, end), offset, omega, begun * time, time)
-    found = dcm_after_double_support(dcm, start, end, offset, omega, time, begun * time, time)
-    assert found == pytest.approx(wanted, rel=1e-10, abs=1e-10)
+def double_support_reference(time, duration, start, end):
+    """VRP (2,) of K 17."""
+    return end - (end - start) * (1.0 - math.sin(0.5 * math.pi * time / duration))
 
 
 @few
@@ -158,19 +143,15 @@ def test_nothing_overflows(omega: float, time: float, force: float) -> None:
     dcm, target = np.array([0.3, -0.2]), np.array([1e3, 5.0])
     single = single_support_vrp(dcm, target, time, offset, omega)
     double = double_support_vrp(dcm, target, [0.2, 0.1], time, 0.0, offset, omega)
-    both = max(time, 1e-9)
     told = [
         single.vrp,
         double.vrp,
-        dcm_after_single_support(dcm, target, offset, omega, time),
-        dcm_after_double_support(dcm, target, dcm, offset, omega, both, 0.0, both),
         *target_dcms(dcm, target, target, time, time, offset, omega)[:2],
     ]
     assert np.isfinite(np.array(told)).all()
     assert math.isfinite(single.gain * double.gain)
     named = Saturation.TIME if time < 1e-6 else Saturation.NONE
     assert (single.saturated, double.saturated) == (named, named)
-    assert growth(omega, time) <= math.exp(MOST_GROWTH)
 
 
 def test_a_vrp_outside_the_support_is_cut_and_says_so() -> None:
@@ -194,5 +175,3 @@ def test_the_support_shrinks_along_the_sole_and_across_it() -> None:
 def test_wrong_arguments_are_named() -> None:
     with pytest.raises(InputError, match="target of the DCM"):
         single_support_vrp([0.0, 0.0], [math.nan, 0.0], 0.5, [0.0, 0.0], 3.5)
-    with pytest.raises(InputError, match="duration of double support is 0"):
-        double_support_reference(0.0, 0.0, [0.0, 0.0], [0.1, 0.0])

@@ -37,8 +37,7 @@ def test_a_pendulum_that_follows_the_vrp_reaches_the_goal(kind: PhaseKind, step:
     phase, tick = phase_of(kind, step), 1e-4
     goal = phase_goal(PLAN, phase, PUSH, OMEGA)
     assert goal is not None
-    start = goal + [-0.03, 0.02]
-    time, dcm = phase.start, start
+    time, dcm = phase.start, goal + np.array([-0.03, 0.02])
     while time < phase.end - 1.5 * tick:
         found = regulated_vrp(PLAN, phase, time, dcm, goal, PUSH, OMEGA)
         assert found is not None

@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
 from plantar.errors import InputError
-from plantar.gait.balance.ankle_strategy import dcm_after_double_support, double_support_pull
+from plantar.gait.balance.ankle_strategy import double_support_pull
 from plantar.gait.propose.dsp_opt import DspProblem, DspWeights, _Cost, _pull_and_rate, solve_dsp
 
 WEIGHTS = DspWeights()
@@ -92,7 +93,13 @@ def test_what_it_says_it_misses_is_missed(seed: int) -> None:
     # The u_i with which K 17 passes through the VRP of now.
     now = 1.0 - math.sin(0.5 * math.pi * p.elapsed / found.time)
     start = np.array(p.end) - (np.array(p.end) - p.vrp) / now
-    reached = dcm_after_double_support(p.dcm, start, p.end, p.offset, p.omega, found.time, p.elapsed, found.time)
+    way, turns = np.array(p.end) - start, 0.5 * math.pi / found.time
+
+    def moves(t, xi):  # K 8-9 (corrected), with the VRP of K 17
+        return p.omega * (xi - p.end + way * (1.0 - math.sin(turns * t)) + p.offset)
+
+    spans = (p.elapsed, found.time), p.dcm
+    reached = solve_ivp(moves, *spans, "DOP853", rtol=1e-13, atol=1e-15).y[:, -1]
     scale = math.exp(p.omega * (found.time - p.elapsed)) / now
     assert found.missed == pytest.approx(reached - p.goal, abs=1e-10 * scale)
 

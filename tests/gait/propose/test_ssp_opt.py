@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import minimize
 
 from plantar.errors import InputError
-from plantar.gait.balance.ankle_strategy import dcm_after_single_support, target_dcms
+from plantar.gait.balance.ankle_strategy import target_dcms
 from plantar.gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
 from plantar.geometry.polygon import convex_hull
 
@@ -65,13 +65,19 @@ def drawn(rng: np.random.Generator, polygon: bool = True) -> SspProblem:
     )
 
 
+def dcm_at(p: SspProblem, time: float):
+    """DCM (2,) at a time of the single support (K 28)."""
+    at = np.asarray(p.vrp) - p.offset
+    return at + math.exp(p.omega * (time - p.elapsed)) * (np.asarray(p.dcm) - at)
+
+
 def printed_cost(p: SspProblem, place, tau: float) -> float:
     """K 28-31 as printed, with the weights of K Table 1."""
     time = math.log(tau) / p.omega
     wanted = target_dcms(
         place, p.stance, p.next_stride, p.next_duration, p.double_support, p.offset, p.omega
     ).single_end
-    reached = dcm_after_single_support(p.dcm, p.vrp, p.offset, p.omega, time - p.elapsed)
+    reached = dcm_at(p, time)
     total = WEIGHTS.dynamics * 0.5 * float(np.sum((wanted - reached) ** 2))
     bounds = [math.exp(p.omega * t) for t in (p.shortest, p.longest)]
     w_u = 1.0 / np.ptp(np.asarray(p.region), axis=0)
@@ -150,7 +156,7 @@ def test_what_it_says_it_misses_is_missed(seed: int) -> None:
     found = solve_ssp(p, WEIGHTS)
     assert found is not None
     wanted = target_dcms(found.place, p.stance, p.next_stride, p.next_duration, p.double_support, p.offset, p.omega)
-    reached = dcm_after_single_support(p.dcm, p.vrp, p.offset, p.omega, found.time - p.elapsed)
+    reached = dcm_at(p, found.time)
     assert found.missed == pytest.approx(reached - wanted.single_end, abs=1e-9)
 
 

@@ -33,7 +33,8 @@ def test_every_setting_cites_its_paper() -> None:
     for paper in paper_files():
         for found in paper_settings(paper):
             assert re.match(rf"{paper} \d|{paper} Table \d", found.source), found.source
-            assert found.settings and found.scenes
+            assert found.settings
+            assert found.scenes
 
 
 def test_own_settings_count_after_the_paper() -> None:
