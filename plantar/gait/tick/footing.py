@@ -232,7 +232,7 @@ class Footing:
     def regulated(
         self, phase: Phase, time: float, pendulum: Pendulum | None, region: NDArray[np.float64]
     ) -> tuple[LipReference, NDArray[np.float64]]:
-        """What the balance law is handed: the plan now and where the ZMP may lie, or u* and its share of that (K 27).
+        """Returns the plan now and where the ZMP may lie, or u* with its share of that (K 25-27), for the balance law.
 
         Args:
             phase: The phase, of the plan as it is now.
