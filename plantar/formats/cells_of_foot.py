@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.formats.format import ReadOptions
-from plantar.formats.recorded_layouts import subset
+from plantar.formats.recorded_layouts import grid_cells, subset
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.recordings.frame_table import scale_frames
@@ -18,7 +18,7 @@ from plantar.recordings.pressure_recording import FootRecording, layout_for
 # Share of its high readings below which a foot is in the air; share of the time in which one of two is alone.
 _IN_AIR, _ALONE = 0.05, 0.15
 
-__all__ = ["cells_of_foot", "halves", "scale_to_force", "unit_of_values"]
+__all__ = ["cells_of_foot", "foot_of_matrix", "halves", "scale_to_force", "unit_of_values"]
 
 
 def unit_of_values(stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file") -> Unit:
@@ -70,8 +70,7 @@ def cells_of_foot(
         layout = layout if order == list(range(len(layout))) else subset(layout, order)
     elif layout is not None and len(layout) == values.shape[1] and ids is not None:
         warnings.append("the cells' names are not the layout's ids: taken in the layout's order")
-    if layout is not None and len(layout) != values.shape[1]:
-        raise FormatError(f"the {side} foot has {values.shape[1]} cells, layout '{layout.name}' {len(layout)}")
+    foot = FootRecording(side, values, layout)
     if layout is None and unit.kind == "pressure":
         raise FormatError(
             f"pressures in {unit.name} need the cells' areas to become forces: give a layout with --layout"
@@ -79,7 +78,36 @@ def cells_of_foot(
     if layout is None:
         warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
     scale_to_force(values, unit, None if layout is None else layout.areas)
-    return FootRecording(side, values, layout)
+    return foot
+
+
+def foot_of_matrix(
+    side: Side,
+    values: NDArray[np.float64],
+    unit: Unit,
+    options: ReadOptions,
+    present: NDArray[np.bool_],
+    pitch: tuple[float, float],
+    name: str,
+    threshold: float,
+) -> FootRecording:
+    """Returns the forces of a matrix of cells, on the user's layout or one of rectangles.
+
+    Args:
+        side: The foot.
+        values: Values (n, k) of the cells row by row, NaN where not measured; they become the forces in place.
+        unit: Their unit.
+        options: With the user's layout; FormatError if it has another number of cells.
+        present: Which places (rows, columns) of the matrix are cells.
+        pitch: Distances of rows and columns in m.
+        name: Name of the layout.
+        threshold: Pressure in Pa from which a cell counts as loaded.
+    """
+    layout = layout_for(side, options.layout)
+    layout = layout or grid_cells(present, *pitch, side=side, name=name, threshold=threshold)
+    foot = FootRecording(side, values, layout)
+    scale_to_force(values, unit, layout.areas)
+    return foot
 
 
 def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.float64] | None) -> None:

@@ -11,9 +11,6 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import TextIO
 
-import numpy as np
-from numpy.typing import NDArray
-
 from plantar.errors import FormatError
 from plantar.formats.column_names import heading_of
 from plantar.formats.format import Format, ReadOptions
@@ -27,14 +24,11 @@ from plantar.formats.table_text import (
     with_seconds,
     without_quotes,
 )
-from plantar.formats.text import blocks_of_lines, head_text, number_rows, open_text, row_of_numbers
-from plantar.recordings.frame_table import FrameTable
+from plantar.formats.text import head_text, open_text, table_of_lines
 from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["FORMAT"]
 
-_BLOCK, _BLOCK_VALUES = 2048, 4_000_000
-_FIRST = 32
 _MOST_COLUMNS, _HEAD = 100_000, 200
 _FEWEST = 3  # Numbers of a row from which lines are a table by themselves; a row of two needs names
 
@@ -72,7 +66,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         of_side = next((i for i, n in enumerate(names) if is_side_column(n)), None)
         if of_side is not None:
             rows = with_numbers(rows, delimiter, of_side)
-        table = _table(path, rows, delimiter, head.width, warnings)
+        if head.width > _MOST_COLUMNS:
+            raise FormatError(f"{path}: a table of {head.width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
+        table = table_of_lines(path, rows, delimiter, head.width, warnings)
     return recording_of_columns(table, names, options, path, dict(head.facts), warnings)
 
 
@@ -83,57 +79,6 @@ def _column(lines: list[str], delimiter: str | None, column: int) -> Iterator[st
 def _content(stream: TextIO) -> Iterator[str]:
     """Lines that are not empty and no comment."""
     return (line.rstrip("\n") for line in stream if line.strip() and not line.startswith("#"))
-
-
-def _table(
-    path: Path, lines: Iterator[str], delimiter: str | None, width: int, warnings: list[str]
-) -> NDArray[np.float64]:
-    """The numbers (rows, width), NaN where a cell is empty or none, in one table."""
-    if width > _MOST_COLUMNS:
-        raise FormatError(f"{path}: a table of {width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
-    table = FrameTable(width, 0)
-    bad = short = 0
-    last = ""
-    for block in blocks_of_lines(lines, max(1, min(_BLOCK, _BLOCK_VALUES // width))):
-        if not len(table):
-            usual = sum(map(len, block)) // len(block)  # rows may be shorter; what is not written takes no memory
-            table = FrameTable(width, len(block) + path.stat().st_size // max(usual * 3 // 5, 2 * width))
-        rows, wrong, odd = _rows(block, delimiter, width)
-        table.add(rows)
-        bad, short, last = bad + wrong, short + odd, block[-1]
-        if len(table) > _FIRST and max(short, bad / width) > 0.5 * len(table):  # no use in reading on
-            break
-    if len(last.split(delimiter)) < width and len(table) > 1:
-        table.drop_last()
-        short -= 1
-        warnings.append("the last row is cut short: left out")
-    out = table.rows
-    if short > 0.2 * len(out) or bad > 0.2 * out.size:
-        raise FormatError(f"{path}: not a table of numbers: {short} rows of another width, {bad} cells of text")
-    if short:
-        warnings.append(f"{short} damaged row(s) count as not measured")
-    if bad:
-        warnings.append(f"{bad} value(s) are no numbers: they count as not measured")
-    return out
-
-
-def _rows(block: list[str], delimiter: str | None, width: int) -> tuple[NDArray[np.float64], int, int]:
-    """Numbers of some lines, and counts of bad cells and of lines of another width."""
-    rows = number_rows(block, delimiter, width)
-    if rows is not None:
-        return rows, 0, 0
-    out = np.full((len(block), width), np.nan)
-    bad = short = 0
-    for i, line in enumerate(block):
-        cells = line.split(delimiter)
-        while len(cells) > width and not cells[-1].strip():
-            cells.pop()
-        if len(cells) != width:
-            short += 1
-            continue
-        out[i], wrong = row_of_numbers(cells)
-        bad += wrong
-    return out, bad, short
 
 
 FORMAT = Format(

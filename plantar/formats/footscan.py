@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -15,17 +16,14 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.files.input_file import open_input
-from plantar.formats.cells_of_foot import scale_to_force
+from plantar.formats.cells_of_foot import foot_of_matrix
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.side import side_of
-from plantar.formats.text import cells_of_row, head_text, number, open_text, row_of_numbers
+from plantar.formats.text import cells_of_row, frames_of_lines, head_text, number, open_text, row_of_numbers
 from plantar.formats.units import find_unit
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import (
-    FootRecording,
     PressureRecording,
-    layout_for,
     possible_rate,
     sampling,
 )
@@ -61,17 +59,10 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         f"the file states no size of its cells: {_ACROSS * 1e3:g} x {_ALONG * 1e3:g} mm, as plates have them"
     )
     side = options.side or side_of(path.stem)
-    layout = layout_for(side or "left", options.layout)
-    if layout is not None and len(layout) != rows * columns:
-        raise FormatError(f"{path}: the plate has {rows * columns} cells, layout '{layout.name}' {len(layout)}")
-    if layout is None:
-        name, whole = f"platform of {rows} x {columns} cells", np.ones((rows, columns), dtype=bool)
-        layout = grid_cells(whole, *pitch, side=side or "left", name=name, threshold=_THRESHOLD)
-    force = table.rows
     unit = find_unit(options.unit or "N")
     assert unit is not None
-    scale_to_force(force, unit, layout.areas)
-    foot = FootRecording(side or "left", force, layout)
+    whole, name = np.ones((rows, columns), dtype=bool), f"platform of {rows} x {columns} cells"
+    foot = foot_of_matrix(side or "left", table.rows, unit, options, whole, pitch, name, _THRESHOLD)
     return PressureRecording(
         path=path,
         format=FORMAT.name,
@@ -108,7 +99,11 @@ def _take_frames(
     times: list[float] = []
     table: FrameTable | None = None
     shape, odd, last_is_odd = (0, 0), 0, False
-    for time, body in _bodies(path, lines):
+    first = next((m for line in islice(lines, _LARGEST_HEADER + 2) if (m := _FRAME.match(line))), None)
+    for mark, body in frames_of_lines(lines, _FRAME, first, _MOST_ROWS):
+        time = number(mark[2])
+        if time is None:
+            raise FormatError(f"{path}: the time {mark[2]!r} ms of frame {mark[1]} is no number")
         delimiter = next((d for d in "\t;," if d in body[0]), None) if body else None
         if table is None:
             shape = len(body), len(cells_of_row(body[0], delimiter)) if body else 0
@@ -136,30 +131,6 @@ def _take_frames(
     if odd:
         warnings.append(f"{odd} damaged frame(s): what is no number counts as not measured")
     return times, shape, table
-
-
-def _bodies(path: Path, lines: Iterator[str]) -> Iterator[tuple[float, list[str]]]:
-    """Times in ms of the frames and the lines of their cells."""
-    found = None
-    for count, line in enumerate(lines):
-        found = _FRAME.match(line)
-        if found or count > _LARGEST_HEADER:
-            break
-    while found is not None:
-        stated = number(found[2])
-        if stated is None:
-            raise FormatError(f"{path}: the time {found[2]!r} ms of frame {found[1]} is no number")
-        body: list[str] = []
-        found = None
-        for line in lines:
-            found = _FRAME.match(line)
-            if found:
-                break
-            if line.strip(" ,;\t\n"):
-                body.append(line.strip("\n"))
-                if len(body) > _MOST_ROWS:
-                    raise FormatError(f"{path}: a frame has more than {_MOST_ROWS} rows")
-        yield stated, body
 
 
 FORMAT = Format(

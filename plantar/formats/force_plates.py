@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError, InputError
 from plantar.formats.format import ReadOptions
 from plantar.formats.plate_sides import PlateContact, plate_contacts, sides_of_contacts
-from plantar.recordings.pressure_recording import FootRecording, StatedEvents
+from plantar.recordings.pressure_recording import FootRecording, StatedEvents, true_runs
 from plantar.sides import SIDES, Side
 
 __all__ = ["LEAST", "Plate", "feet_of_plates"]
@@ -165,18 +165,13 @@ def _zeroed(plate: Plate, rate: float, warnings: list[str]) -> Plate:
     return replace(plate, force=force, moment=moment, free=free, stepped=True)
 
 
-def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
-
-
 def _zero(values: NDArray[np.float64], empty: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Empty reading of columns (n, k): lines between means of runs of empty frames where these differ, else one
     mean.
     """
     known = np.where(np.isfinite(values), values, 0.0)
     out = np.tile(known[empty].mean(axis=0), (len(values), 1))
-    halves = [(a, b) for c, d in _runs(empty) for a, b in ((c, (c + d) // 2), ((c + d) // 2, d)) if b - a > 1]
+    halves = [(a, b) for c, d in true_runs(empty) for a, b in ((c, (c + d) // 2), ((c + d) // 2, d)) if b - a > 1]
     means = np.array([known[a:b].mean(axis=0) for a, b in halves])
     scatter = np.mean([known[a:b].std(axis=0) for a, b in halves], axis=0) if halves else 0.0
     for k in np.flatnonzero(np.ptp(means, axis=0) > 1.5 * scatter) if halves else ():
@@ -210,7 +205,7 @@ def _empty_frames(vertical: NDArray[np.float64], rate: float) -> NDArray[np.bool
     still = np.fmax.reduce(whole, axis=1) - np.fmin.reduce(whole, axis=1) <= 2.0 * _NOISES * noise + width
     flat &= np.repeat(still, block)[: len(vertical)]
     empty = np.zeros(len(vertical), dtype=bool)
-    for a, b in _runs(flat):
+    for a, b in true_runs(flat):
         if b - a >= max(2, round(_SHORTEST * rate)):
             edge = min((b - a) // 5, round(0.05 * rate))  # the ends belong to a foot that lands or leaves
             empty[a + edge : b - edge] = True

@@ -46,8 +46,6 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         own = layout_for(side, options.layout) or recording.layouts.get(side)
         if own is None:
             warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
-        elif len(own) != force.shape[1]:
-            raise FormatError(f"{path}: the {side} sole has {force.shape[1]} taxels, layout '{own.name}' {len(own)}")
         feet[side] = FootRecording(side, force, own, placement=_placement(recording, side, time))
     missing = [side for side in SIDES if side not in feet]
     if missing:

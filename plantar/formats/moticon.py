@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import MOTICON_LENGTH, MOTICON_WIDTH, moticon_insole
-from plantar.formats.text import blocks_of_lines, head_text, number, number_rows, open_text
+from plantar.formats.text import head_text, number, open_text, table_of_lines
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import SoleLayout
-from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
 from plantar.sides import SIDES, Side
 
@@ -29,7 +29,6 @@ __all__ = ["FORMAT"]
 _CHANNEL = re.compile(r"(left|right)\s+(.*?)\s*(?:\[(.*)\])?\s*$", re.IGNORECASE)
 _USUAL_UNIT = "N/cm2"
 _LARGEST_HEADER, _MOST_CHANNELS, _LONGEST_NAME = 1000, 10_000, 200
-_FIRST = 32
 
 
 def _recognises(head: bytes) -> bool:
@@ -46,7 +45,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         lines = iter(stream)
         header, channels, delimiter = _take_header(path, lines)
         wanted = _wanted(channels)
-        table = _numbers(path, lines, delimiter, channels, wanted, warnings)
+        rows = (line for line in lines if line.strip() and not line.startswith("#"))
+        table = table_of_lines(path, rows, delimiter, len(channels), warnings, wanted)
     names = [channels[i] for i in wanted]
     if len(table) > 1 and np.nanmedian(np.diff(table[:, 0])) >= 1.0:  # a frame a second is no gait
         table[:, 0] *= 1e-3
@@ -72,8 +72,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         cop = _device_cop(columns, table, size, side) if options.layout is None else None
         if unit.kind == "raw":
             total, cop = None, None
-        force = pressure if unit.kind == "raw" else pressure * (unit.factor * layout.areas)
-        feet[side] = FootRecording(side, force, layout, total=total, cop=cop)
+        feet[side] = FootRecording(side, pressure, layout, total=total, cop=cop)
+        scale_to_force(pressure, unit, layout.areas)
     if not feet:
         raise FormatError(f"{path}: no channel 'left pressure 1' or 'right pressure 1' holds values")
     if len(units) > 1:
@@ -114,74 +114,6 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], list
             key, value = content.split(":", 1)
             header[key.strip()[:_LONGEST_NAME].lower()] = value.strip()[:_LONGEST_NAME]
     raise FormatError(f"{path}: not a Moticon export: no line names the channels ('# time', 'left pressure 1', ...)")
-
-
-def _numbers(
-    path: Path, lines: Iterator[str], delimiter: str, names: list[str], wanted: list[int], warnings: list[str]
-) -> NDArray[np.float64]:
-    """The wanted channels (n, channels); NaN where a value is missing or none, such as the labels of events."""
-    rows = (x for x in lines if x.strip() and not x.startswith("#"))
-    table = FrameTable(len(wanted), 0)
-    bad = short = 0
-    first = last = ""
-    for block in blocks_of_lines(rows):
-        if not len(table):
-            first = block[0]
-            usual = sum(map(len, block)) // len(block)
-            table = FrameTable(len(wanted), len(block) + path.stat().st_size // max(usual * 3 // 5, 1))
-        values, wrong, odd = _block(block, delimiter, len(names), wanted)
-        table.add(values)
-        bad, short, last = bad + wrong, short + odd, block[-1]
-        if len(table) > _FIRST and short > 0.5 * len(table):  # no use in reading on
-            break
-    if not len(table):
-        raise FormatError(f"{path}: the file holds no row of data")
-    if len(table) > 1 and last.count(delimiter) != first.count(delimiter):
-        table.drop_last()
-        short -= _cells(last, delimiter, len(names)) is None
-        warnings.append("the last row is cut short: left out")
-    if short > 0.2 * len(table):
-        raise FormatError(f"{path}: {short} of {len(table)} rows do not have {len(names)} columns; the file is damaged")
-    if short:
-        warnings.append(f"{short} damaged row(s) count as not measured")
-    if bad:
-        warnings.append(f"{bad} value(s) are no numbers: they count as not measured")
-    return table.rows
-
-
-def _cells(line: str, delimiter: str, columns: int) -> list[str] | None:
-    """Cells of a row; None where it has another number of them, empty ones at its end aside."""
-    cells = line.rstrip("\n").split(delimiter)
-    if len(cells) < columns or any(c.strip() for c in cells[columns:]):
-        return None
-    return cells
-
-
-def _block(block: list[str], delimiter: str, columns: int, wanted: list[int]) -> tuple[NDArray[np.float64], int, int]:
-    """Numbers (rows, wanted) of some lines, and counts of bad cells and of lines of another width."""
-    goes = np.full(columns, -1)
-    goes[wanted] = np.arange(len(wanted))
-    rows = number_rows(block, delimiter, goes.tolist())
-    if rows is not None:
-        return rows, 0, 0
-    out = np.full((len(block), len(wanted)), np.nan)
-    bad = short = 0
-    for k, line in enumerate(block):
-        cells = _cells(line, delimiter, columns)
-        if cells is None:
-            short += 1
-            continue
-        for i, column in enumerate(wanted):
-            text = cells[column]
-            if text and not text.isspace():
-                try:
-                    out[k, i] = float(text)
-                except ValueError:
-                    value = number(text)
-                    bad += value is None
-                    out[k, i] = np.nan if value is None else value
-    out[~np.isfinite(out)] = np.nan
-    return out, bad, short
 
 
 def _columns(names: list[str], side: Side) -> dict[str, tuple[int, str]]:
@@ -251,8 +183,6 @@ def _layout(
 ) -> SoleLayout:
     given = layout_for(side, options.layout)
     if given is not None:
-        if len(given) != pressure.shape[1]:
-            raise FormatError(f"{path}: the {side} foot has {pressure.shape[1]} cells, '{given.name}' {len(given)}")
         return given
     if pressure.shape[1] != 16:
         raise FormatError(f"{path}: the {side} foot has {pressure.shape[1]} cells, not 16; give a layout with --layout")

@@ -16,14 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.formats.cells_of_foot import foot_of_matrix
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import head_text, number, number_in, open_text
-from plantar.formats.units import LENGTHS, find_unit
+from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import MOST_VALUES
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, possible_rate
+from plantar.recordings.pressure_recording import PressureRecording, possible_rate
 
 __all__ = ["FORMAT"]
 
@@ -117,7 +117,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         for r, c, values in frame.tables:
             pressure[i, r[:, None] - 1, c - 1] = values
     stated = np.array([np.nan if f.force is None else f.force for f in frames])
-    factor = _unit(path, options, pressure, stated, size[0] * size[1], warnings)
+    unit = _unit(path, options, pressure, stated, size[0] * size[1], warnings)
     rate = options.rate_hz or _rate(facts, warnings)
     time = (np.arange(len(frames)) + 1) / rate
     starts = [i for i in range(1, len(frames)) if frames[i].picture <= frames[i - 1].picture]
@@ -126,20 +126,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     if starts:
         warnings.append(f"the file holds {len(starts) + 1} trials: put one after the other, with pauses of 2 s")
     side: Side | None = options.side or side_of(facts.get("file", "").rsplit("\\", 1)[-1])
-    given = layout_for(side or "left", options.layout)
-    if given is not None and len(given) != rows * columns:
-        raise FormatError(f"{path}: the platform has {rows * columns} cells, layout '{given.name}' {len(given)}")
-    layout = given or grid_cells(
-        np.ones((rows, columns), dtype=bool),
-        size[0],
-        size[1],
-        side=side or "left",
-        name=f"platform of {rows} x {columns} cells",
-        threshold=_THRESHOLD,
-    )
+    whole, name = np.ones((rows, columns), dtype=bool), f"platform of {rows} x {columns} cells"
     values = pressure.reshape(len(frames), -1)
-    values *= 1.0 if factor is None else factor * layout.areas
-    foot = FootRecording(side or "left", values, layout)
+    foot = foot_of_matrix(side or "left", values, unit, options, whole, size, name, _THRESHOLD)
     return PressureRecording(
         path=path,
         format=FORMAT.name,
@@ -149,7 +138,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         metadata={"side": side, "file": facts.get("file", "")},
         warnings=tuple(warnings),
         kind="platform",
-        raw=factor is None,
+        raw=unit.kind == "raw",
         grid=(rows, columns),
     )
 
@@ -279,18 +268,18 @@ def _unit(
     stated: NDArray[np.float64],
     area: float,
     warnings: list[str],
-) -> float | None:
-    """Pa a unit of the tables, None for raw: of the options, or by the file's own forces."""
+) -> Unit:
+    """Unit of the tables: of the options, or by the file's own forces."""
     if options.unit is not None:
         unit = find_unit(options.unit)
         if unit is None or unit.kind == "force":
             raise FormatError(f"{path}: the tables hold pressures, not {options.unit}")
-        return None if unit.kind == "raw" else unit.factor
+        return unit
     sums = np.nansum(pressure, axis=(1, 2)) * area
     known = np.isfinite(stated) & (sums > 0.0) & (stated > 0.0)
     if not known.any():
         warnings.append("the file states no unit of pressure and no forces: kPa is assumed")
-        return 1e3
+        return Unit("pressure", 1e3, "kPa")
     ratio = float(np.median(stated[known] / sums[known]))
     name, factor = min((("kPa", 1e3), ("N/cm2", 1e4)), key=lambda u: abs(np.log(ratio / u[1])))
     if abs(ratio / factor - 1.0) > 0.05:
@@ -304,7 +293,7 @@ def _unit(
             f"in {int(off.sum())} frame(s) the stated force is not the sum of pressures: the file is damaged"
         )
     warnings.append(f"the unit of pressure, {name}, follows from the file's own forces")
-    return factor
+    return Unit("pressure", factor, name)
 
 
 def _rate(facts: dict[str, str], warnings: list[str]) -> float:

@@ -67,8 +67,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         sole = _layout(
             path, side, columns[span.start : span.stop], layout, geometry, text, warnings, options.insole_size
         )
-        scale_to_force(values, unit, sole.areas)
         feet[side] = FootRecording(side, values, sole)
+        scale_to_force(values, unit, sole.areas)
     if len(feet) == 1:
         warnings.append(f"the file holds the {next(iter(feet))} foot only")
     return PressureRecording(
@@ -282,8 +282,6 @@ def _layout(
         assert sole is not None
         if set(cells) <= set(sole.ids.tolist()):
             return subset(sole, _order(sole, cells))
-        if len(sole) != len(cells):
-            raise FormatError(f"{path}: the {side} foot has {len(cells)} cells, layout '{given.name}' {len(sole)}")
         return sole
     if geometry is not None:
         warnings.append(

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.recordings.pressure_recording import StatedEvents
+from plantar.recordings.pressure_recording import StatedEvents, true_runs
 from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["PlateContact", "plate_contacts", "sides_of_contacts"]
@@ -61,9 +61,8 @@ def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> li
     """
     force = np.nan_to_num(vertical)
     loaded = force > max(_LEAST, _SHARE * float(np.percentile(force, 99.5)))
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], loaded, [False]]).astype(np.int8)))
     out: list[PlateContact] = []
-    for a, b in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+    for a, b in true_runs(loaded):
         if out and a - out[-1].end < _BRIDGED * rate:
             out[-1] = PlateContact(plate, out[-1].begin, b)
         else:

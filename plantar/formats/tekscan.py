@@ -15,18 +15,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.formats.cells_of_foot import scale_to_force
+from plantar.formats.cells_of_foot import foot_of_matrix
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.side import side_of
-from plantar.formats.text import cells_of_row, head_text, number, number_in, number_rows, open_text, row_of_numbers
+from plantar.formats.text import (
+    cells_of_row,
+    frames_of_lines,
+    head_text,
+    number,
+    number_in,
+    number_rows,
+    open_text,
+    row_of_numbers,
+)
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.recordings.frame_table import FrameTable, blocks_of_frames
 from plantar.recordings.pressure_recording import (
-    FootRecording,
     Kind,
     PressureRecording,
-    layout_for,
     possible_rate,
     sampling,
 )
@@ -86,18 +92,11 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     side = options.side or side_of(header.get("FILENAME", ""), header.get("COMMENTS", ""), path.stem)
     if side is None and kind == "insole":
         warnings.append("the file does not say which foot it is: taken as the left one (--side overrides)")
-    layout = layout_for(side or "left", options.layout)
-    if layout is not None and len(layout) != flat.shape[1]:
-        raise FormatError(f"{path}: the sensor has {flat.shape[1]} cells, layout '{layout.name}' {len(layout)}")
-    if layout is None:
-        name = f"{header.get('SENSOR_TYPE', 'Tekscan sensor')} of {rows} x {columns}".strip()
-        layout = grid_cells(
-            present.reshape(rows, columns), *pitch, side=side or "left", name=name, threshold=_THRESHOLD
-        )
-        if kind == "insole":
-            warnings.append("the first row of the matrix is taken as the toes, its columns as seen from above")
-    scale_to_force(flat, unit, layout.areas)
-    foot = FootRecording(side or "left", flat, layout)
+    if options.layout is None and kind == "insole":
+        warnings.append("the first row of the matrix is taken as the toes, its columns as seen from above")
+    name = f"{header.get('SENSOR_TYPE', 'Tekscan sensor')} of {rows} x {columns}".strip()
+    places = present.reshape(rows, columns)
+    foot = foot_of_matrix(side or "left", flat, unit, options, places, pitch, name, _THRESHOLD)
     return PressureRecording(
         path=path,
         format=FORMAT.name,
@@ -143,7 +142,8 @@ def _take_frames(
 ) -> tuple[list[int], tuple[int, int], FrameTable]:
     """Numbers of the frames, rows and columns of the matrix, and its readings, a frame a row."""
     stated = _stated(header, "ROWS")
-    bodies = _bodies(first, lines, _LARGEST if stated is None else stated)
+    frames = frames_of_lines(lines, _FRAME, first, (stated or _LARGEST) + _MOST_EXTRA)
+    bodies = ((int(match[1][-18:]), [line.strip() for line in body]) for match, body in frames)
     known = list(islice(bodies, 1 if stated else _FIRST))
     if not known:
         raise FormatError(f"{path}: the first frame has no end")
@@ -176,24 +176,6 @@ def _take_frames(
     if odd:
         warnings.append(f"{odd} damaged frame(s): what is no number counts as not measured")
     return numbers, shape, table
-
-
-def _bodies(first: re.Match[str], lines: Iterator[str], most: int) -> Iterator[tuple[int, list[str]]]:
-    """Numbers of the frames and the lines of their matrices, up to one without an end."""
-    found: re.Match[str] | None = first
-    while found is not None:
-        number_of_frame = int(found[1][-18:])
-        body: list[str] = []
-        found = None
-        for line in lines:
-            found = _FRAME.match(line)
-            if found or line.lstrip().startswith("@@"):
-                break
-            if line.strip(" ,;\t\n"):
-                body.append(line.strip())
-                if len(body) > most + _MOST_EXTRA:
-                    return
-        yield number_of_frame, body
 
 
 def _shape(

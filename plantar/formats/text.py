@@ -16,10 +16,12 @@ from plantar.files.input_file import open_input
 from plantar.files.text_table import encoding_of
 from plantar.kernels import is_compiled
 from plantar.kernels.formats import decimals
+from plantar.recordings.frame_table import FrameTable
 
 __all__ = [
     "blocks_of_lines",
     "cells_of_row",
+    "frames_of_lines",
     "head_text",
     "number",
     "number_in",
@@ -27,9 +29,11 @@ __all__ = [
     "open_text",
     "row_of_numbers",
     "seconds_of_clock",
+    "table_of_lines",
 ]
 
 _LONGEST_LINE = 1_000_000
+_BLOCK, _BLOCK_VALUES, _FIRST = 2048, 4_000_000, 32
 _ZEROS = 0.01  # Share of zeros that damage may put into a text
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 
@@ -92,6 +96,31 @@ def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16
         yield block
 
 
+def frames_of_lines(
+    lines: Iterator[str], mark: re.Pattern[str], first: re.Match[str] | None, most: int
+) -> Iterator[tuple[re.Match[str], list[str]]]:
+    """Yields the match of `mark` that begins each frame, and its lines that are not empty.
+
+    Args:
+        lines: The lines after the `first` match, which is None where there is none; "@@" ends them.
+        mark: Pattern of a frame's first line.
+        first: Match of the first frame.
+        most: Lines of a frame; one of more ends the frames.
+    """
+    while first is not None:
+        begin, body = first, list[str]()
+        first = None
+        for line in lines:
+            first = mark.match(line)
+            if first or line.lstrip().startswith("@@"):
+                break
+            if line.strip(" ,;\t\n"):
+                body.append(line.strip("\n"))
+                if len(body) > most:
+                    return
+        yield begin, body
+
+
 def head_text(head: bytes) -> str | None:
     r"""The beginning of a text, with uniform line ends; None if it is no text.
 
@@ -136,6 +165,80 @@ def number_in(text: str) -> float | None:
     """
     match = _NUMBER.search(text)
     return number(match[0]) if match else None
+
+
+def table_of_lines(
+    path: Path,
+    lines: Iterator[str],
+    delimiter: str | None,
+    width: int,
+    warnings: list[str],
+    columns: Sequence[int] = (),
+) -> NDArray[np.float64]:
+    """Returns the numbers (n, k) of lines, NaN where a cell is empty or none, and warns of what is damaged.
+
+    Args:
+        path: The file, whose size decides how much room is made.
+        lines: The lines.
+        delimiter: The sign between cells; None for blanks.
+        width: Cells of a line, empty ones at its end aside.
+        warnings: List to which a cut last row, and counts of damaged rows and cells, are added.
+        columns: Cells (k,) that are read; all where empty.
+
+    Raises:
+        FormatError: If there are no lines, or too many are of another width or hold text.
+    """
+    wanted = list(columns) or list(range(width))
+    table = FrameTable(len(wanted), 0)
+    bad = short = 0
+    last = ""
+    for block in blocks_of_lines(lines, max(1, min(_BLOCK, _BLOCK_VALUES // width))):
+        if not len(table):
+            usual = sum(map(len, block)) // len(block)  # rows may be shorter; what is not written takes no memory
+            expected = len(block) + path.stat().st_size // max(usual * 3 // 5, 2 * width)
+            table = FrameTable(len(wanted), expected)
+        rows, wrong, odd = _rows(block, delimiter, width, wanted)
+        table.add(rows)
+        bad, short, last = bad + wrong, short + odd, block[-1]
+        if len(table) > _FIRST and max(short, bad / len(wanted)) > 0.5 * len(table):  # no use in reading on
+            break
+    if not len(table):
+        raise FormatError(f"{path}: the file holds no row of data")
+    if len(last.split(delimiter)) < width and len(table) > 1:
+        table.drop_last()
+        short -= 1
+        warnings.append("the last row is cut short: left out")
+    if short > 0.2 * len(table) or bad > 0.2 * len(table) * len(wanted):
+        raise FormatError(
+            f"{path}: not a table of numbers: {short} of {len(table)} rows of another width than {width} columns, "
+            f"{bad} cells of text"
+        )
+    if short:
+        warnings.append(f"{short} damaged row(s) count as not measured")
+    if bad:
+        warnings.append(f"{bad} value(s) are no numbers: they count as not measured")
+    return table.rows
+
+
+def _rows(
+    block: list[str], delimiter: str | None, width: int, wanted: Sequence[int]
+) -> tuple[NDArray[np.float64], int, int]:
+    """Numbers of some lines, and counts of bad cells and of lines of another width."""
+    goes = np.full(width, -1)
+    goes[wanted] = np.arange(len(wanted))
+    rows = number_rows(block, delimiter, goes.tolist())
+    if rows is not None:
+        return rows, 0, 0
+    out = np.full((len(block), len(wanted)), np.nan)
+    bad = short = 0
+    for i, line in enumerate(block):
+        cells = line.rstrip("\n").split(delimiter)
+        if len(cells) < width or any(cell.strip() for cell in cells[width:]):
+            short += 1
+            continue
+        out[i], wrong = row_of_numbers([cells[k] for k in wanted])
+        bad += wrong
+    return out, bad, short
 
 
 def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:

@@ -16,15 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.formats.cells_of_foot import scale_to_force
+from plantar.formats.cells_of_foot import foot_of_matrix
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.recorded_layouts import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import head_text, number, number_in, open_text, seconds_of_clock
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 from plantar.sides import SIDES
 
 __all__ = ["FORMAT"]
@@ -121,15 +120,10 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if sensor.damaged:
             warnings.append(f"{sensor.damaged} row(s) of the {side} insole hold no numbers: they count as not measured")
         size = _cell(scan.facts, sensor, values, unit, side, warnings)
-        layout = layout_for(side, options.layout)
-        if layout is not None and len(layout) != values.shape[1]:
-            raise FormatError(f"{path}: the {side} foot has {values.shape[1]} cells, '{layout.name}' {len(layout)}")
-        present = np.ones(shape, dtype=bool)
-        layout = layout or grid_cells(present, *size, side=side, name=sensor.name, threshold=_THRESHOLD)
         if unit.kind == "pressure":
             _check_load(sensor, values, unit.factor * size[0] * size[1], frames, side, warnings)
-        scale_to_force(values, unit, layout.areas)
-        feet[side] = FootRecording(side, values, layout)
+        cells = np.ones(shape, dtype=bool)
+        feet[side] = foot_of_matrix(side, values, unit, options, cells, size, sensor.name, _THRESHOLD)
         grid = shape
     warnings.append("the first row of each matrix is taken as the toes, its columns as seen from above")
     feet = {s: feet[s] for s in SIDES if s in feet}

@@ -24,6 +24,7 @@ __all__ = [
     "layout_for",
     "possible_rate",
     "sampling",
+    "true_runs",
 ]
 
 RATES = (0.1, 1e5)
@@ -64,10 +65,8 @@ class FootRecording:
 
     def __post_init__(self) -> None:
         if self.layout is not None and len(self.layout) != self.force.shape[1]:
-            raise FormatError(
-                f"the {self.side} foot has {self.force.shape[1]} cells, "
-                f"its layout '{self.layout.name}' has {len(self.layout)}"
-            )
+            cells, name = self.force.shape[1], self.layout.name
+            raise FormatError(f"the {self.side} foot has {cells} cells, layout '{name}' {len(self.layout)}")
 
     @cached_property
     def missing(self) -> NDArray[np.bool_] | None:
@@ -182,6 +181,17 @@ def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
     if given is None or given.side == side:
         return given
     return mirrored(given)
+
+
+def true_runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First frame, and the frame after the last one, of each run of true values of a mask (n,).
+
+    Example:
+        >>> true_runs(np.array([True, False, True, True]))
+        [(0, 1), (2, 4)]
+    """
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]])))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
 def possible_rate(rate: float, what: str) -> float:

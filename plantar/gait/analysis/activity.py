@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.analysis.steps.cop_path import chords
-from plantar.gait.analysis.steps.events import true_runs
 from plantar.gait.analysis.steps.foot_gait import FootGait
-from plantar.recordings.pressure_recording import PressureRecording
+from plantar.recordings.pressure_recording import PressureRecording, true_runs
 from plantar.sides import Side
 
 __all__ = ["Activity", "activity_of", "progression_doubts", "sway_measures"]
@@ -62,8 +61,8 @@ def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
     """Returns the activity of a recording with these feet.
 
     A foot that lands on its front and then lets the heel down walks down stairs; one whose heel never carries walks on
-    its toes; one that lands in front of its heel, stands for long and pushes off more than it lands walks up stairs.
-    Ramps, turns, and stairs up on whole feet load the feet as walking does.
+    its toes; one that lands in front of its heel and pushes off strongly walks up stairs. Ramps and turns count as
+    walking.
     """
     if any(step.activity == "hopping" for gait in feet.values() for step in gait.used or gait.steps):
         return Activity("hopping", "both feet land and lift together")

@@ -46,10 +46,7 @@ def analyse_one(
         options: What else is known of the data.
         progress: Called with a fraction 0..0.5 and what is being done.
         choices: Which steps are in the means, and which events are used.
-        subject: The person, as far as known.
-
-    Raises:
-        FormatError: If the data is no recording that can be read.
+        subject: The person. FormatError if the data is no recording that can be read.
     """
     report = progress or (lambda fraction, text: None)
     known = options or ReadOptions()

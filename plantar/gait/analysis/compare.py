@@ -56,26 +56,26 @@ def compare_recordings(
     choices: AnalysisOptions | None = None,
     subject: Subject | None = None,
 ) -> dict[str, Any]:
-    """Analyse two recordings and write them side by side: comparison.json, figures, report.html, and a folder for each.
+    """Analyse two recordings, write comparison.json, figures and report.html, and a folder "a" and "b" with each
+    analysis.
 
     Args:
         a: The first recording.
         b: The second one.
-        out: Output folder; the whole analyses are in its folders "a" and "b".
+        out: Output folder.
         format: Name of both files' format; recognised from their content where None.
         layout: Layout file for both.
         progress: Called with a fraction 0..1 and what is being done.
         options: What else is known of both files.
         choices: Which steps are in the means, and which events are used.
-        subject: The person in both, as far as known.
+        subject: The person in both.
 
     Returns:
-        "a" and "b": the metrics of each; "difference": see `difference_of`, of each foot that both have, or of the
-        single feet of A and B; "files": the paths written.
+        "a" and "b": the metrics of each; "difference": `difference_of` each foot; "files": the paths written.
 
     Raises:
         FormatError: If a file is not a recording that can be read.
-        InputError: If a file is a footprint image, the events are those of a file, or the folder cannot be written to.
+        InputError: If it is a footprint image, the events are those of a file, or the folder cannot be written to.
     """
     tell = progress or (lambda fraction, text: None)
     (choices or AnalysisOptions()).of_several("--compare takes")

@@ -126,13 +126,13 @@ _BLOCK = 4096
 
 
 def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Path]:
-    """Write a recording in another format, by the suffix of the path, and a sidecar (.json) with the keys of BIDS.
+    """Write a recording in the format of the path's suffix, and a sidecar (.json) with the keys of BIDS.
 
     Args:
-        analysis: The analysis: its recording as measured, baselines taken off, and the events of its feet.
-        path: File ending in .npz (times, forces in N of each cell, layouts and events; `plantar analyze` reads it),
-            .csv (a column a cell, `left 12 [N]`; the same), .c3d (a force platform of each foot, its CoP as a point,
-            events in the group EVENT; needs ezc3d) or .mot (OpenSim, with its external loads as .xml).
+        analysis: The analysis, whose recording is without baselines.
+        path: File ending in .npz (times, forces in N of each cell, layouts and events), .csv (a column a cell, `left 12
+            [N]`), .c3d (a force platform of each foot, its CoP as a point, events in the group EVENT; needs ezc3d) or
+            .mot (OpenSim, with its external loads as .xml).
 
     Returns:
         The files written; the sidecar of walk.c3d is walk.c3d.json.
@@ -159,14 +159,10 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
 
 
 def exporter(formats: Sequence[str]) -> Callable[[Analysis, Path], None] | None:
-    """A function that writes an analysis in some formats into a folder, under the recording's own name; None for no
-    format.
-
-    Args:
-        formats: Formats by their suffix, "c3d", "csv", "mot" or "npz", with or without its dot.
+    """A function that writes an analysis in `formats`, such as "c3d" or ".csv", into a folder; None for no format.
 
     Raises:
-        InputError: If a format is none of these.
+        InputError: If a format is not known.
         DependencyError: If what a format needs is not installed.
     """
     suffixes = list(dict.fromkeys(f".{text.lower().removeprefix('.')}" for text in formats))
@@ -190,11 +186,11 @@ def _unit(analysis: Analysis) -> str:
 
 def _events(analysis: Analysis) -> list[tuple[str, str, float]]:
     """Foot, kind and time in s of each event, in order."""
-    found: list[tuple[str, str, float | None]] = []
+    found: list[tuple[str, str, float]] = []
     for side, gait in analysis.feet.items():
-        found += [(side, "heel_strike", c.heel_strike) for c in gait.contacts]
-        found += [(side, "toe_off", c.toe_off) for c in gait.contacts]
-    return sorted(((s, what, t) for s, what, t in found if t is not None), key=lambda one: one[2])
+        found += [(side, "heel_strike", t) for t in gait.heel_strikes]
+        found += [(side, "toe_off", t) for t in gait.toe_offs]
+    return sorted(found, key=lambda one: one[2])
 
 
 def _sidecar(analysis: Analysis, target: Path) -> dict[str, Any]:

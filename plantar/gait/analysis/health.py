@@ -54,13 +54,10 @@ class SilentCells(NamedTuple):
 
 
 def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> SilentCells:
-    """Returns the cells of an insole that read 0 throughout while those around them carry load, and the missing force.
+    """Returns the cells of an insole's foot that read 0 while those around them carry load, and the missing force.
 
-    A silent cell lacks the mean pressure of its loaded neighbours, at the frames of high load.
-
-    Args:
-        foot: The foot.
-        other: The other foot: if its sole is the mirror image, its cell of the same number shows load at an edge.
+    A silent cell lacks the mean pressure of its loaded neighbours. A mirrored other foot shows load at an edge by its
+    cell of the same number.
     """
     layout = foot.layout
     none = SilentCells(np.zeros(0, dtype=np.int64), 0.0)
@@ -207,8 +204,8 @@ def implied_weight(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
     """Returns the weight in N of the body that makes a recording's forces on these feet; None of raw counts or if
     unknown.
 
-    It is the impulses of a step of each foot over the stride time (of one foot twice its impulse); without strides the
-    largest force of its steps over 1.1; in standing the mean force of both feet.
+    It is the impulses of both feet (of one foot twice) over the stride time; without strides the largest force of its
+    steps over 1.1; in standing the mean force of both feet.
     """
     if recording.raw:
         return None

@@ -168,12 +168,11 @@ def _keys(raw: bool) -> Callable[[str], str]:
 
 def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
     foot, named = gait.foot, _keys(recording.raw)
-    landings = [c.heel_strike for c in gait.contacts if c.heel_strike is not None]
     errors = errors_of_foot(recording, gait)
     known = {step.heel_strike_s: step["landing_impact_N"] for step in gait.steps}
     impacts = (
         known[strike] if strike in known else landing_impact(recording.time, foot.vertical_force, strike)
-        for strike in landings
+        for strike in gait.heel_strikes
     )
     return {
         "steps": len(gait.steps),
@@ -183,7 +182,7 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
         "each_step": [_step(step, named) for step in gait.steps],
         "events": _events(gait, complete=True),
         "incomplete": _events(gait, complete=False),
-        "landings_s": landings,
+        "landings_s": gait.heel_strikes,
         named("landing_impacts_N"): [_plain(impact) for impact in impacts],
         "stated_events": stated_beside_own(recording.events.get(foot.side), gait),
         "cells": foot.force.shape[1],

@@ -127,14 +127,9 @@ def analyse_foot(
     stated: bool = False,
     events: Mapping[Side, tuple[Levels | None, list[Contact]]] | None = None,
 ) -> FootGait:
-    """Returns the gait of one foot; measures that need the other foot use its contacts where it was recorded.
+    """Returns the gait of one side's foot of a recording; measures that need the other foot use its contacts.
 
-    Args:
-        recording: The recording.
-        side: A foot that it has.
-        prints: The footprints of a platform.
-        stated: Whether the events of the file are used.
-        events: Levels and contacts of both feet, where they are known.
+    Footprints of a platform are in prints; events are levels and contacts of both feet, if stated those of the file.
     """
     events = events or {s: _events_of(recording, s, stated) for s in recording.feet}
     gait = _with_events(recording, side, *events[side])

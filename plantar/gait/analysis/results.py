@@ -96,13 +96,10 @@ def write_analysis(
     progress: Callable[[float, str], None] | None = None,
     figures: bool = True,
 ) -> None:
-    """Write metrics.json, steps.csv and regions.csv of an analysis, its figures, report.html and summary.html.
+    """Write metrics.json, steps.csv and regions.csv of an analysis into a folder; with figures also these and two
+    pages.
 
-    Args:
-        analysis: The analysis.
-        folder: Existing folder to write to.
-        progress: Called with a fraction 0..1 and what is being done.
-        figures: Whether figures and the report are drawn.
+    `progress` is called with a fraction 0..1 and what is being done.
     """
     recording, feet, metrics = analysis.recording, analysis.feet, analysis.metrics
     (folder / "steps.csv").write_text(_steps_csv(analysis.steps), encoding="utf-8")

@@ -88,7 +88,7 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
     stride = spread([step["stride_time_s"] for step in steps]).mean
     steady = _mean(feet, "stride_time_s")
     return {
-        "landings": sum(c.heel_strike is not None for g in feet.values() for c in g.contacts),
+        "landings": sum(len(gait.heel_strikes) for gait in feet.values()),
         "stride_time_s": stride,
         "cadence_steps_per_min": None if stride is None else 120.0 / stride,
         "steady_cadence_steps_per_min": None if steady is None else 120.0 / steady,
@@ -107,15 +107,10 @@ def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
 
 
 def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:
-    """Returns the symmetry index of named measures in percent: 100 (L - R) / ((L + R) / 2) of the feet's means
-    (Robinson 1987).
+    """Returns the symmetry index in percent of the `names` of two feet, 100 (L - R) / ((L + R) / 2) (Robinson 1987).
 
-    It is above 0 where the left foot's value is larger; None where a foot has no value, the two have opposite signs or
-    are below what is resolved, and of angles.
-
-    Args:
-        feet: The feet that were recorded.
-        names: The measures.
+    It is above 0 where the left is larger; None where a foot has no value, the signs differ, for unresolved ones and
+    angles.
     """
     names = list(names)
     if "left" not in feet or "right" not in feet:

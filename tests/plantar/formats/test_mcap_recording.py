@@ -61,7 +61,7 @@ def test_a_recording_without_skin_names_its_topics(tmp_path: Path) -> None:
 
 def test_a_layout_of_another_size_is_refused(tmp_path: Path, layout: SoleLayout) -> None:
     write(tmp_path / "run.mcap", {"left": layout}, ("left",), 5)
-    with pytest.raises(FormatError, match="5 taxels"):
+    with pytest.raises(FormatError, match="5 cells"):
         read_recording(tmp_path / "run.mcap")
 
 

@@ -83,7 +83,7 @@ HOSTILE: dict[str, tuple[str, Callable[[], Iterable[str]], str]] = {
     ),
     "pedar: rows that are none": ("pedar", lambda: [PEDAR, "x\n" * 3_000_000], "no whole frame"),
     "pedar: a header without an end": ("pedar", lambda: ["x" * 900_000 + "\n"] * 20, "no row of column names"),
-    "moticon: short rows": ("moticon", lambda: [MOTICON, "1\n" * 3_000_000], "do not have 4 columns"),
+    "moticon: short rows": ("moticon", lambda: [MOTICON, "1\n" * 3_000_000], "another width than 4"),
     "moticon: a header without an end": ("moticon", lambda: ["# a: b\n" * 3_000_000], "no line names the channels"),
     "xsensor: wide rows that are damaged": (
         "xsensor",

@@ -20,11 +20,11 @@ __all__ = ["draw_figures", "write_figures"]
 def write_figures(
     figures: Sequence[tuple[str, Any, str]], folder: Path, progress: Callable[[float, str], None] | None = None
 ) -> list[tuple[Path, str]]:
-    """Write figures as PNG and SVG.
+    """Write figures as PNG and SVG in a folder.
 
     Args:
         figures: Name, figure (None for one without data) and caption of each.
-        folder: Existing folder to write to.
+        folder: Existing folder.
         progress: Called with a fraction 0..1 and what is being done.
 
     Returns:
@@ -47,16 +47,8 @@ def draw_figures(
     folder: Path,
     progress: Callable[[float, str], None] | None = None,
 ) -> list[tuple[Path, str]]:
-    """Draw the figures of a recording as PNG and SVG.
-
-    Args:
-        recording: The recording.
-        feet: The gait of its feet.
-        folder: Existing folder to write to.
-        progress: Called with a fraction 0..1 and what is being done.
-
-    Returns:
-        The PNG files with their captions.
+    """Returns PNG files with captions of the figures of a recording's feet, drawn as PNG and SVG in a folder; calls
+    progress.
     """
     figures = (
         (

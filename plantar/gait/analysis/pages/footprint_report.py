@@ -37,13 +37,10 @@ def analyse_image(
         folder: Existing folder to write to.
         mm_per_pixel: Size of a pixel in mm; the image's own resolution where None.
         side: The foot of a single footprint; inferred from its shape where None.
-        subject: The person, as far as known.
+        subject: The person.
 
     Returns:
-        What metrics.json holds.
-
-    Raises:
-        FormatError: If the file is no image, or shows no footprint.
+        What metrics.json holds. FormatError if the file is no image, or shows no footprint.
     """
     image = read_footprints(path, mm_per_pixel)
     pixel = image.pixel if image.pixel is not None else 1.0
@@ -76,12 +73,9 @@ def analyse_image(
 
 
 def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
-    """Returns the footprint of a mask, with its toe line; along its longest axis, the narrower end is the heel.
+    """Returns the footprint of the mask of an image's part, with its toe line, for a pixel's size in m and a side.
 
-    Args:
-        part: The mask.
-        pixel: Size of a pixel in m (or 1 for lengths in pixels).
-        side: The foot.
+    Along its longest axis, the narrower end is the heel.
     """
     rows, columns = np.nonzero(part.mask)
     every = max(1, round(float(np.sqrt(len(rows) / _MOST_PIXELS))))
@@ -142,11 +136,9 @@ def _side_by_shape(print_: Footprint) -> Side:
 
 
 def measures_of_footprint(print_: Footprint, scaled: bool) -> dict[str, Any]:
-    """Returns the measures of one footprint by key; axis_angle_deg is to the image's vertical, positive to the left.
+    """Returns the measures of a footprint `print_` by key, lengths and areas None unless scaled (in m).
 
-    Args:
-        print_: The footprint, in m or in pixels.
-        scaled: Whether it is in m; lengths and areas are None where it is not.
+    axis_angle_deg is to the image's vertical, positive to the left.
     """
 
     def size(value: float) -> float | None:
@@ -252,15 +244,10 @@ _FOOTPRINT = (
 
 
 def footprint_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str) -> str:
-    """The page of a footprint image as text.
-
-    Args:
-        metrics: Result of `analyse_image`.
-        figures: PNG files to embed, with their captions.
-        title: Title of the page, for example the file's name.
+    """The page of a footprint image as HTML without other files, by its metrics, PNG figures with captions and a title.
 
     Returns:
-        HTML that refers to no other file and no network.
+        The text.
     """
     sections = [Section("measures", "Measures", _table(metrics))]
     if metrics["warnings"]:

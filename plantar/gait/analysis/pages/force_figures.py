@@ -73,15 +73,10 @@ def _draw_events(panel: Any, gait: FootGait, levels: Levels) -> None:
     for level in sorted({levels.release, levels.lift}):
         name = "event level" if level == levels.release else None
         panel.axhline(level, color=COLOURS["reference"], linewidth=0.8, linestyle="--", label=name)
-    strikes = [c.heel_strike for c in gait.contacts if c.heel_strike is not None]
-    lifts = [c.toe_off for c in gait.contacts if c.toe_off is not None]
-    _mark(panel, strikes, levels.release, "v", "heel strike")
-    _mark(panel, lifts, levels.lift, "^", "toe off")
-
-
-def _mark(panel: Any, times: list[float], level: float, mark: str, name: str) -> None:
-    if times:
-        panel.plot(times, [level] * len(times), mark, color="#111111", markersize=5, label=name)
+    events = ((gait.heel_strikes, levels.release, "v", "heel strike"), (gait.toe_offs, levels.lift, "^", "toe off"))
+    for times, level, mark, name in events:
+        if times:
+            panel.plot(times, [level] * len(times), mark, color="#111111", markersize=5, label=name)
 
 
 def _shade_cut_contacts(panel: Any, recording: PressureRecording, gait: FootGait) -> None:

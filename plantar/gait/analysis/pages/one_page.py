@@ -46,7 +46,7 @@ _STYLE = """
 
 
 def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str) -> str:
-    """The sheet as text; a browser prints it on one page of A4.
+    """The sheet as HTML; a browser prints it on one page of A4.
 
     Args:
         metrics: Contents of metrics.json.
@@ -54,7 +54,7 @@ def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], ti
         title: Title of the page, for example the file's name.
 
     Returns:
-        HTML that refers to no other file and no network.
+        The text.
     """
     warnings = metrics["warnings"]
     more = len(warnings) - _MOST_WARNINGS

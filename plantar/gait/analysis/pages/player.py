@@ -28,9 +28,8 @@ MOST_BYTES = 900_000  # Largest size of the packed pressures; a mat of very many
 def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> dict[str, Any] | None:
     """Returns the player's data of a recording as plain JSON values; None where none of its feet has geometry.
 
-    "times" (s) of the frames; for each foot its side, cells (rings of corners in mm, to the right and forward),
-    outline, pressure as bytes (0 for a cell that is not loaded, else 1 + 254 p / highest), deflated and in base64,
-    highest pressure, force and CoP; "events".
+    Cells are rings in mm, to the right and forward; pressures bytes (0 for a cell that is not loaded, else 1 + 254 p /
+    highest), deflated and in base64.
     """
     shown = {side: gait for side, gait in feet.items() if gait.foot.layout is not None}
     if not shown:
@@ -63,11 +62,9 @@ def _packed(
 
 def _events(feet: Mapping[Side, FootGait], begin: float, end: float) -> list[tuple[float, str]]:
     """Times in s and names of the events between two times, in order."""
-    found: list[tuple[float | None, str]] = []
-    for side, gait in feet.items():
-        found += [(c.heel_strike, f"{side} heel strike") for c in gait.contacts]
-        found += [(c.toe_off, f"{side} toe off") for c in gait.contacts]
-    return sorted((round(float(t), 3), name) for t, name in found if t is not None and begin <= t <= end)
+    strikes = [(t, f"{side} heel strike") for side, gait in feet.items() for t in gait.heel_strikes]
+    lifts = [(t, f"{side} toe off") for side, gait in feet.items() for t in gait.toe_offs]
+    return sorted((round(float(t), 3), name) for t, name in strikes + lifts if begin <= t <= end)
 
 
 def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDArray[np.int64]:

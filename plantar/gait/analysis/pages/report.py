@@ -35,7 +35,7 @@ def report_page(
     title: str,
     player: Mapping[str, Any] | None = None,
 ) -> str:
-    """The page of one recording as text.
+    """The page of one recording as HTML that refers to no other file and no network.
 
     Args:
         metrics: Result of `analyse_recording`.
@@ -44,7 +44,7 @@ def report_page(
         player: Result of `player_data`; no player where None.
 
     Returns:
-        HTML that refers to no other file and no network.
+        The text.
     """
     sections = [Section("summary", "Summary", f"<p>{html.escape(summary_text(metrics))}</p>{_tiles(metrics)}")]
     if metrics["warnings"]:
@@ -117,7 +117,7 @@ def _not_given(metrics: Mapping[str, Any]) -> str:
 def comparison_page(
     comparison: Mapping[str, Any], figures: Sequence[tuple[Path, str]], names: tuple[str, str], links: tuple[str, str]
 ) -> str:
-    """The page that shows two recordings side by side.
+    """The page that shows two recordings side by side, as HTML that links to the two reports next to it.
 
     Args:
         comparison: Result of `compare_recordings`.
@@ -126,7 +126,7 @@ def comparison_page(
         links: Files of their own reports, relative to this page.
 
     Returns:
-        HTML that embeds all it shows; it links to the two reports next to it.
+        The text.
     """
     parts = []
     for key, name, link in zip(("a", "b"), names, links, strict=True):

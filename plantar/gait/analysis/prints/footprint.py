@@ -130,8 +130,7 @@ def footprint_of_cells(
         pressure: Largest pressure (n,) of each cell.
         loaded: Which cells (n,) are part of the print.
         side: The foot.
-        forward: Direction (2,) from heel to toes, from which the print's own axis is found; the sole's x axis, as it
-            is, where None.
+        forward: Approximate direction (2,) from heel to toes; the sole's x axis, exactly, where None.
     """
     chosen = np.flatnonzero(loaded)
     if len(chosen) == 0:
@@ -143,13 +142,10 @@ def footprint_of_cells(
 def footprint_of_pixels(
     centres: NDArray[np.float64], pixel: float, side: Side, forward: NDArray[np.float64]
 ) -> Footprint:
-    """Returns the footprint of an image's pixels.
+    """Returns the footprint of a side's pixels: their centres (n, 2) in m, x and y as in the sole frame, size pixel in
+    m.
 
-    Args:
-        centres: Middles (n, 2) of the pixels in m, x and y as in the sole frame.
-        pixel: Their size in m.
-        side: The foot.
-        forward: Approximate direction (2,) from heel to toes.
+    The direction forward (2,) from heel to toes is approximate.
     """
     box = 0.5 * pixel * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     rings = centres[:, None, :] + box

@@ -52,8 +52,8 @@ class PlatformPrint:
 def told_apart(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
     """A platform's recording with the footprints of each foot under its side, and the footprints; others as they are.
 
-    The frame is turned so that the first pass walks along x. Frames without load are added at ends that carry little: a
-    platform records from the moment at which it is stepped on.
+    The frame is turned so that the first pass walks along x. Ends that carry little get frames without load before or
+    after.
     """
     whole = next(iter(recording.feet.values()), None)
     if recording.kind != "platform" or whole is None or whole.layout is None:

@@ -1,8 +1,8 @@
 """Footprints on a platform: which cells and frames are one, and the direction and feet of a pass over it.
 
-A piece is loaded cells that touch, or have one cell between them, until they are unloaded for a while. Pieces that are
-loaded at the same time, and together are no larger than a foot, are one footprint. Of several footprints, those to the
-left of the line of walking are the left foot's; of a single one, arch and hallux show the side."""
+A piece is loaded cells that touch, or have one cell between them, without a pause. Pieces that are loaded at the same
+time, and together are no larger than a foot, are one footprint.
+"""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ class PlatformWalk:
     Attributes:
         load: Load of the platform's cells.
         prints: The cells of each footprint.
-        centres: Centroid (m, 2) of each footprint in m, weighted by the largest force of each cell.
+        centres: Centroid (m, 2) of each footprint in m, weighted by force.
     """
 
     load: PlatformLoad
@@ -201,11 +201,8 @@ def passes_over(load: PlatformLoad, prints: Sequence[PrintCells]) -> list[Platfo
 
 
 def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float64]:
-    """Returns the direction (2,) of a walk: from the first footprints to the last ones, or along the platform.
-
-    Args:
-        walk: A pass.
-        notes: List to which assumptions are added.
+    """Returns the direction (2,) of a walk, from its first to its last footprints or along the platform; notes get
+    assumptions.
     """
     centres = walk.centres
     if len(centres) >= 3 and np.hypot(*(centres[-1] - centres[0])) > _TRAVEL:
@@ -228,12 +225,13 @@ def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float6
 def sides_of_walk(
     walk: PlatformWalk, forward: NDArray[np.float64], stated: Side | None, notes: list[str]
 ) -> list[Side]:
-    """Returns the foot of each footprint of a pass.
+    """Returns the foot of each footprint of a walk: of several, the left ones lie to the left of the line of walking.
 
     Args:
         walk: A pass.
         forward: Direction (2,) of walking.
-        stated: The foot that the file names; used where the footprints lie in one line.
+        stated: The foot that the file names; used where the footprints lie in one line. Else arch and hallux show the
+            side.
         notes: List to which assumptions are added.
     """
     count = len(walk.prints)

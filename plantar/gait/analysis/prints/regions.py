@@ -1,8 +1,7 @@
-"""Regions of the foot, found from the footprint: heel, midfoot, forefoot (medial, central, lateral), hallux and toes.
+"""Regions of the foot, found from the footprint.
 
 The toes begin at a gap, or a valley of pressure, in front of the metatarsal heads. The print without toes is cut into
-thirds of its length (as for the arch index), the forefoot into thirds of its width; the hallux is the medial part of
-the toes.
+thirds of its length, the forefoot into thirds of its width; the hallux is the medial part of the toes.
 """
 
 from __future__ import annotations
@@ -39,9 +38,8 @@ _TOES_OF_SOLE = 0.82  # Share of an insole's length at which its toe region begi
 def with_toe_line(print_: Footprint) -> Footprint:
     """The footprint with its toe line, where one is found.
 
-    In each strip along the foot, the largest pressure over u is followed forwards from its highest point between 45 and
-    80 % of the length; the lowest place counts if it is less than 60 % of what follows. Strips without a valley use
-    their neighbours' line.
+    In each strip along the foot the valley beyond the highest pressure between 45 and 80 % of the length counts if it
+    is less than 60 % of what follows. Strips without one use their neighbours' line.
     """
     extent = np.ptp(print_.rings[:, :, 0], axis=1)
     pitch = float(np.median(extent)) if len(extent) else 0.0
@@ -111,12 +109,9 @@ def _whole_gap(print_: Footprint, pitch: float) -> bool:
 
 
 def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.int64]:
-    """Returns the index (n,) into `REGIONS` of each cell of a footprint.
+    """Returns the index (n,) into `REGIONS` of each cell of a footprint `print_`, with its toe line where it has one.
 
-    Args:
-        print_: The footprint, with its toe line where it has one.
-        of_sole: Length in m of the insole from the print's origin, of a print without a toe line: its toes begin at 82
-            % of it. None where such a print has no toes.
+    Without one, toes begin at 82 % of the length in m `of_sole` from the print's origin; None for no toes.
     """
     u, v = print_.centres.T
     toe = print_.is_toe

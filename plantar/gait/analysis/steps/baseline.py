@@ -13,10 +13,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.gait.analysis.steps.events import MINIMUM_SWING, smoothed, true_runs
+from plantar.gait.analysis.steps.events import MINIMUM_SWING, smoothed
 from plantar.gait.analysis.steps.swing_levels import SwingLevels, swing_levels
 from plantar.recordings.frame_table import blocks_of_frames, let_go, room
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, true_runs
 
 __all__ = ["RestingLevel", "resting_level", "without_baselines"]
 

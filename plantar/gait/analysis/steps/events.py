@@ -1,9 +1,8 @@
 """Gait events: heel strikes and toe offs of a foot, from its vertical force.
 
-Force is measured against its own range, from its level in swing to its robust peak. A contact begins when it rises
-above one share of that range (`EVENT_LEVELS`) and ends when it falls below another; noise raises both. The time of an
-event is where the force crosses its level, or midway in a jump of half of the range. The toe off from an insole is
-where the fall of push-off, continued straight, ends: the rest is the shoe's pressure.
+Force is measured against its own range, from its level in swing to its robust peak; `EVENT_LEVELS` are shares of it,
+raised by noise. An event is where the force crosses its level, or midway in a jump of half of the range; the toe off
+from an insole is where the fall of push-off, continued straight, ends.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.recordings.pressure_recording import Kind
+from plantar.recordings.pressure_recording import Kind, true_runs
 
 __all__ = [
     "EVENT_LEVELS",
@@ -30,7 +29,6 @@ __all__ = [
     "measured_spans",
     "run_together",
     "smoothed",
-    "true_runs",
 ]
 
 
@@ -39,10 +37,10 @@ class EventLevels:
     """Shares of the force range at which events lie.
 
     Attributes:
-        strike: Share below which a foot is not in contact any more, and whose rising crossing is the heel strike.
+        strike: Rising crossing of a heel strike, below which a foot is off the ground.
         contact: Share that a contact has to reach.
-        lift: Share whose last falling crossing is the earliest toe off.
-        clear: Share whose falling crossing is the latest toe off; None where it is at `lift`.
+        lift: Last falling crossing, the earliest toe off.
+        clear: Falling crossing of the latest toe off; None where it is at `lift`.
     """
 
     strike: float
@@ -90,14 +88,13 @@ class Levels:
     """Force levels of one foot in N.
 
     Attributes:
-        rest: What the foot carries in swing.
-        peak: Its robust peak.
+        rest: Load in swing.
+        peak: Robust peak.
         release: Level of the heel strike, below which a foot is off the ground.
         contact: Level that a contact has to reach.
         lift: Level of the earliest toe off.
         noise: Standard deviation of the force in swing.
-        clear: Level of the latest toe off, where the fall of push-off is continued to `rest`; None where the toe off is
-            at `lift`.
+        clear: Level of the latest toe off, where push-off is continued to `rest`; None where the toe off is at `lift`.
     """
 
     rest: float
@@ -111,11 +108,11 @@ class Levels:
 
 @dataclass(frozen=True)
 class Contact:
-    """One contact of a foot.
+    """One contact of a foot; its times are None where the recording, or a gap in it, cuts it.
 
     Attributes:
-        heel_strike: Time in s at which it began, None where the recording (or a gap in it) cuts it.
-        toe_off: Time in s at which it ended, None where the recording cuts it.
+        heel_strike: Time in s at which it began.
+        toe_off: Time in s at which it ended.
         begin: First frame in contact.
         end: Frame after the last one in contact.
         standing: Whether it is too long for a step.
@@ -134,12 +131,10 @@ class Contact:
 
 
 def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool = True) -> Levels | None:
-    """Returns the levels of one foot's vertical force; None where it is never above its noise.
+    """Returns the levels of one foot's vertical force (n,) in N, NaN where not measured; None where it is never above
+    its noise.
 
-    Args:
-        force: Vertical force (n,) in N; NaN where it was not measured.
-        kind: Kind of sensor.
-        lifted: Whether its least load is that in swing; else it is never off the ground.
+    The noise and the load in swing depend on the kind of sensor; a foot that is not lifted has no swing.
     """
     measured = force[np.isfinite(force)]
     if len(measured) < 3:
@@ -398,7 +393,7 @@ def _crossing(
 
 
 def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contact: Contact) -> int:
-    """Returns the number of landings in a contact that an offset joins; 0 where the contact is short.
+    """Returns the number of landings in a contact that an offset joins; 0 where it is short.
 
     Args:
         force: Vertical force (n,) of the foot in N.
@@ -426,14 +421,3 @@ def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contac
     reach = max(1, round(0.5 * _LANDING * rate))
     lands = (share[max(0, i - reach) : i + 1].min() < 0.2 and share[i : i + reach + 2].max() > 0.8 for i in edges)
     return int(sum(lands))
-
-
-def true_runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """First frame, and the frame after the last one, of each run of true values of a mask (n,).
-
-    Example:
-        >>> true_runs(np.array([True, False, True, True]))
-        [(0, 1), (2, 4)]
-    """
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]])))
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))

@@ -29,12 +29,12 @@ class Step:
         contact: The contact.
         measures: Known measures by their key in `plantar.gait.analysis.measures.MEASURES`.
         regions: Measures of each region of the foot.
-        footprint: The footprint of lengths, arch index and regions; None without geometry.
-        region: Index (k,) into `REGIONS` of each cell, -1 for none; None without geometry.
+        footprint: The footprint of lengths, arch index and regions.
+        region: Index (k,) into `REGIONS` of each cell, -1 for none.
         used: Whether it is in the means.
-        unused: Why not; empty where it is.
+        unused: Why not, or empty.
         odd: Why it is odd, or empty.
-        activity: "walking", "running" or "hopping"; empty where it is not known.
+        activity: "walking", "running", "hopping" or empty.
     """
 
     side: Side
@@ -57,21 +57,19 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class FootGait:
-    """One foot's recording with its events and steps.
+    """One foot's recording with its events and steps; what needs geometry is None without it.
 
     Attributes:
         foot: The measurements.
         levels: Force levels of its events, None where the foot carries no load.
         contacts: All contacts, also those cut by the recording.
         steps: The complete ones, measured.
-        cop: Centre of pressure (n, 2) of each frame in the sole frame in m, averaged over 50 ms; NaN without load, None
-            without geometry.
+        cop: Centre of pressure (n, 2) of each frame in the sole frame in m, averaged over 50 ms; NaN without load.
         cell_threshold: Force in N (k,) above which a cell counts as loaded.
-        picture: Maximum pressure picture (k,) in Pa: the mean over the steps of each cell's largest pressure, of a
-            platform the largest of all; None without geometry.
-        footprint: Footprint of that picture in an insole or sole; else None.
-        region: Index (k,) into `REGIONS` of each cell of the picture, -1 for none; None without geometry.
-        sole: The whole insole or sole as a footprint; else None.
+        picture: Maximum pressure picture (k,) in Pa: mean over the steps, of a platform the largest.
+        footprint: Footprint of that picture in an insole or sole.
+        region: Index (k,) into `REGIONS` of each cell of the picture, -1 for none.
+        sole: The whole insole or sole as a footprint.
         warnings: Warnings about the foot.
     """
 
@@ -86,6 +84,16 @@ class FootGait:
     region: NDArray[np.int64] | None = None
     sole: Footprint | None = None
     warnings: tuple[str, ...] = ()
+
+    @property
+    def heel_strikes(self) -> list[float]:
+        """Times in s of all recorded heel strikes."""
+        return [c.heel_strike for c in self.contacts if c.heel_strike is not None]
+
+    @property
+    def toe_offs(self) -> list[float]:
+        """Times in s of all recorded toe offs."""
+        return [c.toe_off for c in self.contacts if c.toe_off is not None]
 
     @cached_property
     def used(self) -> tuple[Step, ...]:

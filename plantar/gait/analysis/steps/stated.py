@@ -51,13 +51,10 @@ def stated_beside_own(events: StatedEvents | None, gait: FootGait) -> dict[str, 
     """
     if events is None:
         return None
-    found = (
-        [c.heel_strike for c in gait.contacts if c.heel_strike is not None],
-        [c.toe_off for c in gait.contacts if c.toe_off is not None],
-    )
     out: dict[str, Any] = {}
-    for name, stated, own in zip(
-        ("heel_strike", "toe_off"), (events.heel_strikes, events.toe_offs), found, strict=True
+    for name, stated, own in (
+        ("heel_strike", events.heel_strikes, gait.heel_strikes),
+        ("toe_off", events.toe_offs, gait.toe_offs),
     ):
         out[f"{name}s_s"] = stated.tolist()
         out[f"{name}_difference_s"] = [_difference(float(at), np.array(own)) for at in stated]

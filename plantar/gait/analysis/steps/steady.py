@@ -32,16 +32,11 @@ _WORDS = {
 def with_used_steps(
     gait: FootGait, options: AnalysisOptions, kind: str, raw: bool = False, activity: str = ""
 ) -> FootGait:
-    """Returns the gait with each step marked as used or not and why, and as odd, with warnings.
+    """Returns a foot's gait with each step marked as used or not and why, and as odd, with warnings.
 
     Odd steps at either end of a walk start and stop it, and are left out unless the options name steps; others stay.
-
-    Args:
-        gait: One foot with its measured steps.
-        options: Which steps are wanted.
-        kind: Kind of sensor; only insoles and robots have steps that start a walk.
-        raw: Whether forces are counts.
-        activity: Activity whose steps are in the means; every one where empty.
+    Only insoles and robots, by kind, have steps that start a walk; raw forces are counts; activity limits the used
+    steps.
     """
     others = [step for step in gait.steps if activity and step.activity not in ("", activity)]
     steps = [step for step in gait.steps if step not in others]

@@ -21,13 +21,8 @@ __all__ = ["footprint_of_step", "print_of_contact", "with_picture"]
 
 
 def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> FootGait:
-    """Returns the gait with its maximum pressure picture, and in an insole or sole that picture's footprint and
+    """Returns a foot's gait in a recording with its maximum pressure picture by its loads, its footprint and
     regions.
-
-    Args:
-        recording: The recording.
-        gait: One foot of it.
-        loads: Load of its cells.
     """
     layout = gait.foot.layout
     if layout is None:
@@ -72,14 +67,9 @@ def footprint_of_step(
     contact: Contact,
     prints: Sequence[PlatformPrint],
 ) -> tuple[Footprint | None, NDArray[np.int64] | None]:
-    """Returns footprint and region (k,) of each cell (-1 for none) of one step; None without geometry.
+    """Returns footprint and region (k,) of each cell (-1 for none) of the step of a contact; None without geometry.
 
-    Args:
-        recording: The recording.
-        gait: One foot of it, with its picture.
-        loads: Load of its cells.
-        contact: The step.
-        prints: The footprints of a platform.
+    They are of a foot's gait in a recording, on a platform of the step's own loads and prints.
     """
     layout = gait.foot.layout
     if recording.kind != "platform" or layout is None:

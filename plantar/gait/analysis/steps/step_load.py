@@ -21,14 +21,14 @@ NOISE_FRAMES = 5000  # Frames of swing from which a cell's noise is judged: enou
 
 @dataclass(frozen=True, eq=False)
 class StepLoad:
-    """Load of the cells in one contact, or in several, one after the other.
+    """Load of the k cells in one contact, or in several, one after the other.
 
     Attributes:
         time: Times (m,) in s.
-        force: Force (m, k) of each cell in N.
+        force: Force (m, k) in N.
         pressure: Pressure (m, k) in Pa, counts of a raw recording; None where no areas are known.
         loaded: Which cells (m, k) count as loaded.
-        areas: Area (k,) of each cell in m^2; None without geometry.
+        areas: Areas (k,) in m^2; None without geometry.
         starts: First frame (c,) of each contact.
     """
 
@@ -136,15 +136,11 @@ def _filled(time: NDArray[np.float64], force: NDArray[np.float64]) -> NDArray[np
 def cell_threshold(
     recording: PressureRecording, foot: FootRecording, contacts: Sequence[Contact]
 ) -> NDArray[np.float64]:
-    """Returns the force (k,) in N above which each cell counts as loaded: its layout's threshold, and 3 SD of its
+    """Returns the force (k,) in N above which each cell of a foot counts as loaded, by its layout and 3 SD of its
     noise.
 
-    A cell that reads something in most frames of swing, such as one that a shoe presses on, counts above that reading.
-
-    Args:
-        recording: The recording.
-        foot: One foot of it, n frames of k cells.
-        contacts: Its contacts; between them the noise is measured.
+    The noise is that between the contacts of the recording; a cell that reads something in most frames of swing, such
+    as one that a shoe presses on, counts above that reading.
     """
     n, k = foot.force.shape
     base = 1e-3 if foot.layout is None else 0.0 if recording.raw else foot.layout.force_threshold

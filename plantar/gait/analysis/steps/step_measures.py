@@ -34,7 +34,7 @@ def step_measures(
         gait: One foot of it.
         contact: The step, complete.
         print_: The footprint of lengths and regions; None without geometry.
-        pressures: Measures of its pressures; empty where none are known.
+        pressures: Measures of its pressures.
         load: Load of a robot's cells in the step.
     """
     foot, span = gait.foot, slice(contact.begin, contact.end)
@@ -186,13 +186,8 @@ def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: floa
 
 
 def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> float:
-    """Returns the largest vertical force in N within 50 ms of a heel strike, its interpolated end included; NaN if
+    """Returns the largest vertical force (n,) in N within 50 ms of a heel strike in s, at time (n,) in s; NaN if
     unknown.
-
-    Args:
-        time: Times (n,) in s.
-        force: Vertical force (n,) in N.
-        strike: Time of the heel strike in s.
     """
     end = strike + IMPACT_WINDOW
     after = int(np.searchsorted(time, end, side="right"))

@@ -66,8 +66,8 @@ def time_measures(
     Args:
         contact: The contact.
         previous: The contact of the same foot before it.
-        stride: Its stride time in s; NaN where it is not known.
-        longest: Time in s from the contact before it that holds a pause, see `longest_stride`.
+        stride: Its stride time in s, or NaN.
+        longest: Time in s between strikes that holds a pause (`longest_stride`).
         others: The contacts of the other foot, None where it was not recorded.
     """
     strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from plantar.gait.analysis.steps.events import MINIMUM_SWING, smoothed, true_runs
+from plantar.gait.analysis.steps.events import MINIMUM_SWING, smoothed
+from plantar.recordings.pressure_recording import true_runs
 
 __all__ = ["SwingLevels", "swing_levels"]
 
@@ -44,12 +45,12 @@ _OUTLIER = 0.25
 
 @dataclass(frozen=True, eq=False)
 class SwingLevels:
-    """The swings of a foot.
+    """The swings of a foot, and the level of its force, in the force's unit.
 
     Attributes:
         places: Frames (m,) at which the level is known, in order.
-        spans: First frame, and the frame after the last one, of the frames in swing that show it there (m, 2).
-        level: Force (n,) under the contacts, on straight lines between these places, in the force's unit.
+        spans: First frame, and the frame after the last one, in swing around each place (m, 2).
+        level: Level (n,) under the contacts, on straight lines between these places.
         swing: Frames (n,) in swing.
         span: Range of the force above the level.
     """
@@ -65,7 +66,7 @@ def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
     """Returns the level of each swing of a walking foot; None for fewer than three swings between contacts.
 
     Args:
-        force: Vertical force (n,), NaN where it was not measured.
+        force: Vertical force (n,), NaN where not measured.
         rate: Frames a second.
 
     Example:

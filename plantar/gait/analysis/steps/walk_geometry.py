@@ -34,15 +34,11 @@ class Place:
 
 
 def step_geometry(places: Mapping[Side, Sequence[Place]]) -> dict[Side, list[dict[str, float]]]:
-    """Lengths and angles of each step from the places of each foot's steps, in order.
+    """Lengths and angles of each step from the places of each foot's steps, in order, as far as they are known.
 
     The line of walking joins the heels of this foot's footprint before and of this one, else it is the place's
     direction. Step length is along it from the other foot's last heel, step width that heel's distance from it (Huxham
-    et al. 2006). A stride begins with its step.
-
-    Returns:
-        step_length_m, step_width_m, stride_length_m, stride_velocity_m_s and foot_progression_deg (outward positive) of
-        each step, as far as they are known.
+    et al. 2006). A stride begins with its step; foot progression is outward positive.
 
     Example:
         >>> x = np.array([1.0, 0.0])

@@ -55,20 +55,20 @@ class Outlier(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Two conditions of a study.
+    """Conditions A and B of a study; curves, maps and their tests are None where too few participants have them.
 
     Attributes:
-        a: Name of the one.
-        b: Name of the other.
+        a: Name of A.
+        b: Name of B.
         paired: Whether the same participants were measured in both.
         effects: Difference B - A of each measure.
         curve_unit: "N", "counts" or "% of body weight".
-        curves: Mean curves (participants, 101) of vertical force of A and of B; None where too few have them.
+        curves: Mean curves (participants, 101) of vertical force of A and of B.
         curve_test: Where they differ.
-        maps: Mean maps (participants, 36, 14) in Pa of A and of B; None where too few have them.
+        maps: Mean maps (participants, 36, 14) in Pa of A and of B.
         map_test: Where they differ, among `places`.
         places: Which places (36, 14) of the map every participant has.
-        note: Why nothing was compared; empty where it was.
+        note: Why nothing was compared, or empty.
     """
 
     a: str

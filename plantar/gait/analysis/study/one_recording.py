@@ -61,9 +61,9 @@ class RecordingResult:
     Attributes:
         who: Its participant.
         digest: SHA-256 of the file.
-        key: Digest of file, options and version; a result of another key is measured again.
+        key: Digest of file, options and version (`key_of`).
         format: Name of its format; empty where it could not be read.
-        error: Why it could not be measured; empty where it was.
+        error: Why it could not be measured, or empty.
         raw: Whether its values are counts.
         rows: One row a step: side, step, used, note, heel_strike_s, toe_off_s and every measure; None if unknown.
         feet: Of each foot the mean of each measure over the used steps, and "steps" of them.
@@ -103,14 +103,10 @@ def digest_of(path: Path) -> str:
 def key_of(
     folder: Path, who: Participation, digest: str, choices: AnalysisOptions, options: ReadOptions | None = None
 ) -> str:
-    """Returns a digest of all that decides a result, with the content of layout files and the version.
+    """Returns a digest of all that decides a result of a participation who: file digest, choices, options, layouts,
+    version.
 
-    Args:
-        folder: The study's folder.
-        who: The recording's row in the table.
-        digest: SHA-256 of its file.
-        choices: Which steps are in the means, and which events.
-        options: What is known of all files.
+    Layout files in the study's folder count by their content.
     """
     given = options or ReadOptions()
     known = (given.unit, given.rate_hz, given.side, given.insole_size)
@@ -125,17 +121,14 @@ def key_of(
 def measure_recording(
     folder: Path, who: Participation, choices: AnalysisOptions, digest: str, options: ReadOptions | None = None
 ) -> RecordingResult:
-    """Returns the result of one recording of a study.
+    """Returns the result of one recording in the folder of a study.
 
     Args:
         folder: The study's folder.
         who: The recording and its participant.
         choices: Which steps are in the means, and which events.
         digest: SHA-256 of the file.
-        options: What is known of all files; the table overrides it.
-
-    Raises:
-        PlantarError: If the recording cannot be read.
+        options: What is known of all files; the table overrides it. PlantarError if the recording cannot be read.
     """
     given = options or ReadOptions()
     known = ReadOptions(
@@ -243,9 +236,7 @@ def _map(analysis: Analysis, gait: FootGait) -> NDArray[np.float64] | None:
 def sampled(
     points: NDArray[np.float64], values: NDArray[np.float64], corners: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Returns a map of cells' values at the places of `GRID`, which spans the sole from heel to toes and side to side.
-
-    Each place has the nearest cell's value, or NaN where that is farther than cells are from each other.
+    """Returns a map of cells' values at the places of `GRID`, the nearest cell's or NaN where that is far.
 
     Args:
         points: Centres (k, 2) of the cells, forward and to the medial side.

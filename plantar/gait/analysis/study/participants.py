@@ -33,18 +33,18 @@ _NAMES = {
 
 @dataclass(frozen=True)
 class Participation:
-    """One recording of a study; None or empty where no table states a value.
+    """One recording of a study; optional values are None where no table states them.
 
     Attributes:
         file: Path of the recording relative to the study's folder.
         participant: Name; the file's name without suffix where no table states it.
-        condition: Name of the condition.
+        condition: Name of the condition, or empty.
         mass_kg: Mass of the body in kg.
         foot_length_m: Length of the foot in m.
         side: "left" or "right" for a file of one foot that does not name it.
-        insole_size: Size of a pedar insole, where the file does not state it.
-        unit: Unit of the values, where the file does not state it.
-        rate_hz: Frames a second, where the file does not state it.
+        insole_size: Size of a pedar insole.
+        unit: Unit of the values.
+        rate_hz: Frames a second.
         layout: Layout file relative to the study's folder.
         more: Other columns.
         listed: Whether the table names the file.

@@ -115,8 +115,7 @@ def run_study(
     Args:
         folder: The folder of recordings, with its subfolders.
         out: Output folder, made if needed.
-        participants: Table of participants and conditions, see `read_participants`; without it each file is a
-            participant and nothing is compared.
+        participants: Table of participants and conditions, see `read_participants`; nothing is compared without it.
         progress: Called with a fraction 0..1 and what is being done.
         choices: Which steps are in the means, and which events.
         options: What is known of all files; the table overrides it.
@@ -125,8 +124,7 @@ def run_study(
         The study.
 
     Raises:
-        InputError: If the folder holds no recording, a value in the table is not possible, or the events are those of a
-            file.
+        InputError: If the folder holds no recording, a value in the table is not possible, or the events are a file's.
         FormatError: If the table cannot be read.
     """
     tell = progress or (lambda fraction, text: None)

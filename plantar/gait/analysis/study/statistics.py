@@ -1,8 +1,8 @@
 """Two conditions compared: effect sizes with confidence intervals, and permutation tests corrected for multiple values.
 
-Each value of (samples, values) has a t statistic. The largest |t|, and the largest cluster of neighbouring values
-beyond a threshold, are compared with those of permuted labels, of pairs with permuted signs (Nichols & Holmes 2002,
-Hum. Brain Mapp. 15:1; Maris & Oostenveld 2007, J. Neurosci. Methods 164:177).
+The largest |t|, and the largest cluster of neighbouring values beyond a threshold, are compared with those of permuted
+labels, of pairs with permuted signs (Nichols & Holmes 2002, Hum. Brain Mapp. 15:1; Maris & Oostenveld 2007, J.
+Neurosci. Methods 164:177).
 """
 
 from __future__ import annotations
@@ -38,12 +38,11 @@ class Effect:
         difference: B less A.
         low: Lower end of the difference's 95 % confidence interval.
         high: Its upper end.
-        effect_size: Hedges' g: the difference over the pooled standard deviation, corrected for few samples; NaN
-            without spread.
+        effect_size: Hedges' g; NaN without spread.
         effect_low: Lower end of its 95 % confidence interval.
         effect_high: Its upper end.
         p: Probability of such a |t| by chance, by permutation.
-        p_all: The same of the largest |t| of all measures that are compared together.
+        p_all: The same of the largest |t| of all measures.
     """
 
     paired: bool
@@ -68,7 +67,7 @@ class PermutationTest:
     Attributes:
         t: t statistic (k,) of each value, B less A; 0 where nothing varies.
         p: Probability (k,) of each |t| by chance, looked at alone.
-        p_all: Probability (k,) that the largest |t| of all values is as large by chance.
+        p_all: The same (k,) of the largest |t| of all values.
         threshold: |t| that the largest of all exceeds in 5 % of the permutations.
         clusters: Number (k,) of the cluster of each value, from 1 on; 0 for none.
         cluster_p: Probability of each cluster's mass by chance of the largest one.
