@@ -29,6 +29,7 @@ _SLIP, _JERK = 0.02, 800.0  # rad, rad/s^2: a joint's speed changes faster only 
 _SILENT = 0.06  # s for which a reading that cannot be taken is bridged by the last one that could
 _LATE = 0.15  # s of times that cannot be taken, until the state is "late"
 _UNLOADED, _WEIGHTLESS = 0.3, 0.04  # weight on both soles below which one must be silent, and for how long in s
+_ROLLED = 0.06  # rad: a sole that stands turns by 0.01 in a walk, by 0.05 at most in drawn plants, and no fall is recovered after
 _FALLEN = 0.5  # cosine of the trunk's tilt, and share of its height, below which a robot has fallen
 
 Readings = Mapping[Side, Reading]
@@ -83,6 +84,8 @@ class SafetyShell:
         self._silent = self._unloaded = 0
         self._sound: Sensors | None = None
         self._lost: Side | None = None
+        self._stance: Side | None = None
+        self._landed = (0.0, 0.0)
         self._stop = stop
         self.state: str | None = None
         self.errors = 0
@@ -132,7 +135,23 @@ class SafetyShell:
         if not self._begun:
             self._begun = True
             return command
+        if self._is_rolling(command):
+            self.state = "blind"
+            return self._held()
         return self._limits.limited(self._last, command)
+
+    def _is_rolling(self, command: Command) -> bool:
+        """Whether the standing sole turns by its leg's encoders and not by the IMU: an encoder is stuck or drifts."""
+        stance = command.phase.stance
+        if stance is not None:
+            rotation = command.state.rotations_sole[stance]
+            x, y = rotation.item(2), rotation.item(5)
+            if stance != self._stance:
+                self._landed = (x, y)
+            self._stance = stance
+            return math.hypot(x - self._landed[0], y - self._landed[1]) > _ROLLED
+        self._stance = None
+        return False
 
     def _bridge(self, time: float) -> Command:
         """A tick without a usable reading: on with the last one for a moment, then blind."""

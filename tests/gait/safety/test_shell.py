@@ -16,9 +16,12 @@ from plantar.sim.bench.stress.faults import FAULTS, WALKED_THROUGH
 from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
+SLOW = ("a knee's encoder drifts by 0.2 rad/s", "an ankle's encoder drifts by -0.2 rad/s", "a hip's encoder stuck")
+"""What shows by the turn of the sole that stands, once it is large, or when the leg comes to stand."""
+
 
 @pytest.mark.parametrize(
-    "name", [n if n in ("time +5 s", "no soles") else pytest.param(n, marks=pytest.mark.long) for n in FAULTS]
+    "name", [n if n in ("time +5 s", "no soles", SLOW[0]) else pytest.param(n, marks=pytest.mark.long) for n in FAULTS]
 )
 @pytest.mark.parametrize("robot", ["h1", pytest.param("hrp2kai", marks=pytest.mark.long)])
 @pytest.mark.parametrize("walking", [True, pytest.param(False, marks=pytest.mark.long)])
@@ -27,11 +30,12 @@ def test_a_fault_moves_no_target_far_and_is_named_or_walked_through(name: str, r
     assert seen.jump <= 3.0
     if seen.state is None:
         assert seen.upright
-        assert name in WALKED_THROUGH or not walking
+        assert name in WALKED_THROUGH or not walking or name in SLOW
     else:
         assert seen.state in ("late", "blind", "fallen")
         # Of one foot that stands and one in the air, that both report nothing shows when the other one lands.
-        assert 0.0 <= seen.after <= (0.9 if name == "both skins zeros" and walking else 0.2)
+        slowest = 0.9 if name == "both skins zeros" and walking else 0.5 if name in SLOW else 0.2
+        assert 0.0 <= seen.after <= slowest
     assert seen.state is None or name not in WALKED_THROUGH
 
 
