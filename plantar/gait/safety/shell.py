@@ -29,7 +29,7 @@ _SLIP, _JERK = 0.02, 800.0  # rad, rad/s^2: a joint's speed changes faster only 
 _SILENT = 0.06  # s for which a reading that cannot be taken is bridged by the last one that could
 _LATE = 0.15  # s of times that cannot be taken, until the state is "late"
 _UNLOADED, _WEIGHTLESS = 0.3, 0.04  # weight on both soles below which one must be silent, and for how long in s
-_ROLLED = 0.06  # rad: a sole that stands turns by 0.01 in a walk, by 0.05 at most in drawn plants, and no fall is recovered after
+_ROLLED = 0.06  # rad: a sole that stands turns by 0.01 in a walk, by 0.05 in the worst of drawn plants
 _FALLEN = 0.5  # cosine of the trunk's tilt, and share of its height, below which a robot has fallen
 
 Readings = Mapping[Side, Reading]
