@@ -47,9 +47,12 @@ def test_a_slab_is_stepped_on_softly() -> None:
     assert max(summary["impacts_N"]) < 0.5 * WEIGHT
 
 
-@pytest.mark.parametrize(("scene", "feasible"), [("feasibility-1", True), ("feasibility-2", False)])
-def test_footholds_are_judged_before_weight_is_put_on_them(scene: str, feasible: bool) -> None:
-    summary = run_scene(load_scene(scene, ["settle=0.5"]), 0)
+@pytest.mark.parametrize(
+    ("scene", "robot", "feasible"),
+    [("feasibility-1", "h1", True), ("feasibility-2", "h1", False), ("feasibility-3", "hrp2kai", False)],
+)
+def test_footholds_are_judged_before_weight_is_put_on_them(scene: str, robot: str, feasible: bool) -> None:
+    summary = run_scene(load_scene(scene, ["settle=0.5"], robot), 0)
     assert summary["completed"]
     assert summary["steps_taken"] == 8
     assert [(c["step"], c["feasible"]) for c in summary["feasibility"]] == [(4, feasible)]

@@ -163,6 +163,8 @@ class FootContacts:
         foot.support = foot.alone = None
         foot.center, foot.borne = self._middle[side], self._borne[side]
         foot.step, foot.seen_partial = step, False
+        if self._foreseen == step:  # a step that is taken once more
+            self._foreseen = -1
 
     def touchdown(self, side: Side) -> None:
         """A foot has landed: until loads show more, it stands on the part of its sole under which it saw ground."""

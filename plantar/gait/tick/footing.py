@@ -281,7 +281,11 @@ class Footing:
     def follow(self, phase: Phase, time: float) -> FeetView:
         """Let the feet follow a plan that has changed in a phase, at a time in s; returns them."""
         if phase.swing is not None:
+            landed = self.motion.landed
             self.motion.aim(phase, time, self._plan.view.foothold(phase.step), self.frame)
+            if landed and not self.motion.landed:  # it takes its step once more
+                self.contacts.lift_off(phase.swing, phase.step)
+                self.damping[phase.swing].reset()
         return self.motion.view
 
     def conform(self, phase: Phase, zmp: NDArray[np.float64], state: BaseState, sensed: Sensed) -> None:
