@@ -129,7 +129,8 @@ def test_the_search_is_as_good_as_trying_everything(pushed: Any, seed: int) -> N
     def cost(time: float, move: np.ndarray) -> float:
         goal = tick.pendulum.goal + slope * move
         missed = ends(tick, time).distance(shapely.Point(goal))
-        return missed + rules.price_time * abs(time - left) + price * float(np.hypot(*move))
+        when = rules.price_time * (left - time) if time < left else rules.price_later * (time - left)
+        return missed + when + price * float(np.hypot(*move))
 
     least = max(rules.least_left, (1.0 - rules.shortest) * (usual - begun))
     times = np.arange(least, (1.0 + rules.longest) * usual - begun, PERIOD)

@@ -106,12 +106,7 @@ def test_a_fall_is_seen_and_ends_the_run() -> None:
     assert summary["sim_time_s"] < 9.0
 
 
-_BACK = pytest.mark.xfail(
-    strict=True, reason="it stays up, but step 2 is not counted: step 1 moves back by all its way"
-)
-
-
-@pytest.mark.parametrize("step", [pytest.param(1, marks=_BACK), 2])
+@pytest.mark.parametrize("step", [1, 2])
 def test_feedback_survives_a_push_that_an_open_loop_does_not(step: int) -> None:
     """30 N s from the front; 25 N s were within what stiff servos, a lean and the next step survive by themselves."""
     settings = ["steps=4", "settle=1.0", "impulse=30", "direction=backward", f"push.step={step}"]
