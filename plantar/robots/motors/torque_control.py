@@ -24,7 +24,7 @@ from plantar.robots.motors.torque_program import Standing, Torques, Wish, torque
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Control
 from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES, Side
+from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["TorqueControl", "command_motors"]
 
@@ -32,7 +32,8 @@ _FRICTION = 0.5
 _SMOOTH = 0.03  # beat, time constant of the low pass on the encoders' rates: 7 ms on a leg of 0.6 m
 _HEIGHT, _TILT, _SWING, _STANCE = 2.5, 3.5, 5.0, 5.0  # 1/beat: how fast height, base, swing leg and soles are corrected
 _COM_WEIGHT, _TILT_WEIGHT, _SWING_WEIGHT, _STANCE_WEIGHT = 1.0, 0.1, 0.01, 1e-5
-_LOADED = 0.03  # weight: load from which a sole that should carry stands
+_LOADED, _CARRIES = 0.03, 0.2  # weight: a sole that carries stays while the one to carry next has less than the former
+_SEEKS, _GROWS = 0.08, 3.0  # weight that a sole may carry at most: so much to find the ground, and times its load
 _EDGE = 0.03  # sole: that centres of pressure keep from its edge
 _SLOW_DOWN, _REACH = 0.1, 0.02  # s in which the way to a limit may be crossed, and a speed beyond it brought back
 _SPEED_SHARE = 0.95  # of a joint's speed limit, which it overshoots
@@ -132,11 +133,17 @@ class TorqueControl(CommandMotors):
             lag = self.motion.velocity[at] - velocity[at]
             rate = _SWING / beat
             wished[at] = self.motion.acceleration[at] + rate * rate * error + 2.0 * rate * lag
-            if wrench is not None and loads[side] > _LOADED * self._weight:
-                rotation = state.rotations_sole[side]
+            load, other = loads[side] / self._weight, loads[other_side(side)] / self._weight
+            if wrench is not None or (load > _CARRIES and other < _LOADED):
                 rest = -_STANCE / beat * (dynamics.soles[side] @ velocity)
-                own = np.concatenate([command.feet[side].rotation.T @ part for part in (wrench[:3], wrench[3:])])
-                standing[side] = Standing(rotation, self._rectangles[side], _FRICTION, rest, own)
+                own = np.zeros(6)
+                if wrench is not None:
+                    turned = command.feet[side].rotation.T
+                    own[:3], own[3:] = turned @ wrench[:3], turned @ wrench[3:]
+                most = (_SEEKS + _GROWS * load) * self._weight
+                standing[side] = Standing(
+                    state.rotations_sole[side], self._rectangles[side], _FRICTION, rest, own, most
+                )
             else:
                 weights[at] = _SWING_WEIGHT
         height = command.com.item(2) - foot.position.item(2) - (state.com.item(2) - lowest)

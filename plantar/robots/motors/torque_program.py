@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 _BASE = 6
 _EQUAL, _SOFT = 5, 8  # daqp's words for an equality and for a limit that may give way
-_FACETS = 16  # of a wrench cone
+_ROWS = 17  # of a sole: the facets of its wrench cone, and its largest normal force
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,7 @@ class Standing:
         friction: Coefficient of its friction pyramid.
         acceleration: Wanted acceleration (6,) of its site, world frame.
         wrench: Preferred wrench (6,) in its frame about its origin in N and N m.
+        most: Largest normal force in N: one that is still to find the ground carries little.
     """
 
     rotation: Array
@@ -51,6 +52,7 @@ class Standing:
     friction: float
     acceleration: Array
     wrench: Array
+    most: float
 
 
 @dataclass(frozen=True)
@@ -114,7 +116,7 @@ def torques_of(dynamics: BodyDynamics, wish: Wish, gravity: float) -> Torques | 
     weight = total * gravity
     unit = np.tile(weight * np.array([1.0, 1.0, 1.0, 0.1, 0.1, 0.1]), len(wish.standing))
     jacobian, wanted, preferred = np.zeros((count, size)), np.zeros(count), np.zeros(count)
-    cones = np.zeros((_FACETS * len(wish.standing), size + count))
+    cones, most = np.zeros((_ROWS * len(wish.standing), size + count)), np.zeros(_ROWS * len(wish.standing))
     for i, (side, sole) in enumerate(wish.standing.items()):
         at, turn = slice(6 * i, 6 * i + 6), sole.rotation.T
         rows = dynamics.soles[side]
@@ -122,9 +124,10 @@ def torques_of(dynamics: BodyDynamics, wish: Wish, gravity: float) -> Torques | 
         lacking = sole.acceleration - dynamics.drifts[side]
         wanted[6 * i : 6 * i + 3], wanted[6 * i + 3 : 6 * i + 6] = turn @ lacking[:3], turn @ lacking[3:]
         preferred[at] = sole.wrench
-        cones[_FACETS * i : _FACETS * (i + 1), size + 6 * i : size + 6 * i + 6] = cone_rows(
+        cones[_ROWS * i : _ROWS * i + 16, size + 6 * i : size + 6 * i + 6] = cone_rows(
             sole.rectangle, sole.friction
         ) * (unit[at] / weight)
+        cones[_ROWS * i + 16, size + 6 * i + 2], most[_ROWS * i + 16] = 1.0, sole.most / weight
     preferred /= unit
     pushed = jacobian.T * unit
     moves = np.hstack([mass, -pushed])
@@ -141,7 +144,7 @@ def torques_of(dynamics: BodyDynamics, wish: Wish, gravity: float) -> Torques | 
     rows = np.vstack([moves[:_BASE], fixed, cones, moves[_BASE:], bounded])
     none, torque = np.full(len(cones), -1e30), np.minimum(wish.torque, 1e6)
     held = np.concatenate([-bias[:_BASE], wanted])
-    upper = np.concatenate([held, np.zeros(len(cones)), torque - bias[_BASE:], wish.fastest])
+    upper = np.concatenate([held, most, torque - bias[_BASE:], wish.fastest])
     lower = np.concatenate([held, none, -torque - bias[_BASE:], wish.slowest])
     sense = np.zeros(len(rows), dtype=np.int32)
     sense[: _BASE + count], sense[-len(bounded) :] = _EQUAL, _SOFT

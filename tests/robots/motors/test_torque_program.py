@@ -32,7 +32,7 @@ class Body:
             rotation = self.dynamics.data.site_xmat[sites[side]].reshape(3, 3).copy()
             sole = Rectangle(x - length, x + length, y - width, y + width)
             preferred = np.array([0.0, 0.0, 800.0 / len(feet), 0.0, 0.0, 0.0])
-            standing[side] = Standing(rotation, sole, 0.6, self.rng.normal(size=6), preferred)
+            standing[side] = Standing(rotation, sole, 0.6, self.rng.normal(size=6), preferred, 2000.0)
         weights = np.concatenate([np.zeros(3), np.full(3, 0.1), np.full(12, 1e-3)])
         bound = np.full(12, 100.0)
         wished, com = 5.0 * self.rng.normal(size=18), 0.3 * self.rng.normal(size=3)
