@@ -55,12 +55,10 @@ class Shoe:
 
     @property
     def side(self) -> Side:
-        """ "left" or "right"."""
         return self.plan.side
 
     @property
     def layout(self) -> SoleLayout:
-        """The sole layout, in m."""
         return self.plan.layout
 
 
@@ -230,7 +228,6 @@ def _observed(
 
 
 def _sensitive(left: ShoePlan, mass: float) -> tuple[ShoePlan, tuple[str, ...]]:
-    """A plan whose taxels are active below their load under a light robot that stands on both feet."""
     level = _ACTIVE * 0.5 * mass * GRAVITY / len(left.layout)
     if level > 0.5 * left.layout.force_threshold:
         return left, ()
@@ -254,11 +251,7 @@ def planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
 
 
 def built_sides(
-    left: ShoePlan,
-    steps: tuple[Step, ...],
-    parameters: ShoeParameters,
-    sides: tuple[Side, ...],
-    tell: Progress,
+    left: ShoePlan, steps: tuple[Step, ...], parameters: ShoeParameters, sides: tuple[Side, ...], tell: Progress
 ) -> tuple[Shoe, ...]:
     """Gives the solids of the requested sides, each with its mark: left plan, steps of the left body, parameters; tell
     receives fraction and text.

@@ -72,7 +72,6 @@ def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tupl
 
 
 def _cell(plan: Any) -> int:
-    """The largest cell on the cable's route, the nearest to the middle."""
     joined: set[int] = {i for pair in plan.route for i in pair} or set(range(len(plan.cells)))
     middle = plan.contact.centroid
     return min(joined, key=lambda i: (-round(plan.cells[i].area, 1), plan.cells[i].centroid.distance(middle)))

@@ -104,7 +104,6 @@ def shoe_for_surface(
 
 
 def _felt(build: ShoeBuild, mass: float) -> ShoeBuild:
-    """Shoes with activation thresholds that suit the robot's mass in kg, none less sensitive for it."""
     shoes = []
     for shoe in build.shoes:
         layout = shoe.layout
@@ -116,7 +115,6 @@ def _felt(build: ShoeBuild, mass: float) -> ShoeBuild:
 
 
 def _foot(name: str, triangles: NDArray[np.float64]) -> Foot:
-    """The foot of a surface; otherwise one with upright sides on the hull of its lowest band."""
     try:
         return foot_from_triangles(name, triangles, where=name, file_unit="m", up="z", forward="x", sole_z=0.0)
     except FootError as error:

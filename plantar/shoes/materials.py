@@ -17,12 +17,12 @@ class Material:
     """A printed material.
 
     Attributes:
-        process: How it is printed where the parameter `process` does not state it.
+        process: Its usual process.
         density: In g/cm^3.
         modulus: Young's modulus in MPa.
-        strength: Tensile strength within a layer in MPa.
+        strength: Tensile, within a layer, in MPa.
         across: Share of the strength across the layers, 0..1.
-        strain: Allowed strain of a clip each time it is put on, 0..1.
+        strain: Allowed strain of a clip, 0..1.
     """
 
     name: str
@@ -53,16 +53,16 @@ MATERIALS: dict[str, Material] = {
 
 @dataclass(frozen=True)
 class Process:
-    """A printing process.
+    """A printing process; lengths are gaps a side.
 
     Attributes:
-        press: Gap a side of what is pushed in and stays.
-        slide: Gap a side of what slides.
-        play: Gap a side of what moves freely.
-        scatter: Standard deviation of the height of a taxel's seat.
+        press: Of what is pushed in and stays.
+        slide: Of what slides.
+        play: Of what moves freely.
+        scatter: Standard deviation of the height of a seat.
         sag: How far a bridged ceiling may sag.
-        foot: How far the first layer spreads (elephant's foot).
-        shrinkage: Shrinkage beyond the printer's correction, in %.
+        foot: How far the first layer spreads.
+        shrinkage: Beyond the printer's correction, in %.
         supports: Whether what hangs over needs support.
         finish: Work before parts are fitted.
     """

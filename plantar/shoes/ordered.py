@@ -71,11 +71,7 @@ def write_ordered_coupons(build: ShoeBuild, folder: Path, progress: Progress | N
     coupons = build_coupons(build, progress=progress)
     files = write_coupons(coupons, folder)
     rows = [
-        {
-            "name": c.name,
-            "what": c.text,
-            "size_mm": np.ptp(c.surface.reshape(-1, 3), axis=0).round(2).tolist(),
-        }
+        {"name": c.name, "what": c.text, "size_mm": np.ptp(c.surface.reshape(-1, 3), axis=0).round(2).tolist()}
         for c in coupons
     ]
     return {"coupons": rows, "notes": list(build.notes), "files": list(files), "parameters": build.parameters.as_dict()}

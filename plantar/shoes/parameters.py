@@ -142,12 +142,10 @@ class ShoeParameters:
 
     @property
     def printed(self) -> Material:
-        """The printed material, with the given density."""
         return MATERIALS[self.material].with_density(self.density)
 
     @property
     def pad_material(self) -> str:
-        """The pad's material, as a maker orders it."""
         if self.pad_foam > 0.0:
             return f"foam sheet, {self.pad_foam:g} kPa or less at 25 % (ASTM D1056, D3574)"
         return f"silicone, about {self.pad_hardness:g} Shore A"

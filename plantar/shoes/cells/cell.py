@@ -151,7 +151,6 @@ class Cell:
 
     @property
     def kind(self) -> Kind:
-        """How it is pressed."""
         if self.shape == "sheet":
             return "sheet"
         return "film" if self.active or self.active_length or self.shape == "round" else "tile"
@@ -175,7 +174,6 @@ class Cell:
 
     @property
     def active_area(self) -> float:
-        """Active area of a film in mm^2."""
         along, across = self.felt
         share = {"round": 0.25 * math.pi, "hex": 0.75}.get(self.shape, 1.0)
         return share * along * across

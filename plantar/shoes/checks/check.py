@@ -86,7 +86,6 @@ class ShoeCheck:
 
     @property
     def holds(self) -> bool:
-        """Whether every check holds."""
         return all(c.holds for c in self.checks)
 
 
@@ -298,7 +297,6 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: StepSolid) -> tu
 
 
 def _farthest(wanted: Array, step: StepSolid, height: float) -> float:
-    """Largest distance from a wanted point (n, 2) to the nearest corner or circle found at a height."""
     level = step.corners[np.abs(step.corners[:, 2] - height) < 1e-3, :2]
     round_ = step.circles[np.abs(step.circles[:, 2] - height) < 1e-3]
     if not len(level) or not len(wanted):

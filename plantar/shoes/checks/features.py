@@ -39,7 +39,6 @@ class Feature:
 
     @property
     def holds(self) -> bool:
-        """Whether it is there."""
         return self.share >= _FULL
 
 
@@ -100,7 +99,6 @@ def _seats(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature
 
 
 def _cable(solid: _Print, plan: ShoePlan, p: ShoeParameters) -> Iterator[Feature]:
-    """From each pocket a way as wide as a cable leads through ports and channel to the hole, or out of the plate."""
     if not plan.connectors:
         return
     height = p.bottom + max(p.scribe, 0.5 * p.pocket_depth) + 0.05

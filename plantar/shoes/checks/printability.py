@@ -120,7 +120,6 @@ class Weights:
 
     @property
     def total(self) -> float:
-        """All together."""
         return self.printed + self.pad + self.skin + self.board
 
     def as_dict(self) -> dict[str, float]:

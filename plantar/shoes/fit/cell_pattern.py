@@ -95,7 +95,6 @@ class CellPattern:
 
     @property
     def area(self) -> float:
-        """Area of a room in mm^2."""
         return float(self.hexagon if self.hexagon is not None else self.room.area)
 
 

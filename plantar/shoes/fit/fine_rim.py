@@ -100,7 +100,6 @@ class _Line:
         return np.asarray((self.headings - np.roll(self.headings, 1) + np.pi) % (2.0 * np.pi) - np.pi)
 
     def nearest(self, point: Array) -> float:
-        """The place nearest to a point, snapped to a near corner."""
         at = float(self.ring.project(shapely.Point(point)))
         off = np.abs(self.starts - at)
         return float(self.starts[int(off.argmin())]) % self.length if off.min() < _SNAP else at
@@ -150,7 +149,6 @@ def _cuts(inner: _Line, outer: _Line, depth: float, length: float) -> list[tuple
 
 
 def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
-    """Cells of the lattice with the most whole ones inside of a strip, whole or trimmed; the lattice and its bound."""
     clear = inside.buffer(-_CLEAR, join_style="mitre")
     try:
         fit = fit_lattice(clear, cell_area=cell_area)

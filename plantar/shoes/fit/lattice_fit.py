@@ -185,7 +185,6 @@ class _Scan:
 
 
 def _scan(sole: Any, pattern: CellPattern, overhang: float, angles: Sequence[float] | None = None) -> list[_Scan]:
-    """Count whole cells at angles (rad), at lattice origins among which is the best of that angle."""
     region = sole.buffer(overhang) if overhang > 0.0 else sole
     out = []
     known = _angles(pattern)
@@ -210,7 +209,7 @@ def _straight(pattern: CellPattern) -> list[float]:
 
 
 def _angles(pattern: CellPattern) -> list[float]:
-    """Lattice angles in degrees in the order of ties: straight ones, halves between them, then every step."""
+    """In degrees, in the order of ties: straight ones, halves between them, then every step."""
     period = round(math.degrees(pattern.period))
     steps = [float(a) for a in range(0, period, _TAILED_STEP if period == 360 else _ANGLE_STEP)]
     straight = _straight(pattern)
@@ -219,7 +218,7 @@ def _angles(pattern: CellPattern) -> list[float]:
 
 
 def _edge_angles(sole: Any, pattern: CellPattern) -> list[float]:
-    """Further angles in rad, of rows along and across the outline's long edges, the longest first."""
+    """In rad, the longest edge first, without those of `_angles`."""
     period = float(round(math.degrees(pattern.period)))
     points = np.array(sole.exterior.coords)
     edge = np.diff(points, axis=0)
@@ -268,9 +267,7 @@ def _sampled_offsets(pattern: CellPattern, angle: float) -> NDArray[np.float64]:
 
 
 def _critical_offsets(allowed: Any, pattern: CellPattern, lattice: Lattice) -> NDArray[np.float64]:
-    """Lattice origins (k, 2) at which one cell is tight at a corner of the allowed area, or two at its edges: the
-    count, the number of copies of the area moved by lattice vectors, is largest at one of these.
-    """
+    """Origins (k, 2) with one cell tight at a corner of the allowed area, or two at its edges: one of these is best."""
     edge = allowed.boundary
     shifts = _difference_vectors(allowed, lattice)
     corners = shapely.get_coordinates(edge)
@@ -289,7 +286,7 @@ def _critical_offsets(allowed: Any, pattern: CellPattern, lattice: Lattice) -> N
 
 
 def _difference_vectors(allowed: Any, lattice: Lattice) -> NDArray[np.float64]:
-    """Lattice vectors (k, 2) between two cells of one placement, one of each opposite pair."""
+    """Lattice vectors (k, 2) between two cells, one of each opposite pair."""
     low, high = np.array(allowed.bounds).reshape(2, 2)
     cells = lattice.cells_near(low - high, high - low)
     cells = cells[(cells[:, 1] > 0) | ((cells[:, 1] == 0) & (cells[:, 0] > 0))]
@@ -305,7 +302,6 @@ def _count(allowed: Any, lattice: Lattice, offsets: NDArray[np.float64]) -> NDAr
 
 
 def _near_centres(allowed: Any, lattice: Lattice) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Cells (n, 2) and centres (n, 2) of the lattice with its origin at 0 that may reach an area."""
     box = np.array(allowed.bounds).reshape(2, 2)
     cells = lattice.cells_near(box[0], box[1])
     return cells, lattice.centres(cells)

@@ -78,7 +78,6 @@ class TaxelFit:
 
     @property
     def whole(self) -> int:
-        """Number of whole cells."""
         return int((np.abs(self.shares - 1.0) < 1e-6).sum())
 
 
@@ -215,7 +214,7 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
 def _cut_placement(
     region: Any, cell_area: float, taxels: int, degrees: float, i: float, j: float
 ) -> tuple[float, HexLattice, NDArray[np.int64], NDArray[np.float64]] | None:
-    """The cells of one placement that the region cuts least: their score, lattice, axial coordinates and shares."""
+    """Score, lattice, axial coordinates and shares of the cells of one placement that the region cuts least."""
     angle = math.radians(degrees)
     start = HexLattice(cell_area, angle=angle)
     c, s = math.cos(angle), math.sin(angle)

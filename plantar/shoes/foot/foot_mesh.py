@@ -173,7 +173,7 @@ def _standing(
     links: Triangles | None,
     up_given: bool = False,
 ) -> Foot:
-    """The foot from triangles in mm with z up; the links follow the move from `read` to the foot's frame."""
+    """The foot from triangles in mm with z up; the links move as the surface does from `read`."""
     notes = list(notes)
     if sole_z is None:
         triangles, tilt = levelled(triangles)

@@ -77,7 +77,6 @@ def rotation_forward(forward: Axis) -> Array:
 
 
 def _thinned(points: Array) -> Array:
-    """Unique points; of very many the lowest in each column of a grid."""
     if len(points) <= _MANY:
         return np.unique(points.round(6), axis=0)
     order = points[np.argsort(points[:, 2], kind="stable")]
@@ -121,7 +120,6 @@ def _area_in_plane(triangles: Array, normal: Array, *, inwards: bool = False) ->
 
 
 def _flat_area(triangles: Array, normal: Array) -> float:
-    """Share of the silhouette that faces of the mesh have in its outermost plane with a normal."""
     silhouette = convex_outline(triangles.reshape(-1, 3)[:, :2]).area
     return float(_area_in_plane(triangles, normal, inwards=True) / silhouette)
 

@@ -137,7 +137,7 @@ def _closed_area(lines: Lines, where: str) -> Any:
 
 
 def _refuse_tangle(lines: Lines, where: str) -> None:
-    """Refuse lines that meet almost everywhere: their crossings grow with the square of their number."""
+    """Their crossings would grow with the square of their number."""
     ends = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines])
     drawn = shapely.linestrings(ends)
     tree = shapely.STRtree(drawn)
@@ -151,7 +151,6 @@ def _refuse_tangle(lines: Lines, where: str) -> None:
 
 
 def _refuse_crossing(line: NDArray[np.float64], grid: float, where: str) -> None:
-    """Refuse a line that crosses itself and encloses two areas, as an eight does."""
     drawn = shapely.LineString(line)
     if drawn.is_simple:
         return

@@ -93,7 +93,6 @@ def _names_shown(bodies: dict[str, BodyPlace], wanted: str) -> str:
 
 
 def _like_feet(bodies: dict[str, BodyPlace], wanted: str) -> list[str]:
-    """Names of bodies with a shape, those like the wanted name first, then by words for a foot and low ends."""
     shaped = [name for name, body in bodies.items() if body.shaped and name]
     alike = get_close_matches(wanted, shaped, 4, 0.75)
     called = {name: _called_foot(name) for name in shaped}

@@ -102,7 +102,7 @@ def _plain_length(name: str, value: str) -> str:
 
 
 def _svg_unit(root: ElementTree.Element) -> tuple[Unit | None, float, NDArray[np.float64]]:
-    """Unit of an SVG's numbers by its stated size, the size of one, and the turn that points y upwards."""
+    """The unit, the size of a number in it, and the turn that points y upwards."""
     upright = np.diag([1.0, -1.0, 1.0])
     box = [float(v) for v in re.split(r"[\s,]+", root.get("viewBox", "").strip()) if v]
     match = re.fullmatch(r"\s*([0-9.eE+-]+)\s*([a-z]*)\s*", root.get("width", ""))

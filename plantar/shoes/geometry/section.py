@@ -123,7 +123,6 @@ def thinnest_wall(triangles: Array, engraved: Bands = ()) -> float:
 
 
 def _heights(triangles: Array, count: int | None) -> list[float]:
-    """Heights to cut at: `count` of them, evenly, or one between each two levels of flat faces."""
     z = triangles[..., 2]
     if count is not None:
         low, high = float(z.min()), float(z.max())

@@ -190,7 +190,7 @@ def _taxels(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
         what = "One sheet" if plan.lines is not None else f"{count} films{groups}"
         text = [
             f"{what} for each foot, to be glued to the ceilings of the pockets, {p.pocket_depth:g} deep, the face that "
-            f"feels down; the pad's lands press there. The ids are on <code>drawing_{shoe.side}.png</code>.{begin}",
+            f"feels down; the pad's lands press there. The ids are on <code>drawing_{shoe.side}.png</code>.{begin}"
         ]
         return _step(text, views.of_cells(), f"From below: {what.lower()} before the pockets")
     return _step(
@@ -399,7 +399,6 @@ class _Views:
         return self._shown([*self._whole(), (self._foot(), _FOOT)], _LOW)
 
     def _foot(self) -> Array:
-        """The foot on the floor of the shoe: its mesh, or its outline where it has none or a very fine one."""
         foot, p = self.build.foot, self.build.parameters
         floor = p.thickness
         if foot.triangles is not None and len(foot.triangles) <= _MANY:

@@ -122,7 +122,6 @@ def _plan(view: View, shoe: Shoe, build: ShoeBuild, low: Array, high: Array, cut
 
 
 def _section(view: View, shoe: Shoe, build: ShoeBuild, triangles: Array, axis: int, at: float, name: str) -> Any:
-    """A section with the cut foot, taxels and pad; returns the print's area."""
     p, plan, sheet = build.parameters, shoe.plan, view.sheet
     cut, across = section_along(triangles, axis, at), 1 - axis
     line = shapely.LineString([(at, -1e4), (at, 1e4)] if axis == 0 else [(-1e4, at), (1e4, at)])
@@ -148,7 +147,6 @@ def _section(view: View, shoe: Shoe, build: ShoeBuild, triangles: Array, axis: i
 
 
 def _foot_section(shoe: Shoe, build: ShoeBuild, axis: int, at: float, top: float) -> Any:
-    """The foot in the shoe, cut where the shoe is; without a closed surface its outlines by height."""
     floor, triangles = build.parameters.thickness, build.foot.triangles
     room = shapely.box(-1e4, floor, 1e4, top)
     if triangles is not None:

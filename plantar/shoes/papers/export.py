@@ -54,7 +54,6 @@ class ShoeReport:
 
     @property
     def holds(self) -> bool:
-        """Whether every check of every shoe holds."""
         plans = all(c.holds for checks in self.plan_checks.values() for c in checks)
         return plans and all(c.holds for c in self.checks.values())
 
@@ -112,7 +111,6 @@ def _extent(shoe: Shoe) -> NDArray[np.float64]:
 
 
 def _plain(value: Any) -> Any:
-    """Plain JSON values of a record; a measure that is not finite becomes null."""
     if isinstance(value, ShoeCheck):
         told = asdict(value) | {"holds": value.holds}
         del told["weights"]  # stated with their unit and sum

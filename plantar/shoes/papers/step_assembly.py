@@ -62,7 +62,6 @@ def _taxels(plan: ShoePlan, p: ShoeParameters) -> list[StepPart]:
 
 
 def _from_lowest(points: NDArray[np.float64], grid: float) -> NDArray[np.int64]:
-    """Corners on a grid, in a turn that starts at the first of the lowest."""
     places = np.rint(points / grid).astype(np.int64)
     return np.roll(places, -int(np.lexsort(places.T)[0]), axis=0)
 

@@ -86,7 +86,6 @@ def cells_dxf(shoe: Shoe, build: ShoeBuild) -> str:
 
 
 def _electrodes(shoe: Shoe) -> dict[str, tuple[Any, ...]]:
-    """A sheet's electrodes, each from its first crossing to its last."""
     plan, cell = shoe.plan, shoe.plan.cell
     assert plan.lines is not None
     assert plan.crossings is not None

@@ -28,7 +28,6 @@ class LeadRoom:
 
     @property
     def holds(self) -> bool:
-        """Whether the leads pass."""
         return self.needed <= self.room * (1.0 + 1e-9)
 
 

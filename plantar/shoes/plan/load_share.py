@@ -191,7 +191,6 @@ class _Springs:
         return cls(points[inside], taxel[inside], gap[inside], stiffness[inside])
 
     def share(self, held: NDArray[np.bool_], force: float) -> tuple[float, float]:
-        """Share of a force in N on the taxels where the ground holds some springs, and the print's travel in mm."""
         if not held.any():
             return 0.0, 0.0
         points = self.points[held]

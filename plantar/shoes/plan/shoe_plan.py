@@ -105,7 +105,6 @@ class ShoePlan:
 
     @property
     def sheet_lines(self) -> tuple[int, int]:
-        """Rows and columns of a sheet that have a cell."""
         assert self.lines is not None
         return rows_and_columns(self.lines)
 
@@ -249,7 +248,7 @@ def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
 def _route(
     layout: SoleLayout, neighbours: Sequence[Sequence[int]], heel: tuple[float, float]
 ) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
-    """Connector of each connected group of cells, and the tree of fewest hops from it to all of its cells."""
+    """The taxel of each patch nearest to the heel, and the tree of fewest hops from it."""
     centres = layout.positions[:, :2]
     start = np.array([to_m(heel[0]), to_m(heel[1])])
     distance = np.hypot(*(centres - start).T)
@@ -277,7 +276,6 @@ def _route(
 
 
 def _passable(layout: SoleLayout) -> tuple[tuple[int, ...], ...]:
-    """Neighbours over edges long enough for a cable; all of them where that leaves cells apart."""
     long: list[tuple[int, ...]] = []
     for i, own in enumerate(layout.neighbours):
         corners = layout.corners[i]

@@ -61,7 +61,6 @@ class Member:
 
     @property
     def holds(self) -> bool:
-        """Whether it carries the load."""
         return self.stress <= self.allowed * (1.0 + 1e-9)
 
 

@@ -138,7 +138,6 @@ class Observability:
 
     @property
     def holds(self) -> bool:
-        """Whether both directions are observed well enough."""
         return self.along >= ALONG and self.across >= ACROSS and self.error <= ERROR * self.width
 
 

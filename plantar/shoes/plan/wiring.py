@@ -52,7 +52,7 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
 
 
 def _gathered(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points (n, 2), those next to one of the corners (k, 2) moved there: no edge is too short to be made."""
+    """Points (n, 2), those next to a pocket's corner (k, 2) moved there: no edge is too short to be made."""
     from scipy.spatial import cKDTree
 
     gaps, nearest = cKDTree(corners).query(points)
@@ -60,7 +60,6 @@ def _gathered(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDAr
 
 
 def _slivers(openings: Any, near: Any, thin: float, least: float) -> list[Any]:
-    """Parts of ribs near the cable thinner than `thin` mm and larger than `least` mm^2."""
     closed = openings.buffer(0.5 * thin, join_style="mitre")
     closed = closed.buffer(-0.5 * thin, join_style="mitre", mitre_limit=_SQUARE_ENDS)
     left = closed.difference(openings.buffer(1e-4)).intersection(near)

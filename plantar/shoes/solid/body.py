@@ -103,9 +103,7 @@ def _wall(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
 
 
 def _fillet(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
-    """A quarter of a circle in three facets between plate and wall; smaller where a bend of the wall has no room for
-    it.
-    """
+    """Three facets of a quarter circle; smaller where a bend of the wall has no room for it."""
     angles = np.radians([0.0, 30.0, 60.0, 90.0])
     for radius in min(p.fillet, 0.5 * p.rim_height) * np.array([1.0, 0.5, 0.25]):
         out, up = radius * (1.0 - np.sin(angles)), p.thickness + radius * (1.0 - np.cos(angles))
@@ -116,7 +114,6 @@ def _fillet(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
 
 
 def _scribe(cell: Any, p: ShoeParameters) -> Block | Groove:
-    """Half of the groove around a cell: its upper edge is the cell's border, its lower lies within."""
     for width in p.scribe * np.array([1.0, 0.5, 0.25, 0.125]):  # narrower in a cut cell with a short edge
         inner = moved_edges(ring(cell), -width)
         if inner is not None:

@@ -41,7 +41,6 @@ def mould_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
 
 
 def _faces(plan: ShoePlan, p: ShoeParameters, around: float = 0.0) -> tuple[list[Any], list[float]]:
-    """The pad from above, with a room around it, as polygons that share their corners; and the pad's height in each."""
     rim, full = pad_rim(plan, p), p.pad_thickness + p.pad_rim_height
     # Borders cut each other where they meet, so that neighbouring faces share their corners.
     whole, pad, raised = plan.contact.buffer(around, join_style="mitre"), plan.contact.buffer(GRID), rim.buffer(GRID)

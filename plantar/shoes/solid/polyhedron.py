@@ -38,7 +38,6 @@ class Polyhedron:
 
     @cached_property
     def volume(self) -> float:
-        """Enclosed volume in mm^3."""
         return volume_of(self.surface)
 
     @cached_property
@@ -173,7 +172,6 @@ def _sound(corners: Array, face: list[list[int]]) -> bool:
 
 
 def _contracted(face: list[list[int]], lost: int, kept: int) -> list[list[int]]:
-    """Loops with one corner in place of another, without edges of no length."""
     out = []
     for loop in face:
         found: list[int] = []

@@ -62,7 +62,6 @@ class Retention:
 
     @property
     def straps(self) -> int:
-        """Number of straps that the shoe needs."""
         return len(self.places) // 2 if self.kind == "straps" else 0
 
     def top(self, parameters: ShoeParameters) -> float:
@@ -127,7 +126,7 @@ def _screw_places(plan: ShoePlan, p: ShoeParameters) -> tuple[_Place, ...]:
 
 
 def _strap_places(foot: Foot, plan: ShoePlan, width: float, p: ShoeParameters) -> tuple[_Place, ...]:
-    """Lugs of two straps, or one on a short foot, at the usual places or as far apart as other links leave room."""
+    """Lugs at the usual places, or as far apart as other links leave room."""
     low, _, high, _ = plan.foot.bounds
     length, middle = high - low, 0.5 * (low + high)
     two = length >= 6.0 * p.strap_width + 4.0 * _LUG_END
@@ -168,7 +167,6 @@ def slot_lines(outline: Any, x: float, width: float, parameters: ShoeParameters)
 
 
 def _straightest(plan: ShoePlan, middle: float, length: float, share: float, side: int, p: ShoeParameters) -> _Place:
-    """The place near a share of the foot's length at which the wall runs most nearly along the foot."""
     tries = [middle + (share + 0.02 * k) * length for k in (0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5)]
     bends = [_wall_line(plan.rim, x, side, p.screw_diameter + 3.0, plan.foot.centroid.y)[1] for x in tries]
     return _Place(round(tries[int(np.argmin(np.round(bends, 2)))], 3), side)
@@ -217,7 +215,6 @@ def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | N
 
 
 def _window(x: float, side: int, half: float, y: float) -> Any:
-    """The half strip of a wall within half a width of x, from y outwards."""
     return (
         shapely.box(x - half, y, x + half, y + 1000.0) if side > 0 else shapely.box(x - half, y - 1000.0, x + half, y)
     )
@@ -333,12 +330,7 @@ def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
         arms.append(Block(plate(inner, inner + bite), low, low + reach, plate(tip, inner + bite)))
         arms.append(Block(plate(tip, inner + bite), low + reach, low + reach + 1.0))
         arms.append(
-            Block(
-                plate(tip, inner + bite),
-                low + reach + 1.0,
-                low + 2.0 * reach + 1.0,
-                plate(inner, inner + bite),
-            )
+            Block(plate(tip, inner + bite), low + reach + 1.0, low + 2.0 * reach + 1.0, plate(inner, inner + bite))
         )
     return [Step("cut", "windows of the clips", tuple(gaps)), Step("add", "clips", tuple(arms))]
 
@@ -366,7 +358,7 @@ def _bosses(plan: ShoePlan, retention: Retention, p: ShoeParameters) -> tuple[li
 
 
 def _hole(place: _Place, middle: float, radius: float, height: float) -> list[Block]:
-    """A horizontal hole outwards from the middle: eight-sided, so that its roof supports itself."""
+    """Eight-sided, so that its roof supports itself."""
     y = sorted((middle, middle + place.side * 1000.0))
     narrow = radius * math.tan(math.pi / 8.0)
 

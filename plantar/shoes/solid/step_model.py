@@ -218,7 +218,6 @@ def read_step(path: str | os.PathLike[str]) -> StepSolid:
 
 
 def _bent_walls(shape: Any) -> tuple[float, float]:
-    """Area of flat facets of bent walls, as `StepSolid.flat`, and of cylinders and cones."""
     faces = [ocp.TopoDS.TopoDS.Face_s(f) for f in parts_of(shape, ocp.TopAbs.TopAbs_FACE)]
     surfaces = [ocp.BRepAdaptor.BRepAdaptor_Surface(f) for f in faces]
     flat, normals = np.zeros(len(faces), dtype=bool), np.zeros((len(faces), 3))

@@ -82,12 +82,7 @@ def test_the_cable_reaches_every_taxel_once(plan: ShoePlan) -> None:
 def test_patches_apart_get_a_connector_each(small_foot: Foot, fit: TaxelFit) -> None:
     x = np.array([f.mean(axis=0)[0] for f in fit.cells])
     kept = np.flatnonzero((x < x.min() + 30.0) | (x > x.max() - 30.0))
-    apart = replace(
-        fit,
-        cells=tuple(fit.cells[i] for i in kept),
-        shares=fit.shares[kept],
-        lattice_cells=None,
-    )
+    apart = replace(fit, cells=tuple(fit.cells[i] for i in kept), shares=fit.shares[kept], lattice_cells=None)
     plan = plan_shoe(small_foot, apart, ShoeParameters())
     assert len(plan.connectors) == 2
     assert len(plan.route) == len(plan.layout) - 2
