@@ -28,17 +28,8 @@ Kind = Literal["tile", "film", "sheet"]
 SHAPES = ("hex", "square", "rectangle", "round", "sheet")  # what a cell's body is
 
 _ALL = (
-    "name",
-    "about",
-    "source",
-    "shape",
-    "pitch_x",
-    "pitch_y",
-    "thickness",
-    "stiffness",
-    "rated_load",
-    "threshold",
-    "play",
+    *("name", "about", "source", "shape", "pitch_x", "pitch_y"),
+    *("thickness", "stiffness", "rated_load", "threshold", "play"),
 )
 _LEADS = ("leads", "lead_diameter")
 _TAIL = ("tail_length", "tail_width")

@@ -21,7 +21,7 @@ from plantar.shoes.fit.cell_pattern import (
     pocket_parts,
 )
 from plantar.shoes.fit.lattice_fit import fit_lattice
-from plantar.shoes.fit.taxels import TaxelFit, covered_area, rows_and_columns
+from plantar.shoes.fit.taxels import TaxelFit, rows_and_columns
 from plantar.shoes.geometry.outline import CORNER, grown, ring, tidy
 
 __all__ = ["fit_cells"]
@@ -84,15 +84,13 @@ def fit_cells(
     rooms = tuple(lattice.corners(axial))
     pockets = _placed(lattice, axial, ring(joined(pocket_parts(cell))))
     cells = rooms if cell.kind == "tile" else _placed(lattice, axial, active_shape(cell))
-    covered = covered_area(foot, cells)
     return TaxelFit(
         cells=cells,
         shares=np.ones(len(cells)),
         lattice=lattice,
         cell_area=pattern.area if cell.kind == "tile" else cell.active_area,
         overhang=reach,
-        covered=covered,
-        covered_area_ratio=covered / foot.area,
+        sole=foot,
         bound=fit.bound,
         border=border,
         lattice_cells=axial if cell.kind == "tile" and cell.shape == "hex" else None,
@@ -149,7 +147,6 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
             crossings.append((cx, cy))
     found = tuple(cells)
     areas = np.array([shapely.Polygon(c).area for c in found])
-    covered = covered_area(foot, found)
     rows, columns = rows_and_columns(np.array(kept_lines))
     pattern = CellPattern(cell.pitch_x, cell.pitch_y, 0.0, (), math.pi)
     whole_area = cell.pitch_x * cell.pitch_y
@@ -165,8 +162,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
         lattice=RowLattice(pattern, (float(at[0, 0]), float(at[0, 1])), 0.0),
         cell_area=whole_area,
         overhang=overhang,
-        covered=covered,
-        covered_area_ratio=covered / foot.area,
+        sole=foot,
         bound=None,
         border=border,
         lattice_cells=None,

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.shoes.fit.cell_pattern import Lattice, hex_pattern
 from plantar.shoes.fit.lattice_fit import fit_lattice
-from plantar.shoes.fit.taxels import TaxelFit, covered_area, trimmed_cell
+from plantar.shoes.fit.taxels import TaxelFit, trimmed_cell
 from plantar.shoes.geometry.outline import grown, tidy
 
 __all__ = ["blind_rim", "fit_fine_rim", "strip_cells"]
@@ -192,7 +192,6 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
     polygons.sort(key=lambda c: (round(c.centroid.x, 3), round(c.centroid.y, 3)))
     areas = shapely.area(polygons)
     cells = tuple(shapely.get_coordinates(c.exterior)[:-1] for c in polygons)
-    covered = covered_area(foot, cells)
     least = min(shapely.Polygon(c).area for c in strip)
     note = f"fine rim: {len(strip)} cells of {least:.0f} mm^2 or more along the edge, {len(core)} of a lattice inside"
     return TaxelFit(
@@ -201,8 +200,7 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
         lattice=lattice,
         cell_area=cell_area,
         overhang=overhang,
-        covered=covered,
-        covered_area_ratio=covered / foot.area,
+        sole=foot,
         bound=bound,
         border=border,
         lattice_cells=None,

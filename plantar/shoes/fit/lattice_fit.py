@@ -37,16 +37,12 @@ class LatticeFit:
     Attributes:
         cells: Axial coordinates (n, 2) of the kept cells, row by row.
         overhang: Allowed reach of a cell beyond the sole's outline in mm, as used.
-        covered: Area of the sole under kept cells in mm^2.
-        covered_area_ratio: `covered` over the sole's area, 0..1.
         bound: Proven most whole cells of any placement with this overhang.
     """
 
     lattice: Lattice
     cells: NDArray[np.int64]
     overhang: float
-    covered: float
-    covered_area_ratio: float
     bound: int = 0
 
 
@@ -148,7 +144,7 @@ def fit_lattice(
         )
     best = max(placements, key=lambda p: p.score)
     best = _centred(best, sole, region, pattern)
-    return LatticeFit(best.lattice, best.cells, overhang, best.covered, best.covered / sole.area, proven.bound)
+    return LatticeFit(best.lattice, best.cells, overhang, proven.bound)
 
 
 def _least_overhang(sole: Any, pattern: CellPattern, taxels: int, overhang: float, overhang_max: float) -> float:

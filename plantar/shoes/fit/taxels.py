@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from plantar.shoes.fit.cell_pattern import Lattice, hex_pattern
 from plantar.shoes.fit.lattice_fit import LatticeFit, fit_lattice
 from plantar.shoes.geometry.outline import CORNER, grown, tidy
 
-__all__ = ["TaxelFit", "covered_area", "fit_taxels", "rows_and_columns", "trimmed_cell"]
+__all__ = ["TaxelFit", "fit_taxels", "rows_and_columns", "trimmed_cell"]
 
 LEAST_SHARE = 0.6  # share of a cell that is left at least where the rim cuts it: below, the taxel's board does not fit
 
@@ -43,8 +43,7 @@ class TaxelFit:
         shares: Area (n,) of each over a whole cell's.
         cell_area: Area of a whole cell in mm^2.
         overhang: Allowed reach of a cell beyond the foot's outline, as used.
-        covered: Area of the sole under the cells in mm^2.
-        covered_area_ratio: `covered` over the sole's area, 0..1.
+        sole: Outline of the face that they were fitted to, a shapely polygon.
         bound: Proven most whole cells of any placement; None of a sheet.
         border: Border left around the cells.
         lattice_cells: Axial coordinates (n, 2) where all cells are whole.
@@ -62,8 +61,7 @@ class TaxelFit:
     lattice: Lattice
     cell_area: float
     overhang: float
-    covered: float
-    covered_area_ratio: float
+    sole: Any
     bound: int | None
     border: float
     lattice_cells: NDArray[np.int64] | None
@@ -75,6 +73,16 @@ class TaxelFit:
     links: tuple[tuple[int, int], ...] | None = None
     lines: NDArray[np.int64] | None = None
     crossings: NDArray[np.float64] | None = None
+
+    @cached_property
+    def covered(self) -> float:
+        """Area in mm^2 of the sole under the cells, which do not overlap."""
+        return float(shapely.area(shapely.intersection([shapely.Polygon(c) for c in self.cells], self.sole)).sum())
+
+    @property
+    def covered_area_ratio(self) -> float:
+        """Share of the sole under the cells, 0..1."""
+        return self.covered / float(self.sole.area)
 
     @property
     def whole(self) -> int:
@@ -138,15 +146,13 @@ def _narrow(border: float) -> str:
 
 def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: tuple[str, ...]) -> TaxelFit:
     cells = tuple(fit.lattice.corners(fit.cells))
-    covered = covered_area(sole, cells)
     return TaxelFit(
         cells=cells,
         shares=np.ones(len(cells)),
         lattice=fit.lattice,
         cell_area=cell_area,
         overhang=fit.overhang,
-        covered=covered,
-        covered_area_ratio=covered / sole.area,
+        sole=sole,
         bound=fit.bound,
         border=border,
         lattice_cells=fit.cells,
@@ -157,11 +163,6 @@ def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: t
 def rows_and_columns(lines: NDArray[np.int64]) -> tuple[int, int]:
     """Number of rows and of columns among lines (n, 2), the row and column of each cell."""
     return len(np.unique(lines[:, 0])), len(np.unique(lines[:, 1]))
-
-
-def covered_area(sole: Any, cells: Sequence[NDArray[np.float64]]) -> float:
-    """Gives the area in mm^2 of a sole, a shapely polygon, under cells (k, 2) that do not overlap."""
-    return float(shapely.area(shapely.intersection([shapely.Polygon(c) for c in cells], sole)).sum())
 
 
 def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit | None:
@@ -189,7 +190,6 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
     for corners, share in zip(lattice.corners(axial), shares, strict=True):
         whole = shapely.Polygon(corners)
         cells.append(corners if share > 1.0 - 1e-6 else trimmed_cell(whole, region))
-    covered = covered_area(sole, cells)
     cut = int((shares <= 1.0 - 1e-6).sum())
     bound = bound_whole_cells(region, hex_pattern(cell_area)).bound
     note = (
@@ -202,8 +202,7 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
         lattice=lattice,
         cell_area=cell_area,
         overhang=reach,
-        covered=covered,
-        covered_area_ratio=covered / sole.area,
+        sole=sole,
         bound=bound,
         border=0.0,
         lattice_cells=None,

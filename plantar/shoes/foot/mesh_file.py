@@ -28,8 +28,14 @@ MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".dae", ".3mf",
 # Triangles that a mesh may have, as a scan has them; the feet of robots have some ten thousand
 MOST_TRIANGLES = 1_200_000
 
+_APART: dict[str, tuple[str, str, Unit | None]] = {  # helper, library, and the unit of its triangles
+    ".ply": ("ply", "trimesh", None),
+    ".off": ("off", "trimesh", None),
+    ".dae": ("dae", "collada", "m"),
+    **dict.fromkeys((".step", ".stp"), ("step", "OCP", "mm")),
+    **dict.fromkeys((".iges", ".igs"), ("iges", "OCP", "mm")),
+}
 _LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
-# Library, function, and how much memory in bytes and time in s it may take: at least, and for each byte of the file.
 
 
 def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit | None]:
@@ -75,16 +81,15 @@ def _read(file: Path, kind: str) -> tuple[NDArray[np.float64], Unit | None]:
     if kind == ".3mf":
         triangles, unit = triangles_of_3mf(file, MOST_TRIANGLES)
         return triangles, cast(Unit, unit)
-    if kind in (".step", ".stp"):
-        return _read_step(file), "mm"
-    if kind in (".iges", ".igs"):
-        return _read_apart(file, "iges", "OCP"), "mm"
-    if kind == ".dae":
-        return _read_apart(file, "dae", "collada"), "m"
     if kind == ".off":
         _check_off(file)
-    if kind in (".ply", ".off"):
-        return _read_apart(file, kind[1:], "trimesh"), None
+    if kind in (".step", ".stp") and b"ISO-10303-21" not in read_input(file, FootError, _LARGEST)[:200]:
+        raise FootError(f"{file}: not a readable STEP file: it does not start with ISO-10303-21")
+    if kind in _APART:
+        helper, library, stated = _APART[kind]
+        if find_spec(library) is None:
+            raise DependencyError(library, "shoes")
+        return np.asarray(read_apart(helper, file, FootError)["triangles"], dtype=np.float64), stated
     read = triangles_of_stl if kind == ".stl" else triangles_of_obj
     return read(read_input(file, FootError, _LARGEST), MOST_TRIANGLES, str(file)), None
 
@@ -97,17 +102,3 @@ def _check_off(file: Path) -> None:
     if len(words) > 2 and words[0].endswith(b"OFF") and words[2].isdigit() and int(words[2]) > MOST_TRIANGLES:
         count = words[2].decode()
         raise FootError(f"{file}: has {count:.20} faces; allowed: up to {MOST_TRIANGLES}; reduce the mesh")
-
-
-def _read_step(file: Path) -> NDArray[np.float64]:
-    data = read_input(file, FootError, _LARGEST)
-    if b"ISO-10303-21" not in data[:200]:
-        raise FootError(f"{file}: not a readable STEP file: it does not start with ISO-10303-21")
-    del data
-    return _read_apart(file, "step", "OCP")
-
-
-def _read_apart(file: Path, kind: str, library: str) -> NDArray[np.float64]:
-    if find_spec(library) is None:
-        raise DependencyError(library, "shoes")
-    return np.asarray(read_apart(kind, file, FootError)["triangles"], dtype=np.float64)
