@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FAMILY", "REFUSED", "TURNS", "prism", "rounded", "small_turns", "turned"]
+__all__ = ["FAMILY", "REFUSED", "TURNS", "box", "loft", "oval", "prism", "rounded", "small_turns", "turned"]
 
 Triangles = NDArray[np.float64]
 
@@ -41,7 +41,8 @@ def _at(flat: Triangles, z: float) -> Triangles:
     return np.concatenate([flat, np.full((*flat.shape[:-1], 1), z)], axis=-1)
 
 
-def _box(x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]) -> Triangles:
+def box(x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]) -> Triangles:
+    """Closed surface of a box from its extents."""
     return prism(np.array([[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]), *z)
 
 
@@ -50,7 +51,8 @@ def _disc(x: float, y: float, radius: float, low: float, high: float, count: int
     return prism(np.array([x, y]) + radius * np.column_stack([np.cos(angle), np.sin(angle)]), low, high)
 
 
-def _oval(length: float, width: float, x: float, count: int = 72, power: float = 3.0) -> NDArray[np.float64]:
+def oval(length: float, width: float, x: float, count: int = 72, power: float = 3.0) -> NDArray[np.float64]:
+    """A superellipse (count, 2) about a place on x."""
     angle = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
     c, s = np.cos(angle), np.sin(angle)
     k = 2.0 / power
@@ -58,18 +60,18 @@ def _oval(length: float, width: float, x: float, count: int = 72, power: float =
 
 
 def _joint(high: float = 70.0) -> Triangles:
-    return np.concatenate([_box((-22.0, 22.0), (-24.0, 24.0), (15.0, high)), _disc(0.0, 0.0, 30.0, 20.0, high - 8.0)])
+    return np.concatenate([box((-22.0, 22.0), (-24.0, 24.0), (15.0, high)), _disc(0.0, 0.0, 30.0, 20.0, high - 8.0)])
 
 
 def _split() -> Triangles:
-    parts = [_box((-90.0, -25.0), (-42.0, 42.0), (0.0, 18.0)), _box((35.0, 140.0), (-48.0, 48.0), (0.0, 18.0))]
-    return np.concatenate([*parts, _box((-90.0, 140.0), (-40.0, 40.0), (12.0, 30.0)), _joint()])
+    parts = [box((-90.0, -25.0), (-42.0, 42.0), (0.0, 18.0)), box((35.0, 140.0), (-48.0, 48.0), (0.0, 18.0))]
+    return np.concatenate([*parts, box((-90.0, 140.0), (-40.0, 40.0), (12.0, 30.0)), _joint()])
 
 
 def _pads() -> Triangles:
     spots = [(-70.0, -35.0), (-70.0, 35.0), (115.0, -38.0), (115.0, 38.0), (30.0, 0.0)]
     pads = [_disc(x, y, 13.0, 0.0, 8.0) for x, y in spots]
-    return np.concatenate([*pads, _box((-90.0, 135.0), (-52.0, 52.0), (7.0, 22.0)), _joint()])
+    return np.concatenate([*pads, box((-90.0, 135.0), (-52.0, 52.0), (7.0, 22.0)), _joint()])
 
 
 def _pitched() -> Triangles:
@@ -101,39 +103,31 @@ def _pair() -> Triangles:
 
 
 def _turned_30() -> Triangles:
-    return turned(np.concatenate([prism(_oval(230.0, 95.0, 35.0), 0.0, 30.0), _joint()]), 0.0, 0.0, 30.0)
+    return turned(np.concatenate([prism(oval(230.0, 95.0, 35.0), 0.0, 30.0), _joint()]), 0.0, 0.0, 30.0)
 
 
 def _small() -> Triangles:
-    return np.concatenate([_box((-26.0, 54.0), (-25.0, 25.0), (0.0, 14.0)), _box((-8, 8), (-9, 9), (10.0, 30.0))])
+    return np.concatenate([box((-26.0, 54.0), (-25.0, 25.0), (0.0, 14.0)), box((-8, 8), (-9, 9), (10.0, 30.0))])
 
 
 def _large() -> Triangles:
-    sole = prism(_oval(420.0, 170.0, 70.0, 96, 4.0), 0.0, 40.0)
-    return np.concatenate([sole, _box((-50.0, 50.0), (-50.0, 50.0), (35.0, 130.0))])
+    sole = prism(oval(420.0, 170.0, 70.0, 96, 4.0), 0.0, 40.0)
+    return np.concatenate([sole, box((-50.0, 50.0), (-50.0, 50.0), (35.0, 130.0))])
 
 
 def _concave() -> Triangles:
     """Two toes and two heels of pads below, one deeply waisted plate above."""
-    outline = _oval(240.0, 104.0, 25.0, 96, 2.8)
+    outline = oval(240.0, 104.0, 25.0, 96, 2.8)
     squeeze = 1.0 - 0.5 * np.exp(-(((outline[:, 0] - 25.0) / 34.0) ** 2))
     plate = outline * np.column_stack([np.ones(len(outline)), squeeze])
-    low = [_box((-85.0, -45.0), (y, y + 24.0), (0.0, 5.0)) for y in (-36.0, 12.0)]
-    low += [_box((75.0, 130.0), (y, y + 28.0), (0.0, 5.0)) for y in (-42.0, 14.0)]
+    low = [box((-85.0, -45.0), (y, y + 24.0), (0.0, 5.0)) for y in (-36.0, 12.0)]
+    low += [box((75.0, 130.0), (y, y + 28.0), (0.0, 5.0)) for y in (-42.0, 14.0)]
     return np.concatenate([*low, prism(plate, 3.0, 40.0), _joint(90.0)])
 
 
-def rounded(count: int = 320, levels: int = 40) -> Triangles:
-    """Rounded foot whose surface is cut into about 4 count levels triangles."""
-    inset = 12.0 * (1.0 - np.sin(np.linspace(0.0, np.pi / 2, levels)))
-    height = np.linspace(0.0, 1.0, levels) ** 2 * 12.0
-    rings = [
-        np.column_stack([_oval(230 - 2 * d, 100 - 2 * d, 25.0, count), np.full(count, z)])
-        for d, z in zip(inset, height, strict=True)
-    ]
-    rings += [
-        np.column_stack([_oval(230, 100, 25.0, count), np.full(count, z)]) for z in np.linspace(13.0, 45.0, levels)
-    ]
+def loft(outlines: Iterable[NDArray[np.float64]], heights: Iterable[float]) -> Triangles:
+    """Closed surface of star-shaped outlines (k, 2) of as many points at rising heights."""
+    rings = [np.column_stack([o, np.full(len(o), z)]) for o, z in zip(outlines, heights, strict=True)]
     parts = []
     for low, high in pairwise(rings):
         after, up = np.roll(low, -1, axis=0), np.roll(high, -1, axis=0)
@@ -142,6 +136,14 @@ def rounded(count: int = 320, levels: int = 40) -> Triangles:
         fan = np.stack([np.broadcast_to(ring.mean(axis=0), ring.shape), ring, np.roll(ring, -1, axis=0)], axis=1)
         parts.append(fan if above else fan[:, ::-1])
     return np.concatenate(parts)
+
+
+def rounded(count: int = 320, levels: int = 40) -> Triangles:
+    """Rounded foot whose surface is cut into about 4 count levels triangles."""
+    inset = 12.0 * (1.0 - np.sin(np.linspace(0.0, np.pi / 2, levels)))
+    below = np.linspace(0.0, 1.0, levels) ** 2 * 12.0
+    outlines = [oval(230 - 2 * d, 100 - 2 * d, 25.0, count) for d in (*inset, *np.zeros(levels))]
+    return loft(outlines, [*below, *np.linspace(13.0, 45.0, levels)])
 
 
 def _tilted() -> Triangles:
@@ -161,17 +163,17 @@ def _round_heel(heel: float, length: float, toes: float) -> Triangles:
 
 
 def _two_toes() -> Triangles:
-    toes = [_box((70.0, 140.0), y, (0.0, 20.0)) for y in ((-48.0, -3.0), (3.0, 48.0))]
-    return np.concatenate([_box((-90.0, 70.0), (-48.0, 48.0), (0.0, 24.0)), *toes, _joint()])
+    toes = [box((70.0, 140.0), y, (0.0, 20.0)) for y in ((-48.0, -3.0), (3.0, 48.0))]
+    return np.concatenate([box((-90.0, 70.0), (-48.0, 48.0), (0.0, 24.0)), *toes, _joint()])
 
 
 def _toe_joint() -> Triangles:
-    toes = _box((92.0, 150.0), (-48.0, 48.0), (0.0, 18.0))
-    return np.concatenate([_box((-90.0, 88.0), (-48.0, 48.0), (0.0, 24.0)), toes, _joint()])
+    toes = box((92.0, 150.0), (-48.0, 48.0), (0.0, 18.0))
+    return np.concatenate([box((-90.0, 88.0), (-48.0, 48.0), (0.0, 24.0)), toes, _joint()])
 
 
 def _of_65_mm() -> Triangles:
-    return np.concatenate([_box((-22.0, 43.0), (-20.0, 20.0), (0.0, 12.0)), _box((-7, 7), (-8, 8), (10.0, 28.0))])
+    return np.concatenate([box((-22.0, 43.0), (-20.0, 20.0), (0.0, 12.0)), box((-7, 7), (-8, 8), (10.0, 28.0))])
 
 
 def _ball(radius: float = 60.0, count: int = 24) -> Triangles:
@@ -200,9 +202,9 @@ FAMILY: dict[str, Callable[[], Triangles]] = {
     "two_toes": _two_toes,
     "toe_joint": _toe_joint,
     "of_65_mm": _of_65_mm,
-    "plate": lambda: prism(_oval(240.0, 90.0, 30.0), 0.0, 2.0),
+    "plate": lambda: prism(oval(240.0, 90.0, 30.0), 0.0, 2.0),
     "ball": _ball,
-    "lying": lambda: _box((-60.0, 140.0), (-10.0, 10.0), (0.0, 120.0)),
+    "lying": lambda: box((-60.0, 140.0), (-10.0, 10.0), (0.0, 120.0)),
 }
 """Surfaces in mm, x to the toes, y left, z up, the ankle above the origin, by what is hard about them."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -148,28 +147,6 @@ def test_real_feet_give_shoes_that_hold(real_data: Path, tmp_path: Path, name: s
     assert (corners.max(axis=0)[:2] < outline.max(axis=0) - 1.0).all()
 
 
-def test_the_papers_shoe(repository: Path) -> None:
-    """H1: 42 taxels of 691 mm^2, at most 250 mm long, overhang below 10 mm; the repository holds this layout."""
-    import tomllib
-
-    folder = repository / "plantar" / "robots" / "h1"
-    facts = tomllib.loads((folder / "robot.toml").read_text())["foot"]
-    foot = foot_from_dimensions(
-        "h1",
-        length=facts["foot_length"],
-        width=facts["foot_width"],
-        sole_center=tuple(facts["sole_center"]),
-        corner_radius=facts["corner_radius"],
-    )
-    build = build_shoe(foot, taxels=facts["taxels"], layout_only=True)
-    for shoe in build.shoes:
-        assert len(shoe.layout) == 42
-        assert np.ptp(shoe.layout.outline, axis=0)[0] <= 0.250
-        assert 0.0 < shoe.plan.overhang <= 10.0
-        stored = read_layout(folder / f"layout_{shoe.side}.json")
-        np.testing.assert_allclose(shoe.layout.vertices, stored.vertices, atol=1e-6)
-
-
 def test_fifty_one_taxels_on_the_foot_of_the_other_paper() -> None:
     """HRP-2Kai: 51 taxels on 241 x 138 mm. No 51 whole cells fit within 10 mm of it: ten are trimmed a little."""
     foot = foot_from_dimensions("b", length=0.241, width=0.138, sole_center=(0.015, 0.0), corner_radius=0.0196)
@@ -181,19 +158,6 @@ def test_fifty_one_taxels_on_the_foot_of_the_other_paper() -> None:
     assert build.fit.shares.min() > 0.95
     assert 0.0352 * 0.99 < layout.areas.sum() <= 51 * 691e-6
     assert any("cells at the rim are cut" in note for note in build.notes)
-
-
-@pytest.mark.parametrize("kind", ["mesh", "dimensions"])
-def test_a_foot_too_small_for_a_cell_is_refused(
-    stl: Callable[..., Path], box: Callable[..., object], kind: str
-) -> None:
-    foot = (
-        foot_from_mesh(stl(box((0, 80), (0, 20), (0, 15))))
-        if kind == "mesh"
-        else foot_from_dimensions("a", length=0.08, width=0.02)
-    )
-    with pytest.raises(FootError, match="see the center of pressure along and across"):
-        build_shoe(foot, layout_only=True)
 
 
 PERSON = foot_from_dimensions("person", length=0.255, width=0.095, corner_radius=0.035)

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import trimesh
 from numpy.typing import NDArray
 
 from plantar import cli
@@ -55,16 +54,8 @@ def test_a_mesh_gives_files_and_one_json_object(run: Run, stl: Writer, box: Shap
     code, out, err = run(stl(box((-40, 90), (-35, 35), (0, 50))), "--side", "left", "-o", folder, "--json")
     assert (code, err) == (0, "")
     figures = json.loads(out)
-    assert {
-        "taxels",
-        "covered_area_ratio",
-        "watertight",
-        "volume_cm3",
-        "mass_g",
-        "min_wall_mm",
-        "size_mm",
-        "files",
-    } <= set(figures)
+    measured = ("covered_area_ratio", "watertight", "volume_cm3", "mass_g", "min_wall_mm", "size_mm")
+    assert {"taxels", "files", *measured} <= set(figures)
     assert figures["watertight"] is True
     assert figures["taxels"] == 15  # ten of 691 mm^2 would not see the center of pressure across the foot
     assert all(Path(f).is_file() for f in figures["files"])
@@ -73,13 +64,18 @@ def test_a_mesh_gives_files_and_one_json_object(run: Run, stl: Writer, box: Shap
 
 
 def test_a_robot_gives_its_layouts(run: Run, tmp_path: Path, repository: Path) -> None:
+    """H1, the papers' shoe: 42 taxels of 691 mm^2, at most 250 mm long, overhang below 10 mm; stored in its folder."""
     code, out, err = run("--robot", "h1", "--layout-only", "-o", tmp_path / "out")
     assert (code, err) == (0, "")
     assert "42 taxels of 691 mm^2" in out
     for side in ("left", "right"):
         made = (tmp_path / "out" / f"layout_{side}.json").read_text()
         stored = (repository / "plantar" / "robots" / "h1" / f"layout_{side}.json").read_text()
-        np.testing.assert_allclose(json.loads(made)["vertices"], json.loads(stored)["vertices"], atol=1e-6)
+        layout = json.loads(made)
+        np.testing.assert_allclose(layout["vertices"], json.loads(stored)["vertices"], atol=1e-6)
+        assert len(layout["taxels"]) == 42
+        assert np.ptp(layout["outline"], axis=0)[0] <= 0.250
+        assert 0.0 < layout["shoe"]["overhang"] <= 0.010
 
 
 def test_a_check_that_does_not_hold_is_exit_1(run: Run, stl: Writer, box: Shape, tmp_path: Path) -> None:
@@ -105,11 +101,8 @@ def test_bad_meshes_are_refused_in_one_line(run: Run, stl: Writer, box: Shape, t
     (tmp_path / "foreign.stl").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(500))
     cases = {
         stl(good * 25, "huge.stl"): "fits neither m nor mm",
-        stl(good * 0.025, "huge_m.stl"): "fits neither m nor mm",
         stl(broken, "nan.stl"): "not finite",
         stl(good[:2], "two.stl"): "has 2 triangles",
-        stl(trimesh.creation.icosphere(radius=60).triangles, "sphere.stl"): "no flat sole",
-        stl(box((0, 100), (0, 100), (0, 100)), "cube.stl"): "not a foot",
         tmp_path / "cut.stl": "cut short",
         tmp_path / "empty.stl": "is empty",
         tmp_path / "foreign.stl": "cut short or no STL",

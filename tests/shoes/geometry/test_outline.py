@@ -18,7 +18,6 @@ from plantar.shoes.geometry.outline import (
     rounded_rectangle,
     single_outline,
     tidy,
-    touching,
 )
 
 Shape = Callable[..., NDArray[np.float64]]
@@ -99,25 +98,6 @@ def test_a_fine_mesh_keeps_its_waist() -> None:
     assert len(triangles) > 20_000
     shape = shapely.Polygon(np.concatenate([grid[0, :, :2], grid[-1, ::-1, :2]]))
     assert outline_below(triangles, 5.0).symmetric_difference(shape).area < 0.02 * shape.area
-
-
-def test_a_crowd_of_triangles_is_no_surface() -> None:
-    random = np.random.default_rng(0)
-    middle = random.uniform(-1.0, 1.0, (30_000, 1, 3)) * [100.0, 50.0, 1.0]
-    with pytest.raises(FootError, match="give a surface"):
-        touching(middle + random.uniform(-30.0, 30.0, (30_000, 3, 3)), 1e3)
-
-
-def test_a_fine_surface_is_joined_as_a_coarse_one() -> None:
-    x, y = np.meshgrid(np.linspace(-120.0, 120.0, 121), np.linspace(-50.0, 50.0, 101), indexing="ij")
-    keep = (x[:-1, :-1] + 1.0) ** 2 / 100.0**2 + (y[:-1, :-1] + 0.5) ** 2 / 45.0**2 < 1.0
-    corner = np.stack([x, y, np.zeros_like(x)], axis=-1)
-    a, b, c, d = (corner[i : i - 1 or None, j : j - 1 or None][keep] for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
-    fine = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
-    fine = np.concatenate([fine, fine + np.array([0.0, 0.0, 1.0])])
-    assert len(fine) > 20_000
-    cells = shapely.union_all(shapely.polygons(np.stack([a, b, c, d], axis=1)[..., :2]))
-    assert touching(fine, 5.0).symmetric_difference(cells).area < 0.4 * cells.length
 
 
 @pytest.mark.parametrize("seed", range(12))
