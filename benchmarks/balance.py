@@ -56,7 +56,7 @@ def picture() -> None:
     """Draw the ZMPs of skin and ankles over time."""
     from plantar.plotting import save_figure
     from plantar.recordings.recording import read_mcap
-    from plantar.sim.figures.zmp_figure import draw_zmps
+    from plantar.sim.figures.foothold_figure import draw_zmps
     from plantar.sim.run.runner import run_scene
     from plantar.sim.run.scene import load_scene
 

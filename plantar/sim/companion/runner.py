@@ -18,10 +18,9 @@ from plantar.sim.body_skin.sensing import SkinSensor
 from plantar.sim.body_skin.surface import skin_from_tables
 from plantar.sim.companion.drives import Drives, Encoders
 from plantar.sim.companion.dynamics import MujocoDynamics
-from plantar.sim.companion.experiment import World
+from plantar.sim.companion.experiment import CompanionScene, World
 from plantar.sim.companion.lidar import Lidar
 from plantar.sim.companion.machine import Machine, ServoTable, load_machine
-from plantar.sim.companion.scene import CompanionScene
 from plantar.sim.figures.film import BodyFilm
 from plantar.sim.loop import Result, Run
 from plantar.sim.model.world import add_looks

@@ -12,7 +12,7 @@ from plantar.files.structured_text import read_toml
 from plantar.sim.run.scene import Scene, scene_file, scene_of
 
 if TYPE_CHECKING:
-    from plantar.sim.companion.scene import CompanionScene
+    from plantar.sim.companion.experiment import CompanionScene
     from plantar.sim.loop import Run
 
 __all__ = [
@@ -46,7 +46,7 @@ def open_scene(
     path = scene_file(name)
     source = read_toml(path, SceneError, f"scene file {path}")
     if "experiment" in source:
-        from plantar.sim.companion.scene import companion_scene
+        from plantar.sim.companion.experiment import companion_scene
 
         return companion_scene(source, path, settings, robot)
     return scene_of(source, path, settings, robot)

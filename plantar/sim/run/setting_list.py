@@ -10,8 +10,7 @@ from plantar.files.structured_text import described_files, packaged_files
 from plantar.gait.controller_tables import CONTROLLER_TABLES, controller_settings_described
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale, si_unit
 from plantar.settings.schema import Setting, Settings
-from plantar.sim.companion.experiment import experiment_names
-from plantar.sim.companion.scene import companion_tables
+from plantar.sim.companion.experiment import companion_tables, experiment_names
 from plantar.sim.papers.preset import paper_files
 from plantar.sim.run.scene import SECTIONS, Scene
 from plantar.sim.terrain import terrain_kinds

@@ -22,9 +22,8 @@ from plantar.robots.walk import CONTROL_PERIOD, Walk, walk_timing
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from plantar.sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, standing_feet
-from plantar.sim.survey.rocking_gait import ankle_reach, has_ankle_roll, rocking
 from plantar.sim.survey.servo_gains import JointInertia, joint_inertia, servo_gains
-from plantar.sim.survey.swing_yaw import least_single_support
+from plantar.sim.survey.step_time import ankle_reach, has_ankle_roll, least_single_support, rocking
 
 __all__ = [
     "APPROACH_HEIGHT",

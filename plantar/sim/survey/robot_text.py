@@ -15,8 +15,8 @@ from plantar.robots.robot import Robot
 from plantar.robots.walk import CONTROL_PERIOD
 from plantar.sides import SIDES, Side
 from plantar.sim.survey.fitted_gait import KNEE_LEAST, QUICK_HELD, STEP_SHARE, FittedGait
-from plantar.sim.survey.rocking_gait import LEAN_MOST
 from plantar.sim.survey.servo_gains import SAMPLED, STIFFNESS
+from plantar.sim.survey.step_time import LEAN_MOST
 from plantar.sim.survey.survey import Survey
 
 __all__ = ["robot_text", "roll_pitch_yaw"]

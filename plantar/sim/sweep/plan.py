@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import prod
 from pathlib import Path
@@ -14,14 +14,13 @@ from plantar.bench.intervals import wilson_interval
 from plantar.errors import InputError, SceneError
 from plantar.sim.run.scene import Scene
 from plantar.sim.run.scene_kind import open_scene, robot_file_of
-from plantar.sim.sweep.grid import canonical, is_word, split_values
 from plantar.sim.sweep.task import criteria_of
-from plantar.sim.sweep.value_range import ValueRange
+from plantar.sim.sweep.value_range import ValueRange, canonical, is_word, split_values
 
 if TYPE_CHECKING:
-    from plantar.sim.companion.scene import CompanionScene
+    from plantar.sim.companion.experiment import CompanionScene
 
-__all__ = ["Key", "Plan", "Rows", "Run", "Sweep", "key_of", "point_result", "settings_of"]
+__all__ = ["Key", "Plan", "Rows", "Run", "Sweep", "key_of", "point_result", "progress_of", "settings_of"]
 
 Key = tuple[tuple[str, ...], int]
 """Values of the axes, and the seed."""
@@ -179,9 +178,7 @@ class Sweep:
 
     def progress(self, rows: Rows) -> tuple[float, str]:
         """Progress, 0 to 1, and in words."""
-        wanted = [key_of(*run) for run in self.runs(rows)]
-        done = sum(key in rows for key in wanted)
-        return done / len(wanted), f"{done} of {len(wanted)} rows"
+        return progress_of(self.runs(rows), rows)
 
     def with_axes(self, axes: Sequence[tuple[str, tuple[str, ...]]]) -> Sweep:
         """This sweep with more settings in its grid, after its own."""
@@ -248,6 +245,13 @@ class Sweep:
             if key in seen:
                 raise InputError(f"grid points '{seen[key]}' and '{text}' are the same run; leave one out")
             seen[key] = text
+
+
+def progress_of(runs: Iterable[Run], rows: Rows) -> tuple[float, str]:
+    """Returns which share of the `runs` is in `rows`, as a number and in words."""
+    wanted = [key_of(*run) for run in runs]
+    done = sum(key in rows for key in wanted)
+    return done / len(wanted), f"{done} of {len(wanted)} rows"
 
 
 def point_result(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:

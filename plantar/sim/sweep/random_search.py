@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from plantar.errors import InputError
-from plantar.sim.sweep.plan import Rows, Run, Sweep, key_of, point_result
+from plantar.sim.sweep.plan import Rows, Run, Sweep, key_of, point_result, progress_of
 from plantar.sim.sweep.value_range import ValueRange
 
 __all__ = ["RandomSearch"]
@@ -67,6 +67,4 @@ class RandomSearch:
 
     def progress(self, rows: Rows) -> tuple[float, str]:
         """Progress, 0 to 1, and in words."""
-        wanted = [key_of(*run) for run in self.runs(rows)]
-        done = sum(key in rows for key in wanted)
-        return done / len(wanted), f"{done} of {len(wanted)} rows"
+        return progress_of(self.runs(rows), rows)

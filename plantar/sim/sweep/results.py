@@ -17,9 +17,9 @@ from plantar.atomic import write_text
 from plantar.csv_table import csv_row, original_cell
 from plantar.errors import InputError
 from plantar.files.structured_text import read_json
-from plantar.sim.sweep.grid import canonical, is_word
 from plantar.sim.sweep.inputs import changes
 from plantar.sim.sweep.plan import Key
+from plantar.sim.sweep.value_range import canonical, is_word
 
 __all__ = ["Results", "locked", "open_results"]
 

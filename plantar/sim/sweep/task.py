@@ -14,7 +14,7 @@ from plantar.sim.run.scene_kind import open_scene, simulation_of
 from plantar.sim.sweep.inputs import changes, inputs_of
 
 if TYPE_CHECKING:
-    from plantar.sim.companion.scene import CompanionScene
+    from plantar.sim.companion.experiment import CompanionScene
 
 __all__ = ["COLUMNS", "Row", "Task", "columns_of", "criteria_of", "failed", "run_one", "run_task"]
 

@@ -7,9 +7,8 @@ from plantar.errors import SceneError
 from plantar.recordings.recording import read_mcap
 from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 from plantar.sim.companion import experiment as experiments
-from plantar.sim.companion.experiment import Experiment, Verdict, unmet
+from plantar.sim.companion.experiment import Experiment, Verdict, companion_scene, unmet
 from plantar.sim.companion.runner import Companion
-from plantar.sim.companion.scene import companion_scene
 from plantar.sim.run.run_text import run_text
 from plantar.wholebody.stack import TaskStack
 from plantar.wholebody.tasks.posture import Posture
@@ -50,7 +49,7 @@ class Stand(Experiment):
 
 @pytest.fixture
 def scene(monkeypatch, tmp_path):
-    monkeypatch.setattr("plantar.sim.companion.scene.experiment_class", lambda name: Stand)
+    monkeypatch.setattr("plantar.sim.companion.experiment.experiment_class", lambda name: Stand)
 
     def made(*settings, **source):
         table = {"experiment": "stand", "machine": "mobile-arm", **source}

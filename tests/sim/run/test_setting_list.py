@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from plantar.errors import InputError
-from plantar.sim.companion.experiment import experiment_names
-from plantar.sim.companion.scene import companion_tables
+from plantar.sim.companion.experiment import companion_tables, experiment_names
 from plantar.sim.run.scene import load_scene
 from plantar.sim.run.scene_kind import open_scene
 from plantar.sim.run.setting_list import settings_listed, settings_of_robot

@@ -1,18 +1,68 @@
-"""The mass that swings with a foot, against the legs' Jacobians, and the time it takes not to turn the other sole."""
+"""Legs without ankle roll: how quickly they step, and where weak ankles let a sole be loaded."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import mujoco
 import numpy as np
 import pytest
 
-from plantar.robots import load_robot
+from plantar.gravity import GRAVITY
+from plantar.robots import builtin_robots, load_robot
 from plantar.robots.kinematics.body import body_of, stood
 from plantar.robots.kinematics.leg_model import LegModel
 from plantar.robots.kinematics.robot_model import build_leg_model
-from plantar.sim.survey.swing_yaw import least_single_support, swinging_mass
+from plantar.sides import SIDES
+from plantar.sim.survey.step_time import (
+    LEAN_MOST,
+    ankle_reach,
+    has_ankle_roll,
+    least_single_support,
+    rocking,
+    swinging_mass,
+)
+
+
+@pytest.mark.parametrize(("height", "width"), [(0.97, 0.41), (0.97, 0.55), (0.6, 0.15)])
+def test_a_pendulum_that_is_carried_by_turns_stays_as_near_the_middle_as_it_shall(height: float, width: float) -> None:
+    robot = rocking(replace(load_robot("h1"), stance_width=width), height)
+    assert robot.rocks
+    step = robot.single_support + robot.double_support
+    omega, foot = math.sqrt(GRAVITY / height), 0.5 * width
+    # Integrated from the middle, with the speed from which it is there again after a step.
+    y, speed, most = 0.0, foot * omega * math.tanh(0.5 * omega * step), 0.0
+    dt = step / 20000
+    for _ in range(20000):
+        speed += omega**2 * (y - foot) * dt
+        y += speed * dt
+        most = max(most, y)
+    assert y == pytest.approx(0.0, abs=1e-3 * foot)
+    share, lean = most / foot, math.atan(most / height)
+    assert share <= 0.205
+    assert lean <= 1.05 * LEAN_MOST
+    assert share >= 0.19 or lean >= 0.95 * LEAN_MOST
+
+
+@pytest.mark.parametrize("name", builtin_robots())
+def test_the_built_in_robots_have_ankles_that_roll(name: str) -> None:
+    robot = load_robot(name)
+    legs = build_leg_model(robot)
+    assert has_ankle_roll(robot, legs)
+    names = {s: replace(robot.legs[s], joints=robot.legs[s].joints[:5]) for s in SIDES}
+    posture = {s: robot.posture[s][:5] for s in SIDES}
+    assert not has_ankle_roll(replace(robot, legs=names, posture=posture), legs)
+
+
+def test_weak_ankles_bear_the_robot_as_far_as_their_torque_goes() -> None:
+    robot = load_robot("h1")
+    weight = 800.0
+    limits = np.full(6, 1000.0)
+    assert ankle_reach(robot, weight, 4) is None
+    assert ankle_reach(replace(robot, effort_limits=tuple(limits)), weight, 4) is None
+    limits[4] = 0.05 * weight
+    assert ankle_reach(replace(robot, effort_limits=tuple(limits)), weight, 4) == pytest.approx(0.05, abs=1e-4)
 
 
 def carried_along(name: str) -> tuple[float, float]:

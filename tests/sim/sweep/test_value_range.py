@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar.errors import InputError
-from plantar.sim.sweep.grid import canonical, split_values
+from plantar.sim.sweep.value_range import canonical, split_values
 
 LETTERS = st.characters(min_codepoint=32, max_codepoint=0x2FFF, exclude_categories=("Cs", "Cc"))
 TEXTS = st.text(LETTERS, max_size=8).filter(str.isprintable)

@@ -1,0 +1,110 @@
+"""How long a robot's steps take: those of legs without ankle roll, and those whose swinging leg would turn the sole.
+
+A sole without ankle roll is level only where its leg is vertical in the frontal plane. A pendulum of height h that is
+carried at p to the side, half the feet's distance, swings towards the foot and back in a time T, and leans by atan(y /
+h), with
+
+    y = p (1 - 1 / cosh(w T / 2)),    w = sqrt(g / h)
+
+(Kajita et al., "The 3D linear inverted pendulum mode", IROS 2001). Quick steps keep that small.
+
+A leg thrown forward pushes the robot back about the vertical through the standing sole; friction has to hold that.
+Unitree's G1, whose legs are a fifth of its mass each, turns its sole by one or two degrees a step where the leg takes a
+sixth of friction, and by seven once it has stepped down.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from plantar.gravity import GRAVITY
+from plantar.robots.kinematics.body import hanging_on, rolling_joints, stood
+from plantar.robots.kinematics.leg_model import LegModel
+from plantar.robots.robot import Robot
+from plantar.settings.body_scale import BodyScale
+from plantar.sides import Side
+
+__all__ = ["LEAN_MOST", "ankle_reach", "has_ankle_roll", "least_single_support", "rocking", "swinging_mass"]
+
+LEAN_MOST = math.radians(2.5)
+"""Lean of a leg in the orbit. What a sole that stands flat does not lean, the body does."""
+
+_NEAR = 0.2
+"""Share of the way to a foot that the CoM sways at most. On an edge a sole carries further outside than planned, and
+throws the CoM back earlier: of three drawn bipeds whose soles' edges are half as far out as their middles none walked
+at a third of the way, and all at a fifth."""
+
+_SINGLE = 0.62  # of the time of a step; with more, feet that land on an edge have no time to come down flat
+_SHORTEST = 0.2  # s: the least that the timing of a walk allows
+
+
+def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
+    """Returns whether the leg of a `side` of `legs` of a `robot` has two joints that roll, in hip and ankle."""
+    return len(rolling_joints(robot, side, legs.model, stood(robot, legs.model))) >= 2
+
+
+def rocking(robot: Robot, com_height: float) -> Robot:
+    """Returns the `robot`, whose CoM is at `com_height` in m, with the time of a step in which its legs lean little."""
+    beat = math.sqrt(com_height / GRAVITY)
+    near = min(_NEAR, com_height * math.tan(LEAN_MOST) / (0.5 * robot.stance_width))
+    step = 2.0 * beat * math.acosh(1.0 / (1.0 - near))
+    single = max(_SHORTEST, round(_SINGLE * step, 3))
+    return replace(
+        robot, rocks=True, single_support=single, double_support=round((1.0 - _SINGLE) / _SINGLE * single, 3)
+    )
+
+
+def ankle_reach(robot: Robot, weight: float, ankle: int) -> float | None:
+    """Returns how far from itself along the sole in m joint `ankle` of a `robot` bears its `weight` in N; None: up to
+    the toes.
+    """
+    if not robot.effort_limits:
+        return None
+    toe = float(robot.layouts["left"].outline[:, 0].max())
+    reach = robot.effort_limits[ankle] / weight
+    return None if reach >= toe else math.floor(1e4 * reach) / 1e4
+
+
+_HELD = 0.12
+"""Share of what friction holds that a swinging leg may take: h1 has 0.05, JVRC-1 0.10, and G1 slips with 0.17."""
+
+_FRICTION = 0.8
+"""Of the built-in scenes."""
+
+_ARM = 0.26
+"""Mean distance of a rectangle's points from its middle, over its diagonal: 0.25 of a line, 0.27 of a square."""
+
+_PEAK = 10.0 / math.sqrt(3.0)
+"""Largest acceleration of a minimum-jerk path, in its length over its time squared."""
+
+
+def swinging_mass(robot: Robot, legs: LegModel) -> float:
+    """Returns the mass in kg of `legs` of a `robot` that goes forward as the foot: each part by how far below the hip
+    it is.
+    """
+    model, data = legs.model, stood(robot, legs.model)
+    hip = int(model.joint(robot.legs["left"].joints[0]).bodyid[0])
+    parts = hanging_on(model, hip)
+    top, sole = data.xpos[hip, 2], data.site_xpos[model.site(robot.legs["left"].sole_site).id, 2]
+    share = np.clip((top - data.xipos[parts, 2]) / (top - sole), 0.0, 1.0)
+    return float(share @ model.body_mass[parts])
+
+
+def least_single_support(robot: Robot, legs: LegModel, body: BodyScale, step: float) -> float:
+    """The least t_ss in s, in hundredths, at which friction holds the standing sole with plenty to spare.
+
+    Returns it from:
+
+    Args:
+        robot: The robot, with its stance and layouts.
+        legs: Its kinematics.
+        body: Its mass and leg.
+        step: Length of a step in m; the foot goes twice as far.
+    """
+    length, width = np.ptp(robot.layouts["left"].outline, axis=0)
+    holds = _FRICTION * body.mass * GRAVITY * _ARM * math.hypot(length, width)
+    takes = swinging_mass(robot, legs) * robot.stance_width * _PEAK * 2.0 * step  # over t_ss squared
+    return math.ceil(100.0 * math.sqrt(takes / (_HELD * holds))) / 100.0
