@@ -14,13 +14,13 @@ from resumable import FOLDER, Benchmark, Case, Row, shown
 
 
 def slowest(simulation: Any, out: dict[str, Any]) -> float | str:
-    """The slowest recovery from a push in s; empty where there was none from one of them."""
+    """The slowest recovery from a push in s; empty without one."""
     times = [push["recovered_s"] for push in out["balance"]["pushes"]]
     return "" if None in times else max(times)
 
 
 def recovered(rows: list[Row]) -> str:
-    """Of how many pushes the robot recovered: six a run."""
+    """Recovered pushes of six a run."""
     return f"{sum(int(r['recovered']) for r in rows)} of {6 * len(rows)}"
 
 
@@ -53,7 +53,6 @@ BENCHMARK = Benchmark(
 
 
 def picture() -> None:
-    """Draw the ZMPs of skin and ankles over time."""
     from plantar.plotting import save_figure
     from plantar.recordings.recording import read_mcap
     from plantar.sim.figures.foothold_figure import draw_zmps

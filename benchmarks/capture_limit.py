@@ -1,18 +1,17 @@
 """The largest push that any footsteps, timing and ZMP within a robot's limits capture, by exhaustive search on the LIP.
 
-The limits are where feet may land, how fast they swing, how long supports last, and where soles can press. On the
-pendulum with DCM xi and ZMP p, xi' = w (xi - p), a push that begins at time 0 is captured by a sequence of supports if
+On the pendulum with DCM xi and ZMP p, xi' = w (xi - p), a push that begins at time 0 is captured by a sequence of
+supports if
 
     xi_0 + J g = sum_i (e^(-w a_i) - e^(-w b_i)) z_i + e^(-w b) z_end,
 
 where z_i, the ZMP's mean in the support from a_i to b_i, is any point of its polygon, and z_end, the DCM at the last
-touchdown, any point of the hull of both feet. For given times the right side is a Minkowski sum of the scaled soles and
-the steps, whose support function is a sum of theirs: a linear program in the steps and J remains, solved exactly.
-Times, and the ZMP's place between the feet in double support (the one product of unknowns), are searched on a grid and
-refined, so the only error is the grid's, which makes the limit too small.
+touchdown, any point of the hull of both feet. For given times a linear program in the steps and J remains, solved
+exactly. Times, and the ZMP's place between the feet in double support, are searched on a grid and refined, which makes
+the limit too small.
 
-Swing distances are bounded by polygons of 16 edges around a circle, at most 2 % too far. Feet take turns, as planned,
-and hips and arms do not swing: no angular momentum.
+Swing distances are bounded by polygons of 16 edges around a circle, at most 2 % too far. Feet take turns, and there is
+no angular momentum.
 """
 
 from __future__ import annotations
@@ -40,31 +39,31 @@ _FLAT = 1e-9  # weight of the steps against that of the push: of all steps that 
 
 
 def mirrored(polygon: ArrayLike) -> NDArray[np.float64]:
-    """A `polygon` or point (..., 2) in m with y reversed: of the left side as that of the right side."""
+    """A `polygon` or point (..., 2) in m with y reversed."""
     return np.asarray(polygon, dtype=float) * (1.0, -1.0)
 
 
 @dataclass(frozen=True)
 class CaptureLimits:
-    """What a robot can do. Polygons are the left foot's; the right foot has their mirror images.
+    """Limits of a robot. Polygons are the left foot's; the right foot has their mirror images.
 
     Attributes:
-        mass: Mass in kg.
+        mass: In kg.
         omega: Pendulum frequency in rad/s.
         sole: Where the ZMP may be under the left foot alone (k, 2), from the foot's origin, in m.
         region: Where the left foot may land (k, 2), from the right foot's origin, in m.
         shortest: Shortest single support in s.
         longest: Longest one in s.
-        double_support: Duration of a double support between two steps in s.
+        double_support: Duration in s between two steps.
         swing_speed: Largest mean speed of the swing foot over the ground in m/s.
-        swing_acceleration: Its largest acceleration in m/s^2, on a minimum-jerk path: from rest it covers a t^2 / 5.77.
+        swing_acceleration: Its largest in m/s^2, on a minimum-jerk path: from rest it covers a t^2 / 5.77.
         swing_sideways: Share of that acceleration to the side; in between along an ellipse.
         landing: Least time in s from the push to a touchdown.
         lasts: Duration of the push in s, at constant force; 0 for an impulse.
         height: Height in m of the push above the CoM.
-        steps: How many steps may be taken, 4 at most.
-        times: Number of durations of each single support that are tried.
-        shares: Number of places between the feet that are tried for the ZMP of each double support.
+        steps: Most steps, 4 at most.
+        times: Number of tried durations of each single support.
+        shares: Number of tried places of the ZMP between the feet in each double support.
 
     Raises:
         InputError: If a polygon is not (k, 2) with one vertex at least, or a number is out of its range.
@@ -158,8 +157,7 @@ class CaptureLimit(NamedTuple):
 
 
 class _Sequences(NamedTuple):
-    """Sequences of supports, a row each: durations (b, n) of the single supports in s, and ZMP shares (b, n) in
-    between."""
+    """Sequences of supports, a row each: durations (b, n) of the single supports in s, and ZMP shares (b, n)."""
 
     times: NDArray[np.float64]
     shares: NDArray[np.float64]
@@ -205,7 +203,7 @@ def _spread(exponent: float) -> float:
 
 
 def _connected(programs: list[_Program]) -> _Found | None:
-    """The largest push below which all are captured; None where there is none."""
+    """The largest push below which all are captured, or None."""
     found = [(f, p) for p in programs for f in p.search()]
     found.sort(key=lambda item: item[0].most, reverse=True)
     above: list[tuple[float, _Found]] = []
@@ -223,8 +221,6 @@ def _connected(programs: list[_Program]) -> _Found | None:
 
 
 class _Program:
-    """The linear programs of one push and one number of steps."""
-
     def __init__(self, limits: CaptureLimits, instant: Instant, toward: NDArray[np.float64], count: int) -> None:
         self._limits, self._instant, self._count = limits, instant, count
         soles = (limits.sole, mirrored(limits.sole))
@@ -260,7 +256,6 @@ class _Program:
         self._hessian = np.diag([1.0] + [_FLAT] * (2 * count))
 
     def search(self) -> list[_Found]:
-        """What each sequence on the grid captures, the best one refined."""
         limits, instant, n = self._limits, self._instant, self._count
         begun = max(limits.shortest, instant.elapsed + max(0.0, limits.landing - instant.double_left))
         first = np.linspace(begun, max(begun, limits.longest), limits.times)
@@ -292,7 +287,7 @@ class _Program:
         return best
 
     def _solve(self, sequences: _Sequences, wanted: float = _MOST) -> list[_Found]:
-        """What sequences capture, the push that is nearest to a wanted one; those that capture none are left out."""
+        """What sequences capture, the push nearest to a wanted one; those that capture none are left out."""
         supports, leads, circles = self._terms(sequences)
         k, n = len(self._normals), self._count
         gradient = np.zeros(1 + 2 * n)

@@ -1,7 +1,7 @@
 """Count the experiments on h1-body: `python benchmarks/companion_body.py FOLDER [CASE...]`, or `FOLDER report`.
 
-Each case is a sweep in FOLDER, on seeds from 1000 on that nothing was tuned on; stopped, it goes on where it was. With
-`report` the rows go to companion_body.csv, the counts between the markers of companion_body.md.
+Each case is a sweep in FOLDER on fresh seeds from 1000 on, continued where it was stopped. With `report` the rows go to
+companion_body.csv, the counts between the markers of companion_body.md.
 """
 
 from __future__ import annotations
@@ -45,7 +45,6 @@ COLUMNS: dict[str, tuple[str, ...]] = {
 
 
 def report(folder: Path) -> None:
-    """Gather the rows and write the table."""
     gathered, lines = [], ["| scene | completed | median (least to most) over the seeds |", "|---|---|---|"]
     for case, rows in rows_of_cases(sorted(CASES, key=lambda c: list(COLUMNS).index(c.scene)), folder):
         for row in rows:

@@ -1,7 +1,7 @@
 """Count the companion's force experiments: `python benchmarks/companion_force.py FOLDER`, or `... FOLDER report`.
 
-Each case is a sweep in FOLDER, on seeds from 1000 on that nothing was tuned on; stopped, it goes on where it was. The
-rows go to companion_force.csv, the counts between the markers of companion_force.md.
+Each case is a sweep in FOLDER on fresh seeds from 1000 on, continued where it was stopped. The rows go to
+companion_force.csv, the counts between the markers of companion_force.md.
 """
 
 from __future__ import annotations
@@ -42,7 +42,6 @@ CASES = (
 
 
 def report(folder: Path) -> None:
-    """Gather the rows and write the table."""
     gathered: list[list[str]] = []
     lines = [f"| {' | '.join(('experiment', 'completed', *SHOWN.values()))} |", "|---" * (2 + len(SHOWN)) + "|"]
     for case, rows in rows_of_cases(CASES, folder):
@@ -55,7 +54,7 @@ def report(folder: Path) -> None:
 
 
 def _figure(rows: list[Row], column: str) -> str:
-    """Median and range of a figure; 0 of these two says that there was no contact, or always one."""
+    """Median and range of a figure; 0 of both: no contact, or always one."""
     if column in ("force_max_N", "distance_error_max_mm") and not any(float(r[column] or 0.0) for r in rows):
         return "-"
     return median_and_range(rows, column)

@@ -65,7 +65,7 @@ Medians of ticks in turn on one core.
 
 
 def library(name):
-    """A library, or None with a line on how to get it."""
+    """A library, or None after a line on how to get it."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -147,8 +147,6 @@ def pinocchio_model(pin, model):
 
 
 class Tsid:
-    """The same stack in tsid."""
-
     def __init__(self, tsid, pin, case):
         self.tsid, self.case, model = tsid, case, case.model
         kind = tsid.FLOATING_BASE_SYSTEM if case.free else tsid.FIXED_BASE_SYSTEM
@@ -195,7 +193,7 @@ class Tsid:
         self.gains(0.0)
 
     def gains(self, share):
-        """Feedback of the tasks: none where the companion's references are compared, full where time is."""
+        """Feedback of the tasks: zero where references are compared, full where time is."""
         kinds = (self.pose, 6, 100.0), (self.com, 3, 50.0), (self.posture, len(self.order), 50.0)
         for task, size, stiffness in kinds:
             task.setKp(np.full(size, share * stiffness))
@@ -218,7 +216,7 @@ class Tsid:
         return q, v
 
     def refer(self, pose, com, posture):
-        """Set the accelerations that the tasks shall have."""
+        """Set the wanted accelerations of the tasks."""
         at, second, joints = self.samples
         home = np.eye(3)
         at.value(np.hstack([np.zeros(3), home.flatten("F")]))
@@ -358,7 +356,6 @@ def against_mink(case, mink):
 
 
 def main():
-    """Compare and time all that is there, and write the tables."""
     cases = [Case("mobile-arm"), Case("h1-body", FEET[:1]), Case("h1-body", FEET)]
     pin, mink = library("pinocchio"), library("mink")
     tsid = library("tsid.tsid_pywrap") if pin else None
@@ -380,7 +377,6 @@ def named(case):
 
 
 def torque_table(cases, tsid, pin):
-    """Lines of the table of tsid."""
     version = f"tsid {importlib.metadata.version('tsid')}, pinocchio {pin.__version__}"
     head = "| robot | accelerations differ by | torques by | tick | tsid | with limits, none acts | one acts |"
     lines = [f"## Torques: {version}", "", head, "|---|---|---|---|---|---|---|"]
@@ -394,7 +390,6 @@ def torque_table(cases, tsid, pin):
 
 
 def velocity_table(cases, mink):
-    """Lines of the table of mink."""
     head = "| robot | velocities differ by | tick | mink |"
     lines = [
         f"## Velocities: mink {importlib.metadata.version('mink')}, compared by quadprog, timed with daqp",

@@ -1,7 +1,8 @@
-"""Time of a control tick over the number of touched instances, with and without skipping those that are silent.
+"""Time of a control tick over the number of touched instances, with and without skipping silent ones.
 
-The machine is h1-body on its left leg with the thirteen instances of `multi-contact` (T 3.2.4.1). Readings are made up:
-three taxels in the middle of each touched instance feel 2 N. Both controllers get the same state and reading in turn.
+The machine is h1-body on its left leg with the thirteen instances of `multi-contact` (T 3.2.4.1). In made readings
+three taxels in the middle of each touched instance measure 2 N. Both controllers get the same state and reading in
+turn.
 
     OMP_NUM_THREADS=1 python benchmarks/companion_ticks.py        (writes companion_ticks.md and companion_ticks.png)
 """
@@ -42,7 +43,7 @@ class NeverSilent(DirectInteraction):
 
 
 def reading(skin: BodySkin, names: list[str]) -> SkinReading:
-    """What the skin says when instances are touched."""
+    """The skin's reading when instances are touched."""
     force = np.zeros(len(skin))
     for name in names:
         patch = skin.patch(MultiContact.instances[name][0])
@@ -51,7 +52,6 @@ def reading(skin: BodySkin, names: list[str]) -> SkinReading:
 
 
 def main() -> None:
-    """Measure, write the table and draw the figure."""
     companion = Companion(open_scene("multi-contact"), 0)
     experiment, robot = companion.experiment, companion.robot
     skin = companion.controller.skin
@@ -86,7 +86,6 @@ def main() -> None:
 
 
 def draw(table: NDArray[np.float64]) -> None:
-    """Draw the times over the number touched."""
     figure, axes = new_figure(7.0, 4.0)
     axes.plot(table[:, 0], table[:, 2], "s--", color=COLOURS["right"], label="every instance computed")
     axes.plot(table[:, 0], table[:, 1], "o-", color=COLOURS["left"], label="silent instances skipped")

@@ -1,7 +1,4 @@
-"""How far forces and impacts depend on the simulation's settings: `python benchmarks/convergence.py`.
-
-The same walk with one setting of the physics changed at a time. Writes the table of convergence.md.
-"""
+"""How forces and impacts depend on one setting of the physics at a time: `python benchmarks/convergence.py`."""
 
 from __future__ import annotations
 
@@ -55,7 +52,6 @@ CASES: dict[str, tuple[str, Change]] = {
 
 
 def walk(robot: str, name: str) -> dict[str, Any]:
-    """Summary of the walk with one setting changed."""
     period, change = CASES[name]
     scene = load_scene(SCENE, [f"steps={STEPS}", f"control.physics_period={period}"], robot=robot)
 

@@ -1,12 +1,11 @@
 """Shoes for twelve difficult feet, each in small rotations: the table of difficult_feet.md.
 
-`python benchmarks/difficult_feet.py [TURNS] [FOOT...]` builds and exports what is missing in difficult_feet.csv, the
-left shoe of each foot in so many rotations (the first is none), and writes the table; stopped, it goes on where it was.
-`... difficult_feet.py 0` writes the table. The feet are those of tests/shoes/foot_family.py, and each shoe that passes
-its own checks is looked at by tests/shoes/shoe_witness.py, which shares no code with what makes it.
+`python benchmarks/difficult_feet.py [TURNS] [FOOT...]` builds what is missing in difficult_feet.csv, the left shoe of
+each foot (tests/shoes/foot_family.py) in so many rotations (the first is none), and writes the table; 0 only writes it.
+A shoe that passes its own checks is checked by tests/shoes/shoe_witness.py, which shares no code with it.
 
-An outcome is `holds`; `refused`, not a foot; `reported`, a shoe whose checks do not hold (exit code 1);
-`hidden`, one whose checks hold and the witness finds a fault; or `crashed`, any other exception.
+An outcome is `holds`; `refused`, not a foot; `reported`, a shoe whose checks do not hold (exit code 1); `hidden`, one
+whose checks hold and the witness finds a fault; or `crashed`, any other exception.
 """
 
 from __future__ import annotations
@@ -71,7 +70,6 @@ def shoe_of(name: str, turn: int) -> dict[str, Any]:
 
 
 def rows() -> dict[tuple[str, int], dict[str, str]]:
-    """The last row of each foot and turn."""
     if not TABLE.exists():
         return {}
     with TABLE.open(encoding="utf-8", newline="") as file:
@@ -79,7 +77,6 @@ def rows() -> dict[tuple[str, int], dict[str, str]]:
 
 
 def run(turns: int, names: list[str]) -> None:
-    """Build what is missing, turn by turn."""
     for turn, name in product(range(turns), names or sorted(FAMILY)):
         if (name, turn) not in rows():
             row, new = shoe_of(name, turn), not TABLE.exists()
@@ -92,7 +89,6 @@ def run(turns: int, names: list[str]) -> None:
 
 
 def report() -> None:
-    """Write the table."""
     lines = ["| foot | turns | holds | refused | reported | hidden | crashed | taxels / bound | flat, half % | s |"]
     lines.append("|---|---|---|---|---|---|---|---|---|---|")
     found = rows()

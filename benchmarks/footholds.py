@@ -1,7 +1,4 @@
-"""Count what the soles' view of a foothold is worth: the table of footholds.md, the map footholds_map.png.
-
-`python benchmarks/outcomes.py MINUTES footholds` runs what is missing in footholds.csv and writes both.
-"""
+"""What the soles' view of a foothold is worth, and a map: `python benchmarks/outcomes.py MINUTES footholds`."""
 
 from __future__ import annotations
 
@@ -46,7 +43,6 @@ MAP_SEEDS = 2
 
 
 def cases() -> list[Case]:
-    """Everything there is to run."""
     found: list[Case] = []
     for name, scene, settings, seeds in LINES:
         off = BLIND.get(scene, "footholds=off")
@@ -75,7 +71,6 @@ COLUMNS = {
 
 
 def report() -> None:
-    """Write the table between its markers, and draw the map."""
     rows = latest(rows_of(BENCHMARK.path))
     lines = [
         f"| scene | robot | soles' view | {' | '.join(HEADS)} | smallest true share of the sole "
@@ -108,7 +103,6 @@ def report() -> None:
 
 
 def _draw_map(rows: list[dict[str, str]]) -> None:
-    """Draw the share of crossings over beam width and disturbance."""
     from plantar.plotting import new_figure, save_figure
 
     names = [name for name, _ in DISTURBANCES]

@@ -31,7 +31,7 @@ VARIANTS: list[tuple[str, tuple[str, ...], bool, tuple[str, ...]]] = [
 
 
 def steps_of_failed(rows: list[Row]) -> str:
-    """Steps that the runs took which were not completed."""
+    """Steps of the runs that were not completed."""
     return ", ".join(sorted((r["steps_taken"] for r in rows if r["completed"] != "True"), key=int)) or "-"
 
 

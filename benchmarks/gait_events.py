@@ -71,7 +71,6 @@ def half_sine(share: Array) -> Array:
 
 
 def sets(recordings: Path | None) -> Iterator[tuple[str, list[Walk]]]:
-    """Every set by its name."""
     for kind in ("insole", "plate"):
         for name, stride, stance in (
             ("fast", 0.95, 0.56),
@@ -122,7 +121,6 @@ def sets(recordings: Path | None) -> Iterator[tuple[str, list[Walk]]]:
 
 
 def ours(time: Array, force: Array, kind: str) -> tuple[Array, Array]:
-    """The events of `plantar analyze`."""
     levels = force_levels(force, "plate" if kind == "plate" else "insole")
     found = [] if levels is None else find_contacts(time, force, levels)
     strikes = [c.heel_strike for c in found if c.heel_strike is not None]
@@ -159,7 +157,6 @@ def table(finder: Finder, recordings: Path | None) -> list[str]:
 
 
 def main() -> None:
-    """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--recordings", default=os.environ.get("PLANTAR_REAL_DATA"), help="folder of recordings")
     parser.add_argument("--with", dest="other", help="module:function of another algorithm")

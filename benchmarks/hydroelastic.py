@@ -1,9 +1,8 @@
 """Both taxel models against Drake's hydroelastic contact: `python benchmarks/hydroelastic.py`, with the extra `bench`.
 
-A compliant sole, `THICKNESS` thick and of `MODULUS`, is pressed onto rigid ground in random poses. Drake integrates its
-pressure field; what falls on each cell is the truth of that taxel. The models get what the simulator gives them: the
-contact points of a rigid sole in the same pose, and the force and centre of pressure of the same field. Writes the
-table of hydroelastic.md and its picture.
+A compliant sole, `THICKNESS` thick and of `MODULUS`, is pressed onto rigid ground in random poses. Drake's pressure on
+each cell is the truth of that taxel. The models get the simulator's input: contact points of a rigid sole in the same
+pose, and the field's force and centre of pressure.
 """
 
 from __future__ import annotations
@@ -199,7 +198,6 @@ def errors(name: str, layout: SoleLayout, models: dict[str, Any]) -> tuple[dict[
 
 
 def draw(layout: SoleLayout, examples: dict[str, dict[str, NDArray[np.float64]]]) -> None:
-    """One row a shape, one column a model: the last pose of each."""
     from matplotlib.collections import PolyCollection
     from matplotlib.figure import Figure
 

@@ -1,4 +1,4 @@
-"""Walks of robots of which `plantar robot` had the model alone: the table of introduced_robots.md.
+"""Walks of robots that `plantar robot` introduced from their models: the table of introduced_robots.md.
 
 `python benchmarks/outcomes.py MINUTES introduced_robots` makes the robots of `PLANTAR_REAL_DATA` and runs what is
 missing.
@@ -30,12 +30,10 @@ SCENES: dict[str, tuple[str, ...]] = {"flat": (), "push": ("push.dv=0.15",), "be
 
 
 def robot_file(name: str) -> Path:
-    """Where the file of a robot is."""
     return MADE / name.replace(" ", "-") / "robot.toml"
 
 
 def impacts(simulation: Any, out: dict[str, Any]) -> list[float]:
-    """Impacts of a run in body weights."""
     return [force / simulation.body.weight for force in out["impacts_N"]] or [0.0]
 
 
@@ -66,7 +64,7 @@ BENCHMARK = Benchmark(
 
 
 def introduce(data: Path) -> None:
-    """Make the robot files again from the models in a folder, by the command that a user has."""
+    """Make the robot files again from the models in a folder, by the user's command."""
     for name, model in MODELS.items():
         command = [sys.executable, "-m", "plantar", "robot", str(data / model), "-o", str(robot_file(name).parent)]
         subprocess.run(command, cwd=FOLDER.parent, check=True, stdout=subprocess.DEVNULL)

@@ -1,5 +1,4 @@
-"""Run time against error of one inverse-kinematics tick: the Newton step of
-`plantar.robots.kinematics.inverse_kinematics`, compared with mink.
+"""Run time against error of one Newton step of `plantar.robots.kinematics.inverse_kinematics`, compared with mink.
 
 Both follow the commands of the same four-step walk at 200 Hz, one step a tick, warm-started from the last tick.
 
@@ -24,7 +23,6 @@ SIDES = ("left", "right")
 
 
 def walk_commands():
-    """Commands of a short walk, and the configuration it starts from."""
     simulation = Simulation(load_scene("flat", ["steps=4"]))
     start = simulation.legs.configuration
     commands = []
@@ -40,7 +38,6 @@ def walk_commands():
 
 
 def upright(heading):
-    """Rotation of the upright torso."""
     c, s = math.cos(heading), math.sin(heading)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
@@ -63,7 +60,6 @@ def task_error(model, data, qpos, command):
 
 
 def ours(robot, commands, start, iterations):
-    """Times in us and errors of the Newton steps."""
     legs = build_leg_model(robot)
     probe = mujoco.MjData(legs.model)
     legs.set_configuration(start[:3], start[3:7], start[7:])
@@ -80,7 +76,6 @@ def ours(robot, commands, start, iterations):
 
 
 def with_mink(robot, commands, start, solver):
-    """Times in us and errors of mink's QP."""
     model = robot_spec(robot).compile()
     probe = mujoco.MjData(model)
     configuration = mink.Configuration(model)
@@ -107,7 +102,6 @@ def with_mink(robot, commands, start, solver):
 
 
 def main() -> None:
-    """Measure and write the table."""
     robot = load_robot("h1")
     commands, start = walk_commands()
     rows = [

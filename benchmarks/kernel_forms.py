@@ -1,7 +1,7 @@
-"""Ways to run a kernel of plain Python: interpreted, compiled ahead of time by Cython, compiled at run time by numba.
+"""Ways to run a kernel of plain Python: interpreted, compiled ahead of time by Cython, at run time by numba.
 
-Prints the table of kernel_forms.md. The function is the same source each time, `plantar/kernels/geometry/convex.py`'s
-area and closest point of a polygon of 20 vertices. numba is measured where it is installed; Plantar does not need it.
+Prints the table of kernel_forms.md for `plantar/kernels/geometry/convex.py`'s area and closest point of a polygon of 20
+vertices. numba is measured where it is installed; Plantar does not need it.
 
     python benchmarks/kernel_forms.py
 """
@@ -34,7 +34,7 @@ def microseconds(call) -> float:
 
 
 def import_milliseconds(statement: str, after: str) -> float:
-    """Median time in ms that an import takes in a fresh interpreter that has imported what it rests on."""
+    """Median time in ms of an import in a fresh interpreter that has imported its dependencies."""
     code = f"{after}\nimport time\nstart = time.perf_counter()\n{statement}\nprint(time.perf_counter() - start)"
     runs = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True) for _ in range(5)]
     return 1e3 * statistics.median(float(run.stdout) for run in runs)
@@ -52,7 +52,6 @@ def megabytes(*names: str) -> float:
 
 
 def rows():
-    """A row of the table for each form."""
     source = kernels.python_form("convex")
     after = "import numpy"
     python = "import os; os.environ['PLANTAR_KERNELS'] = 'python'; import numpy; import plantar.kernels"
@@ -105,7 +104,6 @@ def rows():
 
 
 def main() -> None:
-    """Print the table."""
     print("| form | area [us] | closest point [us] | import after numpy [ms] | first call [ms] | installed [MB] |")
     print("|---|---|---|---|---|---|")
     for name, *values in rows():

@@ -1,9 +1,7 @@
 """Where robots break, by `plantar sweep --limit`: `benchmarks/limits.py FOLDER [ROBOT-SCENE ...]`.
 
-Finds the push from each side, over the one foot and the other, and the beam's width at which half of the runs are
-completed, on fresh seeds, to a tenth at 95 %, and writes limits.md beside this file. FOLDER keeps the rows: what was
-stopped goes on there. Runs as many processes as there are cores; runs and processor time are outcome, since a machine's
-other work does not change these.
+Finds the push from each side, over one foot and the other, and the beam's width at which half of the runs are
+completed, on fresh seeds, to a tenth at 95 %. FOLDER keeps the rows of a stopped search.
 """
 
 from __future__ import annotations
@@ -34,13 +32,12 @@ SEARCHES = {
 
 
 def processor_time() -> float:
-    """Processor time in s of this process and the workers that it waited for."""
+    """In s, of this process and its finished workers."""
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return sum(u.ru_utime + u.ru_stime for u in used)
 
 
 def main(folder: Path, names: list[str]) -> None:
-    """Search the limits and write the table."""
     lines = [
         "| scene | robot | limit | 95 % interval | width | runs | completed | processor time of a run [s] |",
         "|---|---|---|---|---|---|---|---|",

@@ -1,12 +1,11 @@
 """Make the tables of outcomes: `python benchmarks/outcomes.py MINUTES [TABLE...]`.
 
-Runs what the tables still lack, a row of TABLE.csv a run, the runs that tell most first, and writes the tables;
-stopped, it goes on where it was. `... drop TABLE...` first drops the rows that were made at another commit than the one
-that is checked out; `... report [TABLE...]` only writes the tables. Without names it means all of them. A row's commit
-is what is checked out, so run it in a worktree that nobody changes: `git worktree add ../tables`. `... again COUNT
-[TABLE...]` runs so many rows, drawn by chance, once more, and says which have another outcome or figure: those of
-another processor may differ in the last digits. Several processes share the work when each has tables of its own.
-Robots that are not built in come from `PLANTAR_REAL_DATA`; without it their rows wait.
+Runs what the tables (by default all) still lack, a row of TABLE.csv a run, the most informative runs first, and writes
+the tables. `... drop TABLE...` first drops the rows of other commits; `... report [TABLE...]` only writes the tables;
+`... again COUNT [TABLE...]` runs so many random rows once more and lists those with another outcome or figure: another
+processor may differ in the last digits. A row's commit is what is checked out, so run it in a worktree that does not
+change: `git worktree add ../tables`. Several processes can share the work by tables. Robots that are not built in come
+from `PLANTAR_REAL_DATA`; without it their rows wait.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ def missing(script: ModuleType) -> Iterator[tuple[int, Case, tuple[str, int]]]:
 
 
 def drop_other_commits(benchmark: Benchmark, made: str) -> int:
-    """Keep only the rows that were made at a commit; return how many are dropped."""
+    """Keep only the rows of a commit; return how many are dropped."""
     rows = rows_of(benchmark.path)
     kept = [r for r in rows if r["commit"] == made]
     if rows:
@@ -70,7 +69,6 @@ def run(scripts: Sequence[ModuleType], minutes: float) -> None:
 
 
 def again(scripts: Sequence[ModuleType], count: int) -> bool:
-    """Run some rows once more."""
     known = {}
     for script in scripts:
         cases = {(c.name, c.robot): c for c in script.BENCHMARK.cases if not c.file or Path(c.file).exists()}
@@ -93,7 +91,6 @@ def again(scripts: Sequence[ModuleType], count: int) -> bool:
 
 
 def main(arguments: Sequence[str]) -> None:
-    """Do what the command line says."""
     first, names = (arguments[0], arguments[1:]) if arguments else ("", ())
     count, names = (names[0], names[1:]) if first == "again" and names else ("", names)
     names = names or TABLES

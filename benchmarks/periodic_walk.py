@@ -20,10 +20,10 @@ class PeriodicWalk:
 
     Attributes:
         omega: Pendulum frequency in rad/s.
-        length: How far a foot lands ahead of the other one in m; 0 in place.
+        length: Way of a foot ahead of the other one in m; 0 in place.
         width: Distance in m between the feet's lines.
         single: Duration of a single support in s, above 0.
-        double: Duration of a double support in s, 0 or more; the ZMP moves at constant speed.
+        double: Duration of a double support in s; the ZMP moves at constant speed.
         zmp: ZMP under the left foot alone (2,) in m; mirrored under the right one.
     """
 
@@ -42,8 +42,7 @@ class PeriodicWalk:
             )
 
     def instant(self, phase: float, side: Side = "left") -> Instant:
-        """The walk at a `phase` of a step, 0 to 1 from its double support on, with its single support on the foot of a
-        `side`."""
+        """The walk at a `phase` of a step, 0 to 1 from its double support on, whose single support is on a `side`."""
         if not 0.0 <= phase <= 1.0:
             raise InputError(f"phase of a step is {phase}; allowed: 0 to 1")
         flip = np.array((1.0, 1.0 if side == "left" else -1.0))
@@ -62,7 +61,7 @@ class PeriodicWalk:
         return Instant(side, dcm * flip, swing * flip, elapsed, left, velocity * flip)
 
     def _begin(self) -> NDArray[np.float64]:
-        """DCM (2,) at the begin of the left foot's single support, from that foot; a step later it is mirrored."""
+        """DCM (2,) at the begin of the left foot's single support, from that foot."""
         zmp, step = np.array(self.zmp), np.array((self.length, -self.width))
         last = step + mirrored(self.zmp)
         w = self.omega
@@ -75,7 +74,7 @@ class PeriodicWalk:
         return np.asarray((step - fixed) / (by_single * by_double - np.array((1.0, -1.0))))
 
     def _swayed(self, time: float) -> NDArray[np.float64]:
-        """DCM (2,) in the double support before, from the left foot, which is about to stand alone."""
+        """DCM (2,) in the double support before, from the left foot."""
         first = np.array((-self.length, -self.width)) + mirrored(self.zmp)
         speed = (np.array(self.zmp) - first) / self.double
         now, end = first + speed * time, np.array(self.zmp)
@@ -86,8 +85,7 @@ class PeriodicWalk:
 def capture_map(
     limits: CaptureLimits, walk: PeriodicWalk, directions: int = 8, phases: int = 8, side: Side = "left"
 ) -> NDArray[np.float64]:
-    """Largest captured impulses (phases, directions) in N s of a walk: directions from forward to the left and round,
-    phases from the begin of a step's double support on."""
+    """Largest captured impulses (phases, directions) in N s of a walk, from forward to the left and round."""
     if walk.omega != limits.omega:
         raise InputError(f"pendulum frequency of the walk is {walk.omega} rad/s, that of the limits {limits.omega}")
     angles = 2.0 * math.pi * np.arange(directions) / directions

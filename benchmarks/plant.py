@@ -1,8 +1,8 @@
-"""Count what a plant that differs from the controller's model does to walks: the tables of plant.md and plant.png.
+"""What a plant that differs from the controller's model does to walks: the tables of plant.md and plant.png.
 
-Each item of `[plant]` is drawn alone at growing levels, and all that a robot has that was built with care together at
-level 2 in every walk that is built in: `python benchmarks/outcomes.py MINUTES plant`. Items alone are a map of where to
-look, 28 seeds a row: eight a cell at levels 2 and 3, and `FEW` below, where of 1,560 runs none failed.
+Each item of `[plant]` is drawn alone at growing levels, and all of a carefully built robot together at level 2 in every
+built-in walk: `python benchmarks/outcomes.py MINUTES plant`. Items alone have 28 seeds a row: eight a cell at levels 2
+and 3, and `FEW` below, where of 1,560 runs none failed.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def _cases() -> list[Case]:
 
 
 def outcome(rows: Sequence[dict[str, str]], name: str, robot: str) -> tuple[int, int]:
-    """How many runs of a case were completed, and how many there are."""
+    """Completed runs of a case, and all."""
     mine = [r["completed"] == "True" for r in rows if r["case"] == name and r["robot"] == robot]
     return sum(mine), len(mine)
 
@@ -75,7 +75,6 @@ def limit_text(item: str) -> str:
 
 
 def table_alone(rows: Sequence[dict[str, str]]) -> list[str]:
-    """Completed runs of each item alone at each level; only what was run."""
     lines = [f"| item, its limit at level 2 | walk | robot | {' | '.join(f'level {v:g}' for v in LEVELS)} |"]
     lines.append("|---|---|---|" + "---|" * len(LEVELS))
     for item in Plant.items():
@@ -89,7 +88,7 @@ def table_alone(rows: Sequence[dict[str, str]]) -> list[str]:
 
 
 def table_together(rows: Sequence[dict[str, str]]) -> list[str]:
-    """Completed runs with everything drawn together, by walk and robot; only what was run."""
+    """Completed runs with everything drawn together, by walk and robot."""
     lines = [
         f"| walk | robot | {' | '.join(HEADS).replace('older ground, exact', 'older ground, drawn')} |",
         "|---|---|---|---|---|",
@@ -103,7 +102,7 @@ def table_together(rows: Sequence[dict[str, str]]) -> list[str]:
 
 
 def draw(rows: Sequence[dict[str, str]], path: Path) -> None:
-    """Draw where each item breaks: a panel for each walk and robot that was run, a row for each item."""
+    """Draw where each item breaks: a panel for each walk and robot, a row for each item."""
     import numpy as np
 
     from plantar.plotting import new_figure, save_figure
@@ -140,7 +139,6 @@ def draw(rows: Sequence[dict[str, str]], path: Path) -> None:
 
 
 def report() -> None:
-    """Write the tables between their markers in plant.md, and the figure."""
     rows = latest(rows_of(BENCHMARK.path))
     write_table(FOLDER / "plant.md", [*table_alone(rows), "", origin(BENCHMARK)], "alone")
     write_table(FOLDER / "plant.md", table_together(rows), "together")

@@ -2,9 +2,8 @@
 
     python benchmarks/pressure_definitions.py RECORDINGS [-o benchmarks/pressure_definitions.md]
 
-RECORDINGS is a folder. pressuRe itself is not run: its definitions, read from its documentation and source, are
-computed here from the frames as they are read: sums times frame time, cells above 0 of a platform and above 10 kPa of
-an insole, steps of insoles from 30 N to 30 N.
+pressuRe is not run: its definitions are computed here from the frames: sums times frame time, cells above 0 of a
+platform and above 10 kPa of an insole, steps of insoles from 30 N to 30 N.
 """
 
 from __future__ import annotations
@@ -70,7 +69,7 @@ def theirs(analysis: Analysis, gait: FootGait, step: Step, between_ours: bool = 
 
 
 def reason(key: str, ours: float, other: float, cut: float, gait: FootGait) -> str:
-    """Why a measure differs by more than 1 %, with what cutting steps elsewhere makes of it and what the rest is."""
+    """Why a measure differs by more than 1 %: what cutting steps elsewhere makes of it, and the rest."""
     if abs(ours / other - 1.0) <= 0.01:
         return ""
     levels, layout = gait.levels, gait.foot.layout
@@ -93,7 +92,6 @@ def reason(key: str, ours: float, other: float, cut: float, gait: FootGait) -> s
 
 
 def rows_of(path: Path) -> list[str]:
-    """The table's rows of one recording."""
     analysis, out = analyse(path), []
     for side, gait in analysis.feet.items():
         if gait.foot.layout is None:
@@ -112,7 +110,6 @@ def rows_of(path: Path) -> list[str]:
 
 
 def main() -> None:
-    """Write the table of all recordings of a folder that hold steps."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("recordings", type=Path)
     parser.add_argument("-o", type=Path, default=Path(__file__).with_suffix(".md"))

@@ -69,11 +69,11 @@ SCENES: dict[str, tuple[str, ...]] = {
 
 
 def command(*words: str) -> tuple[subprocess.CompletedProcess[str], float]:
-    """Run `plantar` with some words; gives what it printed and its processor time in s."""
+    """Run `plantar` with some words; returns its result and its processor time in s."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    told = {**os.environ, "MUJOCO_GL": "egl"}
+    environment = {**os.environ, "MUJOCO_GL": "egl"}
     done = subprocess.run(
-        [sys.executable, "-m", "plantar", *words], cwd=FOLDER.parent, env=told, capture_output=True, text=True
+        [sys.executable, "-m", "plantar", *words], cwd=FOLDER.parent, env=environment, capture_output=True, text=True
     )
     return done, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
@@ -87,7 +87,6 @@ def introduced(name: str, model: Path) -> dict[str, object]:
 
 
 def walked(name: str, scene: str, seed: int) -> dict[str, object]:
-    """The row of a robot in a scene."""
     file = str(MADE / name / "robot.toml")
     checked, _ = command("robot", "check", file, "--scene", scene)
     settings = [word for text in SCENES[scene] for word in ("--set", text)]
@@ -101,7 +100,6 @@ def walked(name: str, scene: str, seed: int) -> dict[str, object]:
 
 
 def run(folder: Path, minutes: float) -> None:
-    """Work on what is missing: first every robot's introduction and level walk, then scene by scene."""
     began, made = time.monotonic(), commit()
     seed = drawn_seeds(made, 1)[0]
     for scene, name in product(SCENES, MODELS):
@@ -123,7 +121,6 @@ def run(folder: Path, minutes: float) -> None:
 
 
 def report() -> None:
-    """Write the table of outcomes, and that of predictions, between their markers in public_robots.md."""
     rows = {(r["robot"], r["case"]): r for r in rows_of(CSV)}
     marks = {"True": "yes", "False": "no"}
     lines = [f"| robot | introduced, s | {' | '.join(SCENES)} |", "|---" * (len(SCENES) + 2) + "|"]
@@ -147,13 +144,12 @@ def report() -> None:
     table = ["| prediction of the check | completed | failed |", "|---|---|---|"]
     for predicted in ("True", "False"):
         mine = [r["completed"] for r in rows.values() if r["predicted"] == predicted]
-        told = "nothing would go wrong" if predicted == "True" else "something would"
-        table.append(f"| {told} | {mine.count('True')} | {mine.count('False')} |")
+        words = "nothing would go wrong" if predicted == "True" else "something would"
+        table.append(f"| {words} | {mine.count('True')} | {mine.count('False')} |")
     write_table(FOLDER / "public_robots.md", [*lines, "", *table])
 
 
 def main(arguments: Sequence[str]) -> None:
-    """Do what the command line asks for."""
     if len(arguments) != 2 or not arguments[1].replace(".", "", 1).isdigit():
         sys.exit(f"public_robots.py: FOLDER MINUTES; got {list(arguments)}")
     run(Path(arguments[0]), float(arguments[1]))

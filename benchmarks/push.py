@@ -1,7 +1,4 @@
-"""Count what feedback, and steps that move, are worth under pushes: the table of push.md and its bars push.png.
-
-`python benchmarks/outcomes.py MINUTES push` runs what is missing in push.csv and writes both.
-"""
+"""What feedback, and steps that move, are worth under pushes: `python benchmarks/outcomes.py MINUTES push`."""
 
 from __future__ import annotations
 
@@ -50,7 +47,6 @@ def _cases() -> list[Case]:
 
 
 def report() -> None:
-    """Write the table between its markers in push.md, and the bars."""
     from plantar.plotting import COLOURS, new_figure, save_figure
 
     rows = rows_of(BENCHMARK.path)

@@ -48,7 +48,7 @@ WEIGHTS, DSP_WEIGHTS = StepWeights(), DspWeights()
 
 
 def timed(function, cases) -> np.ndarray:
-    """Least of three times (n,) of each call in us: what else the machine does is no part of it."""
+    """Least of three times (n,) of each call in us."""
     out = []
     for case in cases:
         best = math.inf
@@ -61,7 +61,7 @@ def timed(function, cases) -> np.ndarray:
 
 
 def single_supports(rng, count) -> list[SspProblem]:
-    """A robot that steps in place and is pushed anyhow, up to 60 N s, anywhere in a single support."""
+    """A robot that steps in place under random pushes, up to 60 N s, in a single support."""
     rules = StepRegionRules(forward=0.2, backward=0.2, clearance=0.01, outside=0.27)
     found = []
     for _ in range(count):
@@ -95,7 +95,7 @@ def single_supports(rng, count) -> list[SspProblem]:
 
 
 def double_supports(rng, count) -> list[DspProblem]:
-    """A robot that shifts its weight by 0.2 m to the side and is pushed anyhow, up to 60 N s."""
+    """A robot that shifts its weight by 0.2 m to the side under random pushes, up to 60 N s."""
     end, goal, found = np.array([0.0, 0.2]), None, []
     for _ in range(count):
         begun, angle = rng.uniform(0.0, 0.15), rng.uniform(0.0, 2.0 * math.pi)
@@ -158,7 +158,7 @@ def dsp_cost(p: DspProblem):
 
 
 def compared_with_lbfgs(problems, solve, cost_of, start_of, place_of, gradient):
-    """Rows of the table: ours and L-BFGS-B, with time, and how much more it costs than the least that was found."""
+    """Rows of the table: ours and L-BFGS-B, with time and cost over the least found."""
     prepared = [(cost_of(p), start_of(p)) for p in problems]
     ours = [solve(p) for p in problems]
 
@@ -179,7 +179,7 @@ def compared_with_lbfgs(problems, solve, cost_of, start_of, place_of, gradient):
 
 
 def pushed_ticks(rng, count, most) -> list[Tick]:
-    """A robot that steps in place and whose DCM is moved by up to some m, anywhere in the middle of a step."""
+    """A robot that steps in place and whose DCM is moved by up to some m in the middle of a step."""
     feet, steps = straight_plan(8, length=0.0)
     plan = WalkPlan(feet, steps, Timing(), dict.fromkeys(SIDES, np.zeros(2)), OMEGA, 1.0)
     phase = next(p for p in plan.schedule.phases if p.swing and p.step == 3)
@@ -268,7 +268,6 @@ def closed_form_errors(rng, count=200) -> tuple[float, float]:
 
 
 def capture_times():
-    """Rows of the table of capture maps."""
     region = np.array([[-0.2, 0.15], [0.25, 0.15], [0.25, 0.33], [-0.2, 0.33]])
     for steps, times in ((1, 8), (2, 8), (3, 5)):
         limits = CaptureLimits(
@@ -281,7 +280,6 @@ def capture_times():
 
 
 def main() -> None:
-    """Measure and write the table."""
     rng = np.random.default_rng(0)
     lines = [
         "# Force-reactive walking: run time, residuals, and the paper's solver",

@@ -1,4 +1,4 @@
-"""What a scene may choose of the reactive layer: `python benchmarks/outcomes.py MINUTES reactive_options`.
+"""Choices of the reactive layer: `python benchmarks/outcomes.py MINUTES reactive_options`.
 
 The path of the swing foot (`control.swing_shape`) and the estimate of the CoM's velocity (`control.dcm_estimate`), on
 the same scenes and seeds, against the true motion.
@@ -25,7 +25,6 @@ STANDS = 2.0  # s until the estimator has averaged gravity and the first weight 
 
 
 def errors(simulation: Any, out: dict[str, Any]) -> dict[str, float]:
-    """Errors of the estimated velocity and DCM against the true motion."""
     run = read_mcap(out["recording"])
     estimate, truth = run.topics["/estimate"], run.topics["/truth/body"]
     com, walks = truth.fields["com"][:, :2], truth.time > STANDS
@@ -40,7 +39,7 @@ def errors(simulation: Any, out: dict[str, Any]) -> dict[str, float]:
 
 
 def farthest(simulation: Any, out: dict[str, Any]) -> float:
-    """How far the largest change of a step went, or the end is off, in m."""
+    """Largest change of a step, or error of the end, in m."""
     return float(max(out.get("push", {}).get("step_changes_m", []), default=out["final"]["position_error_m"]))
 
 

@@ -1,8 +1,7 @@
 """How much faster than real time the scenes run on one core: `benchmarks/real_time.py [RUNS]`, three runs as a rule.
 
-Everything a scene needs is in it: physics, sensors with noise, controller, judge. Runs all scenes, one after another in
-one process, then all again, so that a slow minute of the machine meets each scene once, and writes real_time.md beside
-this file. Needs a core of its own: beside other work the figures are too low.
+Physics, sensors with noise, controller and judge are included. Scenes take turns, so that a slow minute of the machine
+meets each once. Needs a core without other work.
 """
 
 from __future__ import annotations
@@ -39,15 +38,12 @@ SCENES = (
 
 
 class Cost(NamedTuple):
-    """What one run cost."""
-
     factor: float  # simulated time over CPU time
     p50: float  # us of a control tick
     p99: float
 
 
 def cost(scene: str, robot: str, settings: tuple[str, ...]) -> Cost:
-    """Run a scene once."""
     from plantar.sim.run.runner import Simulation
     from plantar.sim.run.scene import load_scene
 
@@ -59,7 +55,6 @@ def cost(scene: str, robot: str, settings: tuple[str, ...]) -> Cost:
 
 
 def main(runs: int) -> None:
-    """Run all scenes and write the table."""
     seen: list[list[Cost]] = [[] for _ in SCENES]
     for turn in range(runs):
         for costs, scene in zip(seen, SCENES, strict=True):

@@ -1,10 +1,9 @@
-"""Outcomes of scenes over seeds, by runs that may be stopped: a row a run, appended as it ends, never changed.
+"""Outcomes of scenes over seeds: a row a run, appended as it ends, never changed.
 
-A case is counted on two plants: one that the seed draws within what a robot has that was built with care
-(`plant=random`, `level=1`), and one that is exactly the controller's model. Seeds are drawn from the commit, so that no
-version of the code has seen them before, and the first draw is what is published. Rows without a plant are of the
-older ground and judge, on an exact plant and on seeds that were the same at every commit; they have a column of their
-own until they are counted again.
+A case is counted on two plants: one drawn within what a carefully built robot has (`plant=random`, `level=1`), and the
+controller's exact model. Seeds are drawn from the commit, so that no version of the code has met them before, and the
+first draw is published. Rows without a plant are of the older ground and judge, on an exact plant and on the same seeds
+at every commit; they have a separate column until they are counted again.
 """
 
 from __future__ import annotations
@@ -40,9 +39,9 @@ class Case(NamedTuple):
 
     Attributes:
         settings: Settings of the scene.
-        seeds: How many seeds are drawn from the commit, for each plant.
-        aside: Whether it is there for comparison only, as the walk without the feature; its runs come last.
-        file: File of a robot that is not built in; empty for one that is.
+        seeds: Number drawn from the commit, for each plant.
+        aside: Whether it is for comparison only; its runs come last.
+        file: File of a robot that is not built in, or empty.
         plants: Names of the plants that it is counted on.
     """
 
@@ -71,12 +70,11 @@ class Benchmark:
     """What one script counts, and how its table shows it.
 
     Attributes:
-        name: Name of its .csv and .md file; the CSV's first columns are case, robot, plant, seed, completed, failed and
-            commit.
+        name: Of its .csv and .md file; the CSV begins with case, robot, plant, seed, completed, failed and commit.
         columns: Its columns after those.
         shown: Cells of a case's line after the counts, by their heads.
         note: Sentence under the table.
-        recorded: Whether the run's recording is wanted, whose path is then the summary's "recording".
+        recorded: Whether the summary's "recording" is the path of the run's recording.
     """
 
     name: str
@@ -89,11 +87,10 @@ class Benchmark:
 
     @property
     def path(self) -> Path:
-        """Its CSV file."""
         return self.folder / f"{self.name}.csv"
 
     def report(self) -> None:
-        """Write the table between its markers in the page: a line a case that was run."""
+        """Write the table between its markers in the page: a line a case with runs."""
         rows = rows_of(self.path)
         heads = ("case", "robot", *HEADS, *self.shown)
         lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
@@ -147,12 +144,10 @@ def failed(rows: list[Row]) -> str:
 
 
 def fallen(rows: list[Row]) -> str:
-    """How many runs fell."""
     return str(sum(r["fell"] in ("True", "1") for r in rows))
 
 
 def commit() -> str:
-    """Short name of the commit that is checked out."""
     found = subprocess.run(["git", "rev-parse", "--short=7", "HEAD"], cwd=FOLDER, capture_output=True, text=True)
     return found.stdout.strip() or "unknown"
 
@@ -193,7 +188,6 @@ def rank(case: Case, plant: str, i: int) -> int:
 
 
 def run_row(benchmark: Benchmark, case: Case, run: tuple[str, int], made: str) -> dict[str, Any]:
-    """Run a case once."""
     from plantar.sim.run.runner import Simulation
     from plantar.sim.run.scene import load_scene
 
@@ -238,8 +232,7 @@ def add_row(benchmark: Benchmark, case: Case, run: tuple[str, int], made: str) -
 
 
 def differences(row: Row, again: dict[str, Any]) -> list[str]:
-    """Columns in which a row and what it comes to when it is run again are not the same text; times of a machine, and
-    the commit, are left out."""
+    """Columns in which a row and its repetition differ as texts, without times of a machine and the commit."""
     timed = ("_us", "real_time_factor", "commit")
     texts = {k: "" if again.get(k) is None else str(again[k]) for k in row}
     return [k for k in row if row[k] != texts[k] and not k.endswith(timed)]
@@ -256,13 +249,13 @@ def counted(rows: Sequence[Row]) -> list[str]:
 
 
 def of_now(rows: Sequence[Row]) -> list[Row]:
-    """The rows that a table's other columns sum up: those on drawn plants; where there are none, the older ones."""
+    """The rows that a table's other columns sum up: those on drawn plants, or else the older ones."""
     mine = latest(rows)
     return [r for r in mine if r.get("plant", "") in ("drawn", "own")] or mine
 
 
 def origin(benchmark: Benchmark, missing: int | None = None) -> str:
-    """Which commits the rows that count were made at, and how many are still to come, for under a table."""
+    """Commits of the rows that count, and number of missing rows, for under a table."""
     made: dict[str, int] = {}
     for r in latest(rows_of(benchmark.path)):
         name = r["commit"] if r.get("plant", "") else f"{r['commit']} (older ground)"

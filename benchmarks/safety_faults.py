@@ -1,7 +1,7 @@
 """What faults of time, sensors and ticks do, with the safety shell and without: `safety_faults.py [ROWS.json]`.
 
-Each fault begins after 4 s on flat ground, in a control loop of one's own, and is watched for 1.4 s. Writes the table
-of safety_faults.md beside this file; ROWS.json keeps the runs, so that a stopped benchmark continues.
+Each fault begins after 4 s on flat ground, in a separate control loop, and is watched for 1.4 s. ROWS.json keeps the
+runs, so that a stopped benchmark continues.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ CASES = (
 
 
 def run(fault: str, robot: str, walking: bool, shell: bool) -> list[object]:
-    """Largest move of a target, state, time to it and whether the robot is on its feet; or what was raised."""
+    """Largest move of a target, state, time to it and whether the robot is on its feet; or the error."""
     try:
         seen = run_with_fault(robot, walking, fault, shell=shell)
     except Exception as error:
@@ -35,7 +35,6 @@ def run(fault: str, robot: str, walking: bool, shell: bool) -> list[object]:
 
 
 def shown(row: list[object]) -> str:
-    """A run as a cell of the table."""
     if len(row) == 1:
         return str(row[0])
     jump, state, after, upright = row
@@ -44,7 +43,6 @@ def shown(row: list[object]) -> str:
 
 
 def table(rows: dict[str, list[object]]) -> Iterator[str]:
-    """Lines of the table."""
     yield f"| fault | {' | '.join(name for name, *_ in CASES)} |"
     yield "|---|" + "---|" * len(CASES)
     for fault in FAULTS:
@@ -52,7 +50,6 @@ def table(rows: dict[str, list[object]]) -> Iterator[str]:
 
 
 def main(arguments: list[str]) -> None:
-    """Run what is missing, and write the table."""
     path = Path(arguments[0]) if arguments else None
     rows: dict[str, list[object]] = json.loads(path.read_text()) if path is not None and path.exists() else {}
     for name, *case in CASES:

@@ -3,8 +3,8 @@
     python benchmarks/skin_models.py
 
 Truth is the sum of MuJoCo's contact forces (`mj_contactForce`). Compared are `plantar.mujoco.Skin`; a grid of MuJoCo's
-touch sensors, a box-shaped site a taxel; and MuJoCo's tactile sensor on a flat mesh with a vertex a taxel, which gives
-depths, no forces: of it the lit taxels are counted.
+touch sensors, a box-shaped site a taxel; and the lit taxels of MuJoCo's tactile sensor, which measures depths, on a
+flat mesh with a vertex a taxel.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def with_sensors(text: str, touch: bool, tactile: bool) -> tuple[Any, Any, int]:
 
 
 def microseconds(call: Any) -> float:
-    """Least time of a call in us, over many short rounds: other work on the machine only adds to it."""
+    """Least time of a call in us, over many short rounds."""
     rounds = []
     for _ in range(60):
         began = time.perf_counter()
@@ -71,15 +71,14 @@ def microseconds(call: Any) -> float:
 
 
 def row(name: str, text: str, truth: Any) -> list[str]:
-    """A row of the table."""
-    model, feel, count = with_sensors(text, True, False)
+    model, bound, count = with_sensors(text, True, False)
     data = mujoco.MjData(model)
     mujoco.mj_step(model, data, STEPS)
     mujoco.mj_forward(model, data)
-    wrench, reading = truth(feel, data), feel(data)
+    wrench, reading = truth(bound, data), bound(data)
     load = np.linalg.norm(wrench[:3])
     cop = np.array([-wrench[4], wrench[3]]) / wrench[2] if wrench[2] > 0.0 else np.full(2, np.nan)
-    places = feel.layout.positions[:, :2]
+    places = bound.layout.positions[:, :2]
 
     def center(force: np.ndarray) -> float:
         return float(np.hypot(*(force @ places / force.sum() - cop))) if force.sum() > 0.0 else np.nan
@@ -90,7 +89,7 @@ def row(name: str, text: str, truth: Any) -> list[str]:
     bare, _, _ = with_sensors(text, False, False)
     plain = mujoco.MjData(bare)
     mujoco.mj_step(bare, plain, STEPS)
-    step, skin = microseconds(lambda: mujoco.mj_forward(bare, plain)), microseconds(lambda: feel(data))
+    step, skin = microseconds(lambda: mujoco.mj_forward(bare, plain)), microseconds(lambda: bound(data))
     grid = microseconds(lambda: mujoco.mj_forward(model, data)) - step
     lit, tactile = "-", "-"
     try:
@@ -110,7 +109,6 @@ def row(name: str, text: str, truth: Any) -> list[str]:
 
 
 def main() -> None:
-    """Write the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, default=Path(__file__).with_suffix(".md"))
     options = parser.parse_args()

@@ -2,10 +2,10 @@
 
 python benchmarks/study_draws.py RECORDING [DRAWS]        (writes benchmarks/study_draws.md; 100 draws take 6 min)
 
-RECORDING is a real walk in two insoles with some strides. Ten people are made of it for each draw: strides cut from
-it at left heel strikes and mixed, slower or faster, lighter or heavier, and more or less on the forefoot. Each walks in
-two conditions, "before" and "after". In the null draws they differ by chance alone; in the others "after" takes off
-10 % of all pressures and prolongs each stride by 6 %.
+Ten people are made of a real walk in two insoles for each draw: strides cut from it at left heel strikes and mixed,
+slower or faster, lighter or heavier, and more or less on the forefoot. Each walks in two conditions, "before" and
+"after". In the null draws they differ by chance alone; in the others "after" takes off 10 % of all pressures and
+prolongs each stride by 6 %.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Strides(NamedTuple):
 
 
 class Person(NamedTuple):
-    """What stays with a person: body weight, pace and load of the forefoot beside the real walk's."""
+    """What stays with a person: body weight, pace and load of the forefoot next to the real walk's."""
 
     weight: float
     pace: float
@@ -65,7 +65,7 @@ def strides_of(path: Path, folder: Path) -> Strides:
 
 
 def write_walk(strides: Strides, who: Person, path: Path, random: np.random.Generator, effect: bool) -> None:
-    """Write a walk of a person: strides drawn at random, each a little different from the one it is drawn from."""
+    """Write a walk of a person: random strides, each varied a little."""
     parts = []
     for index in random.integers(0, len(strides.frames), STRIDES + 2):
         frames = strides.frames[index]
@@ -84,7 +84,6 @@ def write_walk(strides: Strides, who: Person, path: Path, random: np.random.Gene
 
 
 def draw(strides: Strides, folder: Path, seed: int, effect: bool) -> Comparison:
-    """One study of 20 recordings."""
     random = np.random.default_rng(seed)
     results: list[RecordingResult] = []
     for number in range(PEOPLE):
@@ -100,7 +99,7 @@ def draw(strides: Strides, folder: Path, seed: int, effect: bool) -> Comparison:
 
 
 def found(comparison: Comparison) -> tuple[bool, bool, bool]:
-    """Whether the table, the curves and the maps say that the conditions differ."""
+    """Whether the table, the curves and the maps show that the conditions differ."""
     curve, area = comparison.curve_test, comparison.map_test
     assert curve is not None
     assert area is not None
@@ -109,7 +108,6 @@ def found(comparison: Comparison) -> tuple[bool, bool, bool]:
 
 
 def null_rows(strides: Strides, folder: Path, draws: int) -> list[str]:
-    """Rows of the table of null draws."""
     hits = []
     for seed in range(1000, 1000 + draws):
         hits.append(found(draw(strides, folder, seed, effect=False)))
@@ -143,7 +141,6 @@ def effect_rows(strides: Strides, folder: Path) -> list[str]:
 
 
 def main() -> None:
-    """Run the draws that the command line asks for and write the report."""
     draws = int(sys.argv[2]) if len(sys.argv) > 2 else 100
     with TemporaryDirectory() as name:
         folder = Path(name)

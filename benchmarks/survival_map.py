@@ -1,12 +1,10 @@
-"""The largest push that H1 survives in each direction and phase of a step, beside what any controller could capture:
-`python benchmarks/outcomes.py MINUTES survival_map`.
+"""The largest push that H1 survives in each direction and phase of a step, next to what any controller could capture.
 
-Hands push with a half sine of 0.1 s at the height of the CoM, in 8 directions at 8 phases of a step (its double
-support, then its single one), in place and at 0.2 m/s. Each cell is bisected over impulses of 5 to 60 N s, first with
-85 % of the bound; a row of survival_map.csv is a run, appended as it ends, and a run that was stopped goes on where it
-was. The bound is `benchmarks/capture_limit.py` with the controller's own limits: region and acceleration of the
-swing foot, times of a step, and the soles. Where the 85 % fail with a joint at its torque limit, the run is repeated
-with that joint's motor four times as strong, and if that fails, too, with all motors.
+`python benchmarks/outcomes.py MINUTES survival_map`: hands push with a half sine of 0.1 s at the height of the CoM, in
+8 directions at 8 phases of a step, in place and at 0.2 m/s. Each cell is bisected over impulses of 5 to 60 N s, first
+with 85 % of the bound. The bound is `benchmarks/capture_limit.py` with the controller's own limits: region and
+acceleration of the swing foot, times of a step, and the soles. Where the 85 % fail with a joint at its torque limit,
+the run is repeated with that joint's motor four times as strong, and if that fails, too, with all motors.
 """
 
 from __future__ import annotations
@@ -47,7 +45,7 @@ class Cell(NamedTuple):
     phase: float
 
     def name(self, impulse: float, lifted: str = "") -> str:
-        """Name of its run with an impulse in N s, and with a joint's motor made stronger."""
+        """Name of its run with an impulse in N s, and with a joint's stronger motor."""
         rest = f", {lifted} lifted" if lifted else ""
         return f"{self.variant}, {self.walk}, {self.angle} deg, {self.phase:.3f}, {impulse:g} N s{rest}"
 
@@ -57,7 +55,6 @@ CELLS = [Cell(v, w, a, p) for v in VARIANTS for w in LENGTHS for a in DIRECTIONS
 
 @functools.lru_cache
 def simulation() -> Any:
-    """H1 in the scene, for its timing and limits."""
     from plantar.sim.run.runner import Simulation
     from plantar.sim.run.scene import load_scene
 
@@ -124,7 +121,6 @@ def bounds(walk: str) -> dict[tuple[int, float], float]:
 
 
 def first_push(out: dict[str, Any]) -> dict[str, Any] | None:
-    """The push of a run; None where it ended before."""
     return next(iter(out.get("push", {}).get("pushes", [])), None)
 
 
@@ -145,7 +141,7 @@ BENCHMARK = Benchmark("survival_map", COLUMNS, ())
 
 
 def goal(cell: Cell) -> float:
-    """What has to be survived in N s: 85 % of the bound, on the grid of impulses, none beyond its end."""
+    """What has to be survived in N s: 85 % of the bound, on the grid of impulses."""
     wanted = SHARE * bounds(cell.walk)[cell.angle, cell.phase]
     return min((v for v in IMPULSES if v >= wanted - 1e-9), default=IMPULSES[-1])
 
@@ -163,7 +159,7 @@ def survived(cell: Cell, known: dict[str, tuple[bool, str]]) -> tuple[float, flo
 
 
 def following(cell: Cell, known: dict[str, tuple[bool, str]]) -> Case | None:
-    """The next run of a cell; None where nothing is left to be found out."""
+    """The next run of a cell, or None."""
 
     def case(impulse: float, lifted: str = "") -> Case:
         file = str(stronger(lifted)) if lifted else ""
@@ -214,7 +210,6 @@ def missing() -> Iterator[tuple[int, Case, tuple[str, int]]]:
 
 
 def report() -> None:
-    """Write the table between its markers in survival_map.md, and draw the map."""
     from plantar.plotting import new_figure, save_figure
 
     rows = rows_of(BENCHMARK.path)

@@ -1,7 +1,4 @@
-"""Counts of scenes over fresh seeds: a case is a sweep in a folder, and what came of all of them is a table.
-
-A sweep that was stopped goes on where it was; one that was not finished counts with the runs that it has.
-"""
+"""Counts of scenes over fresh seeds: a case is a sweep in a folder, and all together are a table."""
 
 from __future__ import annotations
 
@@ -23,11 +20,7 @@ Row = dict[str, str]
 
 
 class SweepCase(NamedTuple):
-    """A sweep.
-
-    Attributes:
-        what: What is different; empty for the scene itself.
-    """
+    """A sweep; `what` is different in it, or empty for the scene itself."""
 
     scene: str
     what: str = ""
@@ -36,12 +29,10 @@ class SweepCase(NamedTuple):
 
     @property
     def folder(self) -> str:
-        """Name of its folder."""
         return self.scene + "".join(f"-{s.replace('=', '-')}" for s in self.settings)
 
 
 def run_cases(cases: Iterable[SweepCase], folder: Path) -> None:
-    """Run what is missing."""
     for case in cases:
         sweep = Sweep(case.scene, seeds=case.seeds, settings=case.settings, first_seed=FIRST)
         result = run_sweep(sweep, folder / case.folder)
@@ -49,7 +40,7 @@ def run_cases(cases: Iterable[SweepCase], folder: Path) -> None:
 
 
 def rows_of_cases(cases: Iterable[SweepCase], folder: Path) -> Iterator[tuple[SweepCase, list[Row]]]:
-    """Each case of which there are runs, with these."""
+    """Each case with runs, and its rows."""
     for case in cases:
         path = folder / case.folder / "results.csv"
         if not path.exists():
@@ -72,7 +63,6 @@ def median_and_range(rows: Iterable[Row], column: str) -> str:
 
 
 def write_rows(path: Path, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
-    """Write a CSV file."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)

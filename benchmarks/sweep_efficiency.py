@@ -1,9 +1,8 @@
-"""What two worker processes make of two cores: `benchmarks/sweep_efficiency.py [ROUNDS]`, three rounds as a rule.
+"""How well two worker processes use two cores: `benchmarks/sweep_efficiency.py [ROUNDS]`, three rounds as a rule.
 
-Runs one and the same sweep by one worker and by two, in turns, with everything from start to figures, and writes
-sweep_efficiency.md beside this file. The efficiency is the time with one over twice the time with two; it is one of the
-machine only while nothing else runs, which the share of both cores that others took tells. A last line tells a sweep's
-part that is not in its workers, and what a worker's start and a run take of a processor.
+Runs the same sweep by one worker and by two, in turns, from start to figures. The efficiency is the time with one over
+twice the time with two, valid only without other processes, whose share of the cores is listed. A last line lists the
+sweep's part outside of its workers, and the processor time of a worker's start and of a run.
 """
 
 from __future__ import annotations
@@ -26,8 +25,6 @@ SCENE, SEEDS = "flat", 24
 
 
 class Cost(NamedTuple):
-    """What a sweep took."""
-
     wall: float  # s
     processor: float  # s, of this process and its workers
     here: float  # s of that, in this process
@@ -35,7 +32,6 @@ class Cost(NamedTuple):
 
 
 def cost(workers: int, seeds: int = SEEDS) -> Cost:
-    """Run the sweep."""
     plan = plan_from_texts(SCENE, seeds=seeds, first_seed=1000)
     with TemporaryDirectory() as folder:
         wall, busy, own, here = time.monotonic(), _busy(), _processor(), time.process_time()
@@ -57,7 +53,6 @@ def _busy() -> float:
 
 
 def main(rounds: int) -> None:
-    """Run in turns and write the table."""
     lines = [
         "| round | one worker [s] | two [s] | efficiency | processor time, one [s] | two [s] | others' share |",
         "|---|---|---|---|---|---|---|",

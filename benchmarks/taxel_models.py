@@ -1,8 +1,7 @@
 """How well a straight edge under a sole is found under two models of its taxels: `python benchmarks/taxel_models.py`.
 
-The fit (`plantar/sensing/partial_contact.py`) takes a sole for springs side by side. Here it reads springs, an elastic
-layer of 12 mm and one that is as good as a half-space: the same edges, loads and noise. Writes the table of
-taxel_models.md.
+The fit (`plantar/sensing/partial_contact.py`) assumes springs side by side. Here it reads springs, an elastic layer of
+12 mm and nearly a half-space: the same edges, loads and noise.
 """
 
 from __future__ import annotations

@@ -1,11 +1,10 @@
-"""What two threads make of a recording that one thread takes through the batch functions.
+"""Two threads against one on a recording, through the batch functions: prints the table of threads.md.
 
     python benchmarks/threads.py
 
-Prints the table of threads.md: time of one call by one thread and by two, in turn, 31 rounds, and the median of the
-ratios of neighbouring calls. Beside them stand checksums, which need no memory and no interpreter: what two cores of
-this machine give at most, which on a shared machine is less than 2. Results are the same to the last bit
-(tests/plantar/percepts/test_threads.py).
+Times of one call by one thread and by two, in turn, 31 rounds, and the median of the ratios of neighbouring calls.
+Checksums, which need no memory and no interpreter, show what two cores of this machine give at most. Results are the
+same to the last bit (tests/plantar/percepts/test_threads.py).
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ def recording() -> np.ndarray:
 
 
 def checksums(threads: int) -> None:
-    """The same 24 checksums of 4 MB, which is arithmetic all along, by one thread or shared by several."""
+    """The same 24 checksums of 4 MB by one thread or shared by several."""
     data = bytes(4_000_000)
 
     def work(count: int) -> None:
@@ -46,7 +45,6 @@ def checksums(threads: int) -> None:
 
 
 def calls(force: np.ndarray) -> dict[str, Callable[[int], object]]:
-    """What is timed: a name, and a function of the number of threads."""
     distance = 1e-3 * force
     return {
         "checksums (SHA-256)": checksums,
@@ -61,14 +59,12 @@ def calls(force: np.ndarray) -> dict[str, Callable[[int], object]]:
 
 
 def seconds(call: Callable[[int], object], threads: int) -> float:
-    """Time of one call in s."""
     start = time.perf_counter()
     call(threads)
     return time.perf_counter() - start
 
 
 def main() -> None:
-    """Print the table."""
     force = recording()
     print(f"{FRAMES} frames of {len(SOLE)} taxels\n")
     print("| | one thread [ms] | two [ms] | one / two, median (quartiles) |")

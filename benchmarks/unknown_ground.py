@@ -1,7 +1,7 @@
-"""Count what preemptive foot compliance and step feasibility are worth: the table, its bars and forces.
+"""What preemptive foot compliance and step feasibility are worth: the table, its bars and forces.
 
-`python benchmarks/outcomes.py MINUTES unknown_ground` runs what is missing in unknown_ground.csv and writes table and
-bars; `python benchmarks/unknown_ground.py` draws the forces on the slab.
+`python benchmarks/outcomes.py MINUTES unknown_ground` runs what is missing and writes table and bars; `python
+benchmarks/unknown_ground.py` draws the forces on the slab.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def impacts(simulation: Any, out: dict[str, Any]) -> Any:
 
 
 def fifth(simulation: Any, out: dict[str, Any]) -> int | None:
-    """The landing of the fifth step, the one on what the scene is about; None where there was none."""
+    """The landing of the fifth step, the one on the scene's obstacle, or None."""
     swings = [p for p in simulation.controller.schedule.phases if p.swing is not None]
     if len(swings) <= 4:
         return None
@@ -77,7 +77,7 @@ def _checked(name: str) -> Any:
 
 
 def stepped_on(rows: list[Row]) -> str:
-    """How many of the places that were checked the robot stepped on."""
+    """How many of the checked places the robot stepped on."""
     checked = [r["feasible"] == "True" for r in rows if r["feasible"]]
     return f"{sum(checked)}/{len(checked)}" if checked else ""
 
@@ -110,7 +110,6 @@ BENCHMARK = Benchmark(
 
 
 def report() -> None:
-    """Write the table between its markers in unknown_ground.md, and the bars."""
     from plantar.plotting import COLOURS, new_figure, save_figure
 
     BENCHMARK.report()

@@ -22,13 +22,13 @@ model = mujoco.MjModel.from_xml_string(BOX)
 data = mujoco.MjData(model)
 mujoco.mj_step(model, data, 200)
 mujoco.mj_forward(model, data)
-feel = Skin(body="foot").bind(model)
+bound = Skin(body="foot").bind(model)
 for worlds in (256, 1024, 4096):
-    many, state = WarpSkin(feel, worlds), mujoco_warp.put_data(model, data, nworld=worlds)
+    many, state = WarpSkin(bound, worlds), mujoco_warp.put_data(model, data, nworld=worlds)
     rounds = []
     for _ in range(10):
         began = time.perf_counter()
         many.read(state)
         warp.synchronize()
         rounds.append(time.perf_counter() - began)
-    print(f"{warp.get_device()}: {worlds} worlds of {len(feel)} taxels, {1e6 * min(rounds) / worlds:.2f} us a world")
+    print(f"{warp.get_device()}: {worlds} worlds of {len(bound)} taxels, {1e6 * min(rounds) / worlds:.2f} us a world")

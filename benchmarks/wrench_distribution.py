@@ -24,7 +24,6 @@ SOLE = Rectangle(-0.114, 0.144, -0.080, 0.080)
 
 
 def heading(yaw):
-    """Rotation about z."""
     c, s = math.cos(yaw), math.sin(yaw)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
@@ -55,7 +54,6 @@ def requests(rng, count, *, moving):
 
 
 def timed(function, cases):
-    """Times of each call in us."""
     out = []
     for case in cases:
         begin = time.perf_counter_ns()
@@ -97,7 +95,6 @@ def alternatives(programs):
 
 
 def main() -> None:
-    """Measure and write the table."""
     rng = np.random.default_rng(0)
     loop, moving = requests(rng, 4000, moving=False), requests(rng, 4000, moving=True)
     ours = WrenchDistribution(WEIGHT)

@@ -25,8 +25,9 @@ from plantar.robots import load_robot
 from plantar.shoes import ShoeParameters
 from plantar.shoes.cells.cell import read_cell
 from plantar.sim.companion.machine import load_machine
+from plantar.sim.run.listing import listed
 from plantar.sim.run.scene_kind import open_scene
-from plantar.sim.run.setting_list import listed, settings_of_robot
+from plantar.sim.run.setting_list import settings_of_robot
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted((ROOT / "docs").rglob("*.md"))

@@ -65,7 +65,7 @@ def list_(
 
         end_command({what: paper_rows(name)}, as_json, paper_text(name))
         return
-    from plantar.sim.run.setting_list import listed
+    from plantar.sim.run.listing import listed
 
     _print_names(what, listed(what), as_json)
 

@@ -53,7 +53,7 @@ def sim(
     Example: plantar sim flat --set plant=random --set level=1
     """
     if scene is None:
-        from plantar.sim.run.setting_list import listed
+        from plantar.sim.run.listing import listed
 
         raise InputError(
             f"give a scene: plantar sim flat; allowed: {', '.join(listed('scenes'))}, or a scene .toml file"

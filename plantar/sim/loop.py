@@ -106,18 +106,12 @@ class Run(ABC):
         video: str | os.PathLike[str] | None = None,
         progress: Progress | None = None,
     ) -> dict[str, Any]:
-        """Run to the end or to the fall.
+        """Run to the end or to the fall; returns the summary, or raises a SceneError if the physics becomes unstable.
 
         Args:
             record: MCAP file to write; a killed run leaves what was flushed.
             video: MP4 file to write, in real time.
             progress: Called about ten times a second with the fraction done and a text.
-
-        Returns:
-            The summary.
-
-        Raises:
-            SceneError: If the simulated physics becomes unstable.
         """
         with ExitStack() as files:
             if record is not None:
@@ -189,12 +183,8 @@ class Run(ABC):
     ) -> dict[str, Any]:
         """Returns the part of a summary that all kinds of runs share.
 
-        Args:
-            result: What the loop left.
-            names: Of scene and robot.
-            reasons: Every criterion that failed.
-            fell: Whether the robot fell.
-            time: Simulated time in s.
+        It takes the loop's `result`, the `names` of scene and robot, failed `reasons`, whether the robot `fell`, and
+        simulated `time` in s.
         """
         ticks = np.array(result.ticks_us or [0.0])
         return {

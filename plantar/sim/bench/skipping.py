@@ -116,20 +116,17 @@ _SHAPES = ("polygon", "outline", "box", "rectangle", "circle", "triangle", "para
 
 @dataclass(frozen=True)
 class SkipRow:
-    """Cost of one scene with one robot. CPU times, medians of interleaved rounds.
+    """Cost of one scene with one robot. CPU times in s, medians of interleaved rounds.
 
     Attributes:
         settings: Changes of the scene.
-        sim_s: Simulated time in s.
-        run_s: Time of the run in s.
-        everything_s: Time in s with all percepts, rays and the recording.
-        physics_s: Time in s of the same motion by `mj_step` in a loop.
+        everything_s: With all percepts, rays and the recording.
+        physics_s: Of the same motion by `mj_step` in a loop.
         factor: Everything but the physics over the physics, in the run.
         saved: Everything but the physics with all computed, over that of the run.
         same_motion: Whether both runs and the physics alone had the same motion, to the last bit.
-        shares: Share of each room in the time of the run.
-        skipped: Numbers of what was left out in the run.
-        computed: Numbers of what was computed.
+        shares: Of each room in the time of the run.
+        skipped: Counts of what was left out; `computed` of what was not.
     """
 
     scene: str

@@ -37,7 +37,9 @@ class Obstacle:
         self.body = int(model.geom_bodyid[geom])
         kind, size = int(model.geom_type[geom]), model.geom_size[geom]
         if kind not in _KINDS.values():
-            raise SceneError(f"obstacle '{self.name}' is of a kind that skin cannot feel; allowed: {', '.join(_KINDS)}")
+            raise SceneError(
+                f"obstacle '{self.name}' is of a kind that skin cannot measure; allowed: {', '.join(_KINDS)}"
+            )
         self._model = model
         self._mesh = kind == _KINDS["mesh"]
         self._half = float(size[1]) if kind == _KINDS["capsule"] else 0.0

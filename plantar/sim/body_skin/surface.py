@@ -24,7 +24,7 @@ from plantar.settings.schema import Settings, number, tables, text, whole
 __all__ = ["OBSTACLE_GROUP", "PatchShape", "skin_from_tables"]
 
 OBSTACLE_GROUP = 3
-"""MuJoCo's group of geoms that skin feels and sees."""
+"""MuJoCo's group of geoms that skin measures."""
 
 _GRAZING = 0.2  # least cosine between a taxel's ray and the surface's normal
 

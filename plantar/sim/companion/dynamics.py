@@ -23,7 +23,6 @@ class MujocoDynamics:
     Jacobians, are in the base's frame.
 
     Attributes:
-        time: Of the last update in s.
         joints: Indices (k,) of the coordinates with an actuator, ascending; of all hinges and slides without actuators.
         jacobians: How many Jacobians of links were computed.
 

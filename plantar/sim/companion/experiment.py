@@ -116,15 +116,12 @@ def unmet(*criteria: tuple[bool, str, float, float, str]) -> list[dict[str, Any]
 
 @dataclass(frozen=True)
 class World:
-    """The simulated machine and what is around it.
+    """The simulated machine and what is around it; `model` and `data` are the truth.
 
     Attributes:
-        model: The MjModel of everything.
-        data: Its MjData: the truth.
-        positions: Places (nq of the machine alone,) of its coordinates in `data.qpos`, in its own model's order.
-        speeds: Places of its velocities in `data.qvel`.
-        motors: Places (k,) of its motors in `data.ctrl`.
-        joints: Places (k,) of the motors' joints in `data.qvel`.
+        positions: Places (nq of the machine alone,) of its coordinates in `data.qpos`, in its own model's order;
+            `speeds` in `data.qvel`.
+        motors: Places (k,) of its motors in `data.ctrl`; `joints` of the motors' joints in `data.qvel`.
     """
 
     machine: Machine
@@ -236,17 +233,7 @@ def experiment_class(name: str) -> type[Experiment]:
 
 @dataclass(frozen=True)
 class CompanionScene:
-    """A scene of the companion.
-
-    Attributes:
-        description: One line.
-        robot: Name or TOML file of the machine.
-        kind: Name of the experiment.
-        skin: What the skin is made of and how it measures.
-        experiment: Settings of the experiment.
-        control: Gains and switches of the controller.
-        lidar: Distance sensors of the base, or None.
-    """
+    """A scene of the companion: a machine `robot`, an experiment's `kind`, and settings of both."""
 
     name: str
     description: str

@@ -36,24 +36,19 @@ BEAM_OFFSETS = (-0.031, -0.013, 0.0, 0.009, 0.027)
 
 @dataclass(frozen=True)
 class ContactRow:
-    """Figures of one contact model; mm, N, N m and us as named. inf: it toppled, or it did not tip over.
+    """Figures of one contact model; inf: it toppled, or it did not tip over.
 
     Attributes:
-        contacts: Contacts in full-sole stance.
-        cop_median_mm: Error of the taxels' centre of pressure in full-sole stance, median over the loads.
-        cop_max_mm: The same, largest.
-        force_max_N: Largest error of the normal force.
+        contacts: In full-sole stance.
+        cop_median_mm: Error of the taxels' centre of pressure there, over the loads; `cop_max_mm` the largest.
         moment_max_Nm: Largest error of (tx, ty).
         edge_x_mm: True CoP at which the sole tips over along x, less the true edge: negative tips early.
-        edge_y_mm: The same sideways.
         seen_x_mm: CoP of the taxels at that instant, less the true edge.
-        seen_y_mm: The same sideways.
         beam_contact_ratio: Area of the contact points' hull over the true contact area; mean over the beams.
         beam_taxel_ratio: The same of the active cells' corners.
-        beam_wrong_cells: Active cells that do not touch the beam, over all beams.
+        beam_wrong_cells: Active cells that do not touch the beam.
         beam_silent_cells: Inactive cells with a quarter of their area or more on the beam.
-        step_us: Median time of a physics step in full-sole stance.
-        read_us: Median time of a taxel reading there.
+        step_us: Median time of a physics step in full-sole stance; `read_us` of a taxel reading.
     """
 
     name: str

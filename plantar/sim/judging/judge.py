@@ -72,12 +72,11 @@ class Landing:
     """One landing of one foot.
 
     Attributes:
-        side: Which foot.
-        time: Touchdown in s: the first physics step with ground force after 0.6 beats or more in the air.
+        time: In s of the first physics step with ground force after 0.6 beats or more in the air.
         impact: Largest vertical ground force in N within 0.2 beats.
         area: Largest contact area in m^2 (hull of the contact points) within 2.4 beats.
-        angle: Angle in degrees between the sole and the face that it touched first; None on round ground.
-        margin: Smallest true ZMP margin in m until the next landing; None without ZMP.
+        angle: In degrees between the sole and the face that it touched first; None on round ground.
+        margin: Smallest true ZMP margin in m until the next landing, or None.
     """
 
     side: Side

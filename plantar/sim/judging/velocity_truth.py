@@ -27,14 +27,12 @@ _ORIGIN = np.zeros(2)
 
 
 class VelocityTruth:
-    """Follows a walk at commanded velocities.
+    """Follows a walk at the commanded velocities of a `table`.
 
-    The way in the frame of the torso's heading, from the first lift-off on, is compared with the command one step
-    before, since a foot in the air keeps its target.
+    The way in the torso's heading, from the first lift-off on, is compared with the command one step before, since a
+    foot in the air keeps its target.
 
     Args:
-        world: The world.
-        table: The commands over time.
         timing: Durations of the walk's phases.
         begin: Middle of the feet (2,) in m and heading in rad at the start.
 

@@ -32,13 +32,13 @@ class Ending:
     Attributes:
         fall: (criterion's value, limit, text), or None.
         stopped: The controller's final safe state, or None.
-        steps: Steps taken and planned.
+        steps: Taken and planned.
         missed: Why the first missing step did not count.
-        position: Distance in m of the CoM from the walk's end; None without a fixed end.
-        heading: Heading error in degrees; None likewise.
+        position: Distance in m of the CoM from the walk's end, or None.
+        heading: Heading error in degrees, or None.
         tilt: Of the torso in degrees.
-        pushes: Pushes that the robot recovered from, and all of them.
-        overrun: Time in s at which a run was cut off, and its first planned end; or None.
+        pushes: Recovered from, and all.
+        overrun: Time in s of the cut, and the first planned end; or None.
     """
 
     fall: tuple[float, float, str] | None

@@ -37,11 +37,9 @@ class ContactSet(NamedTuple):
     """The k contacts of one foot with everything else.
 
     Attributes:
-        own_geoms: Geom id (k,) on the foot's side.
-        other_geoms: Geom id (k,) on the other side; -1 for a flex.
+        own_geoms: Geom id (k,) on the foot's side; `other_geoms`, -1 for a flex.
         positions: Contact point (k, 3) in the world in m.
-        forces: Force (k, 3) on the foot in the world in N.
-        torques: Torque (k, 3) on it in N m (torsional and rolling friction).
+        forces: On the foot (k, 3) in the world in N; `torques` in N m.
         distances: Gap (k,) in m, negative in penetration.
         carries: Mask (k,): the solver may put a force there; False within `gap` only.
     """

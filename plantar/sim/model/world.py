@@ -129,21 +129,17 @@ def _add_leg_contact(spec: Any, robot: Robot) -> None:
 
 @dataclass(frozen=True)
 class World:
-    """A compiled world and the addresses of what is read and written in it; legs' arrays are the left one's, then the
-    right's.
+    """A compiled world and the addresses in it; legs' arrays are the left one's, then the right's.
 
     Attributes:
         joint_qpos: Addresses of the leg joints in qpos; `joint_qvel` in qvel.
         servos: Indices of the legs' actuators in ctrl.
         sole_geoms: Geom ids of each sole.
         sole_sites: Site id of each sole frame.
-        torso: Body id.
-        stiffness: Servo position gains (k,) in N m/rad, of the robot's file.
-        damping: Servo velocity gains (k,) in N m s/rad, of the robot's file.
-        joint_damping: Of the robot's model (k,) in N m s/rad.
-        joint_friction: Dry friction (k,) in N m of the robot's model.
-        gyro: Address in sensordata, like `accelerometer`, force and torque in `ankle_wrench`, the normal force on each
-            sole in `touch`, and `leg_contact`, above 0 where the legs touch.
+        stiffness: Servo position gains (k,) in N m/rad, of the robot's file; `damping` in N m s/rad.
+        joint_damping: Of the robot's model (k,) in N m s/rad; `joint_friction` in N m.
+        gyro: Address in sensordata, like `accelerometer`, `ankle_wrench` (force, torque), `touch` (force on each sole),
+            and `leg_contact`, above 0 where the legs touch.
         period: Time step of the physics in s.
         moving_ground: Moving pieces of ground with their number among the mocap bodies.
         ground_top: Height in m that no ground ever exceeds.

@@ -39,18 +39,13 @@ class Grip(NamedTuple):
 
 
 class Guide(Partner):
-    """The hand.
-
-    Args:
-        settings: Its settings, for the same body.
-        seed: Chooses when it sets out, and an open direction.
+    """The hand; `seed` chooses when it sets out, and an open direction.
 
     Attributes:
         grip: Where it takes the arm.
         sign: 1 where it leads forward, -1 where backward.
         starts: Time in s from which it leads.
-        moved: True way in m so far.
-        reference: Wanted way in m so far.
+        moved: True way in m so far; `reference` the wanted one.
         force: True force in N along its way; negative where it holds the arm back.
     """
 

@@ -41,10 +41,9 @@ class HandPush:
     Attributes:
         impulse: (2,) in N s, forward and to the left in the robot's frame.
         duration: In s of its half sine.
-        when: Returns when it begins in s, as planned now; asked until it has.
+        when: Returns when it begins in s, as planned now.
         step: Step that it falls into, for the judge; -1 for none.
-        start: Begin in s; infinite before.
-        end: In s; infinite before.
+        start: In s, like `end`; infinite before.
         delivered: True impulse (3,) on the robot in N s, world frame.
         peak: Largest true force on the robot in N.
     """

@@ -72,12 +72,7 @@ _TOUCHES = 0.00237  # weight: force on the hand that counts as contact, 2 N for 
 
 
 class MobileRobot(Partner):
-    """The partner.
-
-    Args:
-        settings: For the same body.
-        skin: Skin of the robot's upper body, in the base frame.
-        height: Of its hand in the world in m.
+    """The partner; the `skin` is in the base frame, its hand at a `height` in the world in m.
 
     Attributes:
         law: Its impedance controller, whose axis points at the robot.

@@ -91,32 +91,22 @@ every robot the same; a length of the robot has one that grows with it."""
 
 @dataclass(frozen=True)
 class TruePlant:
-    """Differences of a run's true plant, in SI.
+    """Differences of a run's true plant in SI; each item as of `Plant`, drawn for joints (k,), taxels (n,) of each
+    sole, or axes (3,).
 
     Attributes:
-        gyro_bias: Offset (3,) of the gyro in rad/s, in the IMU's frame.
-        com_offset: Offset (3,) of the upper body's centre of mass in m, in the torso's frame.
-        mass_ratio: True mass over the model's.
-        encoder_offsets: Offset of each leg joint's encoder (k,) in rad.
-        stiffness_ratio: True stiffness of the servos over the model's.
-        friction_ratio: True friction of the ground over the scene's.
-        softness: Time constant in s with which the ground yields.
-        taxel_gains: Gain of each taxel (n,) of each sole.
-        crosstalk: Share of each taxel's force that its neighbours read instead.
-        sensor_delay: Time in s from a reading until the controller has it.
-        actuation_delay: Time in s from a set-point until its servo follows it.
-        joint_friction: Dry friction of each leg joint in N m, added to the model's.
-        backlash: Play of each leg joint's gear in rad.
-        torque_ripple: Share by which a servo's torque varies as its joint turns.
-        hysteresis: Share by which a taxel reads too little under rising load, too much under falling load.
-        taxel_drifts: Final drift of each taxel's (n,) zero as it warms up, in N.
-        dropout: Share of the time for which each connector of the soles has no contact.
-        rubber: Thickness of the layer of foam under each sole in m.
-        patchiness: Share by which friction and softness may be lower from one piece of ground to the next.
-        reflectance: Share by which patches of the ground may be lighter or darker.
-        joint_damping: Viscous friction of each leg joint in N m s/rad, added to the model's.
-        corner_speed: Share of a joint's speed limit up to which its motor has its full torque.
-        seed: Seed of the pieces of ground and of random events during the run.
+        gyro_bias: (3,) in rad/s, in the IMU's frame.
+        com_offset: (3,) of the upper body in m, in the torso's frame.
+        encoder_offsets: (k,) in rad.
+        softness: Time constant in s.
+        taxel_gains: (n,) of each sole.
+        sensor_delay: In s.
+        actuation_delay: In s.
+        joint_friction: In N m.
+        backlash: In rad.
+        taxel_drifts: Final drift (n,) in N.
+        rubber: Thickness in m.
+        seed: Of pieces of ground and of random events during the run.
     """
 
     gyro_bias: NDArray[np.float64]
@@ -148,7 +138,7 @@ class TruePlant:
         gains, drifts = (
             np.concatenate([of_soles[side] for side in SIDES]) for of_soles in (self.taxel_gains, self.taxel_drifts)
         )
-        told: dict[str, tuple[Any, float]] = {  # each with its nominal value
+        stated: dict[str, tuple[Any, float]] = {  # each with its nominal value
             "gyro_bias_rad_s": (self.gyro_bias, 0.0),
             "com_offset_m": (self.com_offset, 0.0),
             "mass_ratio": (self.mass_ratio, 1.0),
@@ -174,7 +164,7 @@ class TruePlant:
         }
         return {
             name: np.round(value, 6).tolist()
-            for name, (value, nominal) in told.items()
+            for name, (value, nominal) in stated.items()
             if np.any(np.asarray(value) != nominal)
         }
 

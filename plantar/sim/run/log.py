@@ -119,7 +119,7 @@ class RunLog:
             row[5 : 5 + len(ring)] = ring
             self._foothold.write(time, row)
 
-    def say(self, time: float, text: str, level: str = "info") -> None:
+    def note(self, time: float, text: str, level: str = "info") -> None:
         """Record a `text` with a `level` ("info", "warning" or "error") at `time` in s."""
         self._drawn.log(time, text, level)
 

@@ -14,7 +14,8 @@ from plantar.gait.plan.footsteps import Footstep
 from plantar.gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side
 from plantar.robots.robot import Robot
-from plantar.settings.body_scale import BodyScale
+from plantar.settings.body_scale import BodyScale, si_unit
+from plantar.settings.schema import Settings
 from plantar.sides import SIDES
 from plantar.sim.judging.foothold_truth import FootholdTruth
 from plantar.sim.judging.judge import Judge
@@ -28,13 +29,12 @@ from plantar.sim.model.world import World
 from plantar.sim.plant.draw import TruePlant
 from plantar.sim.run.motor_drives import MotorDrives
 from plantar.sim.run.pushing import Pusher
-from plantar.sim.run.scene import Scene
+from plantar.sim.run.scene import SECTIONS, Scene
 from plantar.sim.run.servos import LegServos
-from plantar.sim.run.setting_list import body_told, shares_told
 from plantar.sim.run.touched import Touched
 from plantar.sim.terrain import Ground
 
-__all__ = ["FinishedRun", "summary_of"]
+__all__ = ["FinishedRun", "shares_of", "size_of", "summary_of"]
 
 
 class FinishedRun(Protocol):
@@ -84,8 +84,8 @@ def summary_of(run: FinishedRun, result: Result) -> dict[str, Any]:
         "out_of_reach_since_s": None if late is None else round(late, 3),
         "replans": run.controller.replans,
         "moved_steps": judge.goal.summary(),
-        "body": body_told(run.body),
-        "shares": shares_told(run.scene),
+        "body": size_of(run.body),
+        "shares": shares_of(run.scene),
         "final": final,
         "drift": {
             "position_m": round(math.hypot(*count.drift), 4),
@@ -214,3 +214,42 @@ def _final_error(run: FinishedRun, ends: Sequence[tuple[NDArray[np.float64], flo
     end, wanted = min(ends, key=lambda goal: math.dist(goal[0], com))
     heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
     return float(np.hypot(*(com - end))), abs(math.degrees(math.remainder(heading - wanted, 2.0 * math.pi)))
+
+
+def size_of(body: BodyScale) -> dict[str, float]:
+    """Size of a body by name and unit, as plain JSON values."""
+    return {
+        "mass_kg": round(body.mass, 4),
+        "weight_N": round(body.weight, 3),
+        "leg_m": round(body.leg, 6),
+        "sole_m": round(body.sole, 6),
+        "sole_width_m": round(body.sole_width, 6),
+        "beat_s": round(body.beat, 6),
+        "pace_s": round(body.pace, 6),
+    }
+
+
+def shares_of(scene: Scene) -> dict[str, dict[str, Any]]:
+    """ "share", "value" in SI and "unit" of a scene's settings that are shares of a body, by dotted name.
+
+    The scene is one of a robot (`Scene.for_body`).
+
+    Example:
+        >>> from plantar.sim.run.scene import load_scene
+        >>> shares_of(load_scene("flat"))["walk.length"]
+        {'share': '0.3333 leg', 'value': 0.2, 'unit': 'm'}
+    """
+    return {
+        f"{section}.{name}": share for section in SECTIONS for name, share in _shares(getattr(scene, section)).items()
+    }
+
+
+def _shares(settings: Settings) -> dict[str, dict[str, Any]]:
+    return {
+        name: {
+            "share": str(share),
+            "value": float(f"{getattr(settings, name):.6g}"),
+            "unit": si_unit(share.unit),
+        }
+        for name, share in settings.stated.items()
+    }

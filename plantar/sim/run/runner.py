@@ -209,7 +209,7 @@ class Simulation(Run):
 
     def summary(self, result: Result) -> dict[str, Any]:
         if self.judge.fall is not None and self._log is not None:
-            self._log.say(self.world.data.time, self.judge.fall[2], "error")
+            self._log.note(self.world.data.time, self.judge.fall[2], "error")
         if self.sensors.proximity:
             self.skipped["proximity_rays"] = sum(s.skipped for s in self.sensors.proximity.values())
         return summary_of(self, result)
@@ -319,17 +319,9 @@ def run_scene(
     video: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Run one scene.
+    """Returns the summary (see `Simulation.run`) of a `scene` with a `seed`, and other sole `layouts` than the robot's.
 
-    Args:
-        scene: The scene.
-        seed: Of sensor noise and of what the scene leaves open.
-        layouts: Sole layouts instead of the robot's own.
-        record: MCAP file to write.
-        video: MP4 file to write.
-        progress: Called about ten times a second with the fraction done and a text.
-
-    Returns:
-        The summary (see `Simulation.run`).
+    `record` and `video` are files to write, or None; `progress` gets the fraction done and a text about ten times a
+    second.
     """
     return Simulation(scene, seed, layouts).run(record=record, video=video, progress=progress)

@@ -1,21 +1,18 @@
-"""Lists of robots, scenes, formats and settings, and a scene's shares of a body in numbers of its robot."""
+"""Every dotted setting of a scene, `--set`, a sweep or a robot file."""
 
 from __future__ import annotations
 
 from difflib import get_close_matches
-from typing import Any
 
 from plantar.errors import InputError
-from plantar.files.structured_text import described_files, packaged_files
 from plantar.gait.controller_tables import CONTROLLER_TABLES, controller_settings_described
-from plantar.settings.body_scale import REFERENCE_BODY, BodyScale, si_unit
-from plantar.settings.schema import Setting, Settings
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+from plantar.settings.schema import Setting
 from plantar.sim.companion.experiment import companion_tables, experiment_names
-from plantar.sim.papers.preset import paper_files
-from plantar.sim.run.scene import SECTIONS, Scene
+from plantar.sim.run.scene import SECTIONS
 from plantar.sim.terrain import terrain_kinds
 
-__all__ = ["body_told", "listed", "settings_listed", "settings_of_robot", "shares_told"]
+__all__ = ["settings_listed", "settings_of_robot"]
 
 
 def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -> dict[str, Setting]:
@@ -74,76 +71,3 @@ def settings_of_robot(name: str | None, robot: str | None) -> dict[str, Setting]
 
     found = load_robot(robot)
     return settings_listed(name, body_of(found, build_leg_model(found).model))
-
-
-def listed(what: str) -> dict[str, str]:
-    """Names with a line that describes each.
-
-    Args:
-        what: "robots", "scenes", "papers" or "formats".
-
-    Returns:
-        Descriptions by name.
-
-    Raises:
-        InputError: If something else is asked for.
-
-    Example:
-        >>> "h1" in listed("robots"), "beam" in listed("scenes")
-        (True, True)
-    """
-    if what == "formats":
-        from plantar.formats import formats
-
-        return {f.name: f"{f.title} ({', '.join(f.suffixes)})" for f in formats().values()}
-    if what == "robots":
-        files = packaged_files("plantar.robots", "*/robot.toml")
-        files += packaged_files("plantar.sim", "companion/machines/*/machine.toml")
-        return {path.parent.name: text for path, text in described_files(files).items()}
-    if what == "scenes":
-        return {
-            path.stem: text for path, text in described_files(packaged_files("plantar.sim", "scenes/*.toml")).items()
-        }
-    if what == "papers":
-        found = paper_files()
-        return dict(zip(found, described_files(found.values()).values(), strict=True))
-    raise InputError(f"cannot list '{what}'; allowed: robots, scenes, papers, formats, settings")
-
-
-def body_told(body: BodyScale) -> dict[str, float]:
-    """Size of a body by name and unit, as plain JSON values."""
-    return {
-        "mass_kg": round(body.mass, 4),
-        "weight_N": round(body.weight, 3),
-        "leg_m": round(body.leg, 6),
-        "sole_m": round(body.sole, 6),
-        "sole_width_m": round(body.sole_width, 6),
-        "beat_s": round(body.beat, 6),
-        "pace_s": round(body.pace, 6),
-    }
-
-
-def shares_told(scene: Scene) -> dict[str, dict[str, Any]]:
-    """ "share", "value" in SI and "unit" of a scene's settings that are shares of a body, by dotted name.
-
-    The scene is one of a robot (`Scene.for_body`).
-
-    Example:
-        >>> from plantar.sim.run.scene import load_scene
-        >>> shares_told(load_scene("flat"))["walk.length"]
-        {'share': '0.3333 leg', 'value': 0.2, 'unit': 'm'}
-    """
-    return {
-        f"{section}.{name}": share for section in SECTIONS for name, share in _told(getattr(scene, section)).items()
-    }
-
-
-def _told(settings: Settings) -> dict[str, dict[str, Any]]:
-    return {
-        name: {
-            "share": str(share),
-            "value": float(f"{getattr(settings, name):.6g}"),
-            "unit": si_unit(share.unit),
-        }
-        for name, share in settings.stated.items()
-    }

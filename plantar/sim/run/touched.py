@@ -37,10 +37,9 @@ class Touched:
     Args:
         scene: For the same body.
         skin: Skin of the robot's upper body.
-        body: The robot's size.
         schedule: Returns the phases of the walk as planned now.
-        feet: The feet at the start.
-        steps: The footsteps as planned at the start.
+        feet: At the start.
+        steps: As planned at the start.
         seed: Of open choices and noise.
         reach: Height in the world in m of a partner's hand.
         worn: The arm that moves, or None.

@@ -45,16 +45,16 @@ class SoleSkin:
         site: Name of the site that is the sole frame, for example "left_sole".
         geoms: Names of the sole's collision geoms.
         rubber: Thickness in m, see `SolePressure`.
-        reach: Largest gap in m between sole and ground that the rubber closes.
+        reach: Largest gap in m that the rubber closes.
         layer: Thickness in m of an elastic layer, see `ElasticPressure`; None for springs.
-        rim_stiffness: Stiffness next to the taxels over theirs, see `BlindRim`.
+        rim_stiffness: See `BlindRim`.
 
     Raises:
         RobotError: If the model has no such site or geom.
         LayoutError: If a taxel does not face the ground.
 
     Attributes:
-        springs: What contacts press on where each cell is a spring that carries all; else None.
+        springs: Kernel of cells that carry all as springs, or None.
     """
 
     def __init__(
@@ -189,10 +189,9 @@ class SkinSensor:
 
     Args:
         skin: The noise-free skin.
-        electronics: Rate, noise, delay and dead taxels.
         rng: Source of the noise; None needs electronics without noise.
-        proximity: Of the same sole, sampled with the forces; None without.
-        errors: What the taxels make of the forces; None without.
+        proximity: Of the same sole, sampled with the forces, or None.
+        errors: What the taxels make of the forces, or None.
 
     Raises:
         InputError: If there is noise and no source, or a dead taxel does not exist.
@@ -260,11 +259,11 @@ class SkinSensor:
             if self._direct:
                 force = self.skin.sampled(data, contacts, self._sample)
             else:
-                force = self._told(now, data, contacts, distance)
+                force = self._sampled(now, data, contacts, distance)
             self._queue.append(Reading.taken_over(now, force, distance))
         return self._queue[0]
 
-    def _told(
+    def _sampled(
         self, now: float, data: Any, contacts: FootContacts | None, distance: NDArray[np.float64] | None
     ) -> NDArray[np.float64]:
         """Sampled force (n,) in N with the taxels' errors; distances that they silence become NaN."""

@@ -1,15 +1,15 @@
 """Spread a normal load over the taxels of a sole (model "contact patches").
 
-The sole collides as a rigid box, which carries its load on a few corner points; rubber carries it on an area. The
-contact points of each geom pair span a patch, and the pair's exact normal wrench (fz, tx, ty) is spread over the
-covered cells as the load of an elastic foundation that cannot pull (Winkler):
+MuJoCo's rigid box carries its load on a few corner points, rubber on an area. The contact points of each geom pair span
+a patch, over whose cells the pair's exact normal wrench (fz, tx, ty) is spread as by an elastic foundation that cannot
+pull (Winkler):
 
     f_i = A_i max(0, a + b x_i + c y_i)      with a, b, c such that the forces have the pair's wrench,
 
-A_i the covered area of cell i and (x_i, y_i) its centroid; a cut cell still reports at its centre, as a real one does.
-A load beyond the outermost centroids goes to the nearest point among them, a line or point contact presses on the strip
-or square that the rubber's thickness makes of it, and one on the bare rim on the nearest cells. Taxel forces always add
-up to the true normal force.
+A_i the covered area of cell i and (x_i, y_i) its centroid; a cut cell still reports at its centre. A load beyond the
+outermost centroids goes to the nearest point among them, a line or point contact presses on the strip or square that
+the rubber's thickness makes of it, and one on the bare rim on the nearest cells. Taxel forces always add up to the true
+normal force.
 """
 
 from __future__ import annotations

@@ -44,18 +44,18 @@ _LOOPS = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
 
 @dataclass(frozen=True)
 class ModelSource:
-    """A compiled model, and what its file states besides bodies, joints and shapes.
+    """A compiled model, and what its file states besides bodies, joints and shapes; dictionaries are by joint.
 
     Attributes:
         model: The compiled model with all of its joints, without motors or constraints.
-        efforts: Largest torque in N m of each joint with a limit, by name.
-        speeds: Largest speed in rad/s of each joint with a limit, by name.
-        gains: Stiffness in N m/rad and damping in N m s/rad of each joint with a position servo, by name.
+        efforts: Largest torque in N m, where there is a limit.
+        speeds: Largest speed in rad/s, where there is a limit.
+        gains: Stiffness in N m/rad and damping in N m s/rad of position servos.
         imus: Sites and bodies that may be the IMU, "site" or "body" and the name, the likeliest first: with a gyro,
             with an accelerometer, called IMU.
         coupled: Pairs of joint names of which the first follows the second.
         loops: Pairs of bodies tied together outside the tree of joints.
-        upper_posture: Joint angles of the file's first keyframe by name, or empty.
+        upper_posture: Joint angles of the first keyframe, or empty.
         notes: What was left out or changed in reading.
     """
 

@@ -36,8 +36,7 @@ class Sole:
         origin: (3,) in the frame of the foot's body in m.
         rotation: Rotation (3, 3) from the sole frame to that of the foot's body.
         triangles: The foot's surface (n, 3, 3) in the sole frame in m.
-        low: Least x and y (2,) of the sole in m.
-        high: Greatest x and y (2,) of the sole in m.
+        low: Least x and y (2,) of the sole in m; `high` the greatest.
         turn: Angle in rad between the sole's normal and the nearest axis of the body's frame.
         area: Of the outline's convex hull in m^2.
         notes: How it was found.

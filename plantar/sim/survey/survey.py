@@ -27,13 +27,10 @@ class Survey:
     """What was found in a model.
 
     Attributes:
-        soles: The bare sole of each foot.
         held: Angles in rad by name of other joints.
         imu: "site" or "body" of the IMU, and its name; or None.
-        efforts: Largest torque in N m of each joint of a leg, the lesser of both; or None.
-        speeds: Largest speed in rad/s of each joint of a leg; empty unless the model states all.
-        gains: Stiffness in N m/rad and damping in N m s/rad of each joint of the left leg; empty unless the model
-            states all.
+        efforts: Largest torque in N m of each joint of a leg, or None; `speeds` in rad/s, or empty.
+        gains: Stiffness in N m/rad and damping in N m s/rad of each joint of the left leg, or empty.
         notes: For the user, each a sentence.
     """
 

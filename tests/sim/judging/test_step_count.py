@@ -35,7 +35,7 @@ class Walk:
         self.count.watch.begin(SIDES.index(step.side), round(self.time))
         self.count.watch.carry(SIDES.index(step.side), force, step.x + dx, step.y, step.yaw + dyaw)
 
-    def say(self, *moved: MovedStep) -> None:
+    def report(self, *moved: MovedStep) -> None:
         self.goal.move(self.time, moved)
 
     @property
@@ -139,7 +139,7 @@ def test_a_walk_around_an_obstacle_counts_where_it_was_said_before() -> None:
     walk = Walk()
     walk.land(STEPS[0])
     walk.land(STEPS[1])
-    walk.say(*moved_from(STEPS, 2, -0.22, 0.0, "foothold refused"))
+    walk.report(*moved_from(STEPS, 2, -0.22, 0.0, "foothold refused"))
     for step in STEPS[2:]:
         walk.land(step, dx=-0.22)
     assert walk.taken == 6
@@ -155,7 +155,7 @@ def test_what_is_said_after_the_foot_landed_does_not_count() -> None:
         walk.land(step, dx=0.1 if k >= 2 else 0.0)
         if k >= 2:
             walk.time += 0.01
-            walk.say(MovedStep(k, step.x + 0.1, step.y, 0.0, "where it landed"))
+            walk.report(MovedStep(k, step.x + 0.1, step.y, 0.0, "where it landed"))
     assert walk.taken == 2
 
 
@@ -172,7 +172,7 @@ def test_what_is_said_after_the_foot_landed_does_not_count() -> None:
 )
 def test_places_that_no_detour_explains_do_not_count(dx: float, yaw: float, reason: str) -> None:
     walk = Walk()
-    walk.say(*(MovedStep(k, s.x + dx, s.y, s.yaw + yaw, reason) for k, s in enumerate(STEPS)))
+    walk.report(*(MovedStep(k, s.x + dx, s.y, s.yaw + yaw, reason) for k, s in enumerate(STEPS)))
     assert walk.goal.refused == 6
     assert not walk.goal.summary()
     for step in STEPS:
@@ -185,7 +185,7 @@ def test_a_walk_that_is_cut_short_by_moving_its_steps_is_not_taken_over() -> Non
     feet, steps = straight_plan(20, length=0.2)
     walk = Walk(steps, feet)
     for k, step in enumerate(steps):
-        walk.say(MovedStep(k, 0.0, step.y, 0.0, "tired"))
+        walk.report(MovedStep(k, 0.0, step.y, 0.0, "tired"))
         walk.land(replace(step, x=0.0))
     assert walk.taken == 1
     assert walk.goal.end({"left": [0.0, 0.0], "right": [0.0, 0.0]})[0][0] > 3.0  # type: ignore[dict-item]
@@ -199,7 +199,7 @@ def test_a_strip_that_turns_away_is_followed_to_its_end() -> None:
         wanted = math.tan(math.radians(10.0)) * step.y
         move = max(-0.02, min(0.02, wanted - shift))
         shift += move
-        walk.say(*moved_from(steps, k, shift, 0.0, "onto the strip that carries"))
+        walk.report(*moved_from(steps, k, shift, 0.0, "onto the strip that carries"))
         walk.land(step, dx=shift)
     assert shift > 0.3
     assert walk.taken == 50
@@ -218,7 +218,7 @@ def test_who_leads_the_robot_explains_steps_that_go_along(led: float, refused: i
 
 def test_steps_that_do_not_exist_are_not_taken_over() -> None:
     walk = Walk()
-    walk.say(MovedStep(-1, 0.0, 0.0, 0.0, "a"), MovedStep(6, 0.0, 0.0, 0.0, "a"))
+    walk.report(MovedStep(-1, 0.0, 0.0, 0.0, "a"), MovedStep(6, 0.0, 0.0, 0.0, "a"))
     assert walk.goal.refused == 2
 
 
@@ -275,7 +275,7 @@ def test_a_move_that_nothing_justifies_does_not_count() -> None:
     short = straight_plan(20, length=0.15)[1]
     for justified in (True, False):
         walk = Walk(steps, feet, justified)
-        walk.say(*(MovedStep(k, s.x, s.y, 0.0, "x") for k, s in enumerate(short)))
+        walk.report(*(MovedStep(k, s.x, s.y, 0.0, "x") for k, s in enumerate(short)))
         for step in short:
             walk.land(step)
         counted = walk.count.count()
@@ -290,14 +290,14 @@ def test_the_foothold_before_is_not_moved_after_it_was_stood_on() -> None:
     walk.land(STEPS[0])
     first = STEPS[0]
     walk.time += 0.1
-    walk.say(MovedStep(0, first.x + 0.1, first.y, 0.0, "x"), MovedStep(1, STEPS[1].x, STEPS[1].y, 0.0, "x"))
+    walk.report(MovedStep(0, first.x + 0.1, first.y, 0.0, "x"), MovedStep(1, STEPS[1].x, STEPS[1].y, 0.0, "x"))
     walk.land(STEPS[1], dx=-0.1)
     assert walk.taken == 1
 
 
 def test_a_move_that_is_justified_is_judged_where_it_leads() -> None:
     walk = Walk()
-    walk.say(*moved_from(STEPS, 2, 0.12, 0.0, "foothold refused"))
+    walk.report(*moved_from(STEPS, 2, 0.12, 0.0, "foothold refused"))
     for k, step in enumerate(STEPS):
         walk.land(step, dx=0.06 if k >= 2 else 0.0)
     assert walk.taken == 2

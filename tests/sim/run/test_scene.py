@@ -5,9 +5,9 @@ import pytest
 from plantar.errors import SceneError
 from plantar.gait.propose.velocity_command import Velocity
 from plantar.settings.body_scale import BodyScale
+from plantar.sim.run.run_summary import shares_of
 from plantar.sim.run.scene import builtin_scenes, load_scene
 from plantar.sim.run.scene_kind import open_scene
-from plantar.sim.run.setting_list import shares_told
 from plantar.sim.terrain import Beam
 
 
@@ -108,9 +108,9 @@ def test_a_scene_grows_with_the_robot() -> None:
     turn = load_scene("turn").for_body(body).walk.velocities(0)
     assert turn is not None
     assert turn.commands[0] == Velocity(turn=0.0495 * (1.0 / body.beat))
-    told = shares_told(beam)
-    assert told["terrain.width"] == {"share": "0.52 sole", "value": 0.0624, "unit": "m"}
-    assert "terrain.start" not in told
+    shares = shares_of(beam)
+    assert shares["terrain.width"] == {"share": "0.52 sole", "value": 0.0624, "unit": "m"}
+    assert "terrain.start" not in shares
 
 
 @pytest.mark.parametrize(

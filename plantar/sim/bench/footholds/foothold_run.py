@@ -81,9 +81,6 @@ class FootholdResult(NamedTuple):
 
     Attributes:
         completed: Whether all steps were taken, in order and place, and the robot stayed up.
-        steps: Steps taken.
-        planned: Steps planned.
-        fell: Whether it fell.
         tilt: Largest tilt of the torso in degrees.
         froude: v^2 / (g l), v the way over the time from first to last step.
         time: Simulated time in s.

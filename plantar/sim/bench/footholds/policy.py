@@ -29,9 +29,9 @@ class WalkTask:
     Attributes:
         robot: Name or file of the robot.
         joints: Names of its k leg joints, in the order of all joint vectors.
-        period: Time in s from one call of `step` to the next.
+        period: Time in s between calls of `step`.
         stance: Joint angles (k,) in rad and torques (k,) in N m at time 0.
-        feet: The feet at the start.
+        feet: At the start.
         steps: The footsteps to take, in order, world frame.
         end: Time in s at which the built-in controller has ended the walk; a run is cut off at 1.5 times that.
         walk: A scene's [walk] table.

@@ -190,12 +190,10 @@ class TraceError(NamedTuple):
     """Root mean square differences up to the time at which the runs part.
 
     Attributes:
-        com_m: Of the centre of mass in m.
-        zmp_m: Of the zero moment point in m.
         force: Of the vertical forces on both soles, over the body's weight.
         impact: Of the landings' impacts until then, over the reference's; NaN for none.
-        together_s: Time in s until the runs part, or end.
-        whole_s: Time in s of the reference.
+        together_s: Time until the runs part, or end.
+        whole_s: Time of the reference.
     """
 
     com_m: float

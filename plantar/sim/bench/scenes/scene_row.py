@@ -24,20 +24,15 @@ class SceneRow:
 
     Attributes:
         walk: Settings of the scene in all runs.
-        setting: Name of the setting.
-        against: Name of the setting that it is compared with.
+        against: Name of the setting that `setting` is compared with.
         machine: Whether it is another robot.
-        cpu: CPU time in s of a simulated second.
-        ratio: That over the scene's own, of runs with the same seed.
-        com_mm: Root mean square error of the centre of mass in mm until the runs part.
-        zmp_mm: The same of the zero moment point.
-        force: The same of the ground forces, over the weight.
-        impact: The same of the landings' impacts, over the reference's.
+        cpu: CPU time in s of a simulated second; `ratio` over the scene's own.
+        com_mm: Root mean square error in mm until the runs part; `zmp_mm` likewise.
+        force: The same of the ground forces, over the weight; `impact` over the reference's.
         together: Share of the walk until the runs part.
-        walked: Whether the run without noise was completed.
-        completed: How many of the runs with noise were.
-        impact_N: Impact of a landing in N: median of a run's landings, and of the runs.
-        margin_mm: Smallest distance in mm of ZMP and edge of support in a run.
+        walked: Whether the run without noise was completed; `completed` counts those with noise.
+        impact_N: Median over landings and runs.
+        margin_mm: Smallest distance of ZMP and edge of support in a run.
     """
 
     scene: str
@@ -87,15 +82,15 @@ def scene_rows(runs: Runs) -> list[SceneRow]:
 
 def _row(case: tuple[str, str, str], name: str, against: str, kind: str, runs: Runs) -> SceneRow:
     setting = setting_named(name)
-    beside = [r for r in runs if (r["setting"], r["against"], r["kind"]) == (name, against, kind)]
+    compared = [r for r in runs if (r["setting"], r["against"], r["kind"]) == (name, against, kind)]
     seeded = [r for r in runs if r["setting"] == name and r["kind"] == "seeded"]
     own = {(r["kind"], r["seed"]): r for r in runs if r["setting"] == OWN.name and r["kind"] != "noise"}
     costs, ratios = [], []
-    for r in [*beside, *seeded]:
+    for r in [*compared, *seeded]:
         cost, other = _cost(r), _cost(own.get((r["kind"], r["seed"]), {}))
         costs.append(cost)
         ratios.append(cost / other)
-    whole = _median([_number(r, "together_s") / _number(r, "sim_s") for r in beside])
+    whole = _median([_number(r, "together_s") / _number(r, "sim_s") for r in compared])
     return SceneRow(
         *case,
         setting=NOISE if kind == "noise" else name,
@@ -105,12 +100,12 @@ def _row(case: tuple[str, str, str], name: str, against: str, kind: str, runs: R
         machine=setting.machine,
         cpu=_median(costs),
         ratio=_median(ratios),
-        com_mm=_median([_number(r, "com_mm") for r in beside]),
-        zmp_mm=_median([_number(r, "zmp_mm") for r in beside]),
-        force=_median([_number(r, "force") for r in beside]),
-        impact=_median([_number(r, "impact") for r in beside]),
+        com_mm=_median([_number(r, "com_mm") for r in compared]),
+        zmp_mm=_median([_number(r, "zmp_mm") for r in compared]),
+        force=_median([_number(r, "force") for r in compared]),
+        impact=_median([_number(r, "impact") for r in compared]),
         together=1.0 if whole > 0.99 else whole,
-        walked=all(r["completed"] == "yes" for r in beside),
+        walked=all(r["completed"] == "yes" for r in compared),
         completed=sum(r["completed"] == "yes" for r in seeded),
         seeds=len(seeded),
         impact_N=_median([_number(r, "impact_N") for r in seeded]),

@@ -22,7 +22,7 @@ COLUMNS = (
     *("sim_s", "cpu_s", "completed", "impact_N", "margin_mm"),
     *("com_mm", "zmp_mm", "force", "impact", "together_s"),
 )
-"""Kind is "traced" (without the sensors' noise, beside the run that it is compared with), "noise" (the scene's own run
+"""Kind is "traced" (without the sensors' noise, next to the run that it is compared with), "noise" (the scene's own run
 with noise next to itself without), or "seeded" (with noise, for the statistics)."""
 
 

@@ -17,10 +17,10 @@ class SceneSetting:
     Attributes:
         value: In words.
         settings: Of the scene, as `key=value`.
-        contact_time: Time constant in s of contacts; None for the world's own.
+        contact_time: Time constant in s of contacts, or None.
         iterations: Most iterations of MuJoCo's solver, or None.
         points: Spheres a taxel that each sole stands on; 0 for its box.
-        cell_ratio: Area of the taxels over that of the robot's own.
+        cell_ratio: Area of the taxels over the robot's own.
         against: Name of the setting that it is compared with.
         machine: Whether it is another robot (its skin, its clock).
         quick: Whether it is part of a quick run.

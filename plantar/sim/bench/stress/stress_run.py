@@ -62,7 +62,7 @@ class CommandCheck:
         last, self._last = self._last, targets
         middle = 0.5 * (feet[0].position + feet[1].position)
         if float(np.linalg.norm(command.com - middle)) > _FARTHEST * self._body.leg:
-            return "out of bounds: CoM is nowhere near the feet"
+            return "out of bounds: the CoM is far from the feet"
         if last is not None:
             for name, now, before in zip(("CoM", "left sole", "right sole"), targets, last, strict=True):
                 way = float(np.linalg.norm(now - before))

@@ -16,7 +16,7 @@ from plantar.sim.body_skin.surface import OBSTACLE_GROUP
 __all__ = ["KINDS", "Layout", "Post", "random_layout"]
 
 KINDS = ("movable", "goal", "beside")
-"""Movable things on the way, one where the goal is, and a fixed one beside movable ones (T Figures 24-27)."""
+"""Movable things on the way, one where the goal is, and a fixed one next to movable ones (T Figures 24-27)."""
 
 _SPACING = 0.155  # m between the middles of neighbours in the bow, along it
 

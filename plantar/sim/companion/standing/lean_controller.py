@@ -28,7 +28,7 @@ __all__ = ["HAND", "PATCH", "Aim", "LeanControl", "LeanController"]
 
 ARM = "right_lower_arm"
 PATCH = "right_lower_arm"
-"""Patch whose skin feels the table."""
+"""Patch whose skin measures the table."""
 UNDERSIDE = np.array([-0.045, 0.0, -0.12])
 LEVEL = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
 """Rotation of a forearm that points forward, its underside down."""
@@ -85,10 +85,8 @@ class LeanController:
     """Settle, bring the forearm over the table, lower it until it touches, lean, reach.
 
     The load is shared among feet and forearm within their friction cones; the forearm presses with its share as its
-    skin measures it. Without skin it is held where the table is expected.
-
-    Args:
-        experiment: For its stance and first posture, not for the table's truth.
+    skin measures it. Without skin it is held where the table is expected. Of the `experiment` only stance and first
+    posture are used.
 
     Attributes:
         began: Begin of each phase in s by its name.

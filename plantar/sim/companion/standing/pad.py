@@ -113,11 +113,10 @@ class PlannedContact:
     """One pad that presses for a while; its force swells and fades.
 
     Attributes:
-        begin: In s.
-        hold: For how long in s.
+        begin: In s; `hold` for how long.
         force: In N.
         swell: Time in s over which its force grows; it fades in that time, and in 0.6 s at least.
-        against: Link against which the yield is measured; empty for the centre of mass, which leans into the contacts.
+        against: Link against which the yield is measured; empty for the centre of mass.
         yielded: Largest yield in m along the pad's first direction.
         measured: Largest true force in N.
     """

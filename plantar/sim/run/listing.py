@@ -1,0 +1,43 @@
+"""Names of robots and machines, scenes, papers and formats; read without a simulator."""
+
+from __future__ import annotations
+
+from plantar.errors import InputError
+from plantar.files.structured_text import described_files, packaged_files
+from plantar.sim.papers.preset import paper_files
+
+__all__ = ["listed"]
+
+
+def listed(what: str) -> dict[str, str]:
+    """Names with a line that describes each.
+
+    Args:
+        what: "robots", "scenes", "papers" or "formats".
+
+    Returns:
+        Descriptions by name.
+
+    Raises:
+        InputError: If something else is asked for.
+
+    Example:
+        >>> "h1" in listed("robots"), "beam" in listed("scenes")
+        (True, True)
+    """
+    if what == "formats":
+        from plantar.formats import formats
+
+        return {f.name: f"{f.title} ({', '.join(f.suffixes)})" for f in formats().values()}
+    if what == "robots":
+        files = packaged_files("plantar.robots", "*/robot.toml")
+        files += packaged_files("plantar.sim", "companion/machines/*/machine.toml")
+        return {path.parent.name: text for path, text in described_files(files).items()}
+    if what == "scenes":
+        return {
+            path.stem: text for path, text in described_files(packaged_files("plantar.sim", "scenes/*.toml")).items()
+        }
+    if what == "papers":
+        found = paper_files()
+        return dict(zip(found, described_files(found.values()).values(), strict=True))
+    raise InputError(f"cannot list '{what}'; allowed: robots, scenes, papers, formats, settings")
