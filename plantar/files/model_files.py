@@ -183,7 +183,6 @@ def check_model(file: Path, error: type[PlantarError]) -> None:
 
 
 def _tried(file: Path, changed: int, error: type[PlantarError]) -> None:
-    """Let MuJoCo read a model in a separate process, once."""
     key = file.resolve(), changed
     if key in _PASSED:
         return
@@ -236,6 +235,5 @@ def _check_size(path: Path, tag: str, error: type[PlantarError], where: str) -> 
 
 
 def _asset_folders(compiler: dict[str, str]) -> Iterator[str]:
-    """Folders in which MuJoCo looks for a model's files."""
     found = [compiler[key] for key in ("meshdir", "texturedir", "assetdir") if key in compiler]
     yield from found or [""]

@@ -210,7 +210,6 @@ def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) ->
 
 
 def _frames(array: _Array) -> NDArray[np.float64]:
-    """An array as (frames, cells), a matrix of cells row by row."""
     table = np.asarray(array.read(), dtype=float).reshape(array.shape[0], -1)
     for start in range(0, len(table), 4096):  # by blocks: a mask of all would be as large as the file
         block = table[start : start + 4096]

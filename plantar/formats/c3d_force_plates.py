@@ -78,13 +78,11 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _stated_events(held: Mapping[str, NDArray[Any]]) -> dict[Side, StatedEvents]:
-    """Foot strikes and foot offs of the group EVENT, in the frames' time."""
     found = {side: StatedEvents(held[f"strikes_{side}"], held[f"lifts_{side}"]) for side in SIDES}
     return {side: own for side, own in found.items() if len(own.heel_strikes) or len(own.toe_offs)}
 
 
 def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
-    """A warning where the file holds fewer frames than its header states."""
     first, last = struct.unpack_from("<HH", head, 6)
     (samples,) = struct.unpack_from("<H", head, 18)
     read = int(held["frames"])

@@ -22,13 +22,8 @@ __all__ = ["cells_of_foot", "foot_of_matrix", "halves", "scale_to_force", "unit_
 
 
 def unit_of_values(stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file") -> Unit:
-    """Returns the unit of the values: the options', else the stated one, else raw counts with a warning.
-
-    Args:
-        stated: Unit that the file states, or None; FormatError if it is not known.
-        options: The user's options.
-        warnings: List to which assumptions are added.
-        what: What states no unit, for the warning.
+    """Returns the unit of the values: the options', else the stated one, else raw counts with warnings that name
+    what.
     """
     text = options.unit or stated
     if not text:
@@ -49,19 +44,17 @@ def cells_of_foot(
     ids: Sequence[int] | None = None,
     own: SoleLayout | None = None,
 ) -> FootRecording:
-    """Returns one foot's forces from values in a unit.
+    """Returns one foot's forces from values in a unit; FormatError if the layout does not fit, or pressures have no
+    areas.
 
     Args:
         side: The foot.
         values: Values (n, k), NaN where not measured; they become the forces in place.
         unit: Their unit.
-        options: With the user's layout, which overrides the file's own.
+        options: With the user's layout.
         warnings: List to which assumptions are added.
         ids: Cell ids of the columns, where the file names them.
         own: Layout of the file itself.
-
-    Raises:
-        FormatError: If the layout has another number of cells, or pressures have no cell areas to make forces of.
     """
     layout = layout_for(side, options.layout) or own
     if layout is not None and ids is not None and len(set(ids)) == len(ids) and set(ids) <= set(layout.ids.tolist()):
@@ -91,13 +84,14 @@ def foot_of_matrix(
     name: str,
     threshold: float,
 ) -> FootRecording:
-    """Returns the forces of a matrix of cells, on the user's layout or one of rectangles.
+    """Returns the forces of a matrix of cells, on the user's layout or one of rectangles; FormatError if that does not
+    fit.
 
     Args:
         side: The foot.
         values: Values (n, k) of the cells row by row, NaN where not measured; they become the forces in place.
         unit: Their unit.
-        options: With the user's layout; FormatError if it has another number of cells.
+        options: With the user's layout.
         present: Which places (rows, columns) of the matrix are cells.
         pitch: Distances of rows and columns in m.
         name: Name of the layout.
@@ -111,13 +105,7 @@ def foot_of_matrix(
 
 
 def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.float64] | None) -> None:
-    """Convert readings to forces in N, in place, unless they are raw counts.
-
-    Args:
-        values: Readings (n, k).
-        unit: Their unit.
-        areas: Areas (k,) of the cells in m^2, for pressures.
-    """
+    """Convert values (n, k) in a unit to forces in N, in place, pressures by areas (k,) in m^2; raw counts stay."""
     if unit.kind == "pressure" and areas is not None:
         scale_frames(values, unit.factor * areas)
     elif unit.factor != 1.0:
@@ -127,13 +115,7 @@ def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.fl
 def halves(
     values: NDArray[np.float64], options: ReadOptions, warnings: list[str]
 ) -> list[tuple[Side, NDArray[np.float64]]]:
-    """Returns feet and their columns, from columns that name no foot: both where there are twice the layout's cells.
-
-    Args:
-        values: Values (n, k).
-        options: The user's options.
-        warnings: List to which assumptions are added.
-    """
+    """Returns feet and their columns of values (n, k) that name none, by the options; warnings get assumptions."""
     k = values.shape[1]
     if options.layout is not None and k == 2 * len(options.layout):
         warnings.append(

@@ -77,7 +77,6 @@ def _column(lines: list[str], delimiter: str | None, column: int) -> Iterator[st
 
 
 def _content(stream: TextIO) -> Iterator[str]:
-    """Lines that are not empty and no comment."""
     return (line.rstrip("\n") for line in stream if line.strip() and not line.startswith("#"))
 
 

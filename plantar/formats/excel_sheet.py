@@ -105,7 +105,6 @@ def _records(stream: bytes) -> Iterator[tuple[int, bytes]]:
 
 
 def _sheets(stream: bytes) -> list[dict[tuple[int, int], str]]:
-    """Texts of the cells of each sheet by row and column."""
     texts: list[str] = []
     parts: list[bytes] = []
     sheets: list[dict[tuple[int, int], str]] = []

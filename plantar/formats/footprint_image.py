@@ -65,11 +65,7 @@ def _recognises(head: bytes) -> bool:
 
 
 def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintImage:
-    """Returns an image and its footprints.
-
-    Args:
-        path: The image.
-        mm_per_pixel: Size of a pixel in mm; where None, the resolution that the file states.
+    """Returns the footprints in an image at path, of mm_per_pixel mm or the resolution that the file states.
 
     Raises:
         FormatError: If the file is no image, or no footprint differs from its background.
@@ -135,7 +131,6 @@ def decoded_image(path: Path) -> dict[str, Any]:
 
 
 def _refuse_large(path: Path, data: bytes) -> None:
-    """Refuse an image of too much memory or time, before it is decoded."""
     size = stated_size(data)
     if size is None or min(size.width, size.height) < 16:
         raise FormatError(f"{path}: {_IMAGE}")

@@ -44,16 +44,16 @@ _STATED = 2.0  # Offset in N from which it is reported
 
 @dataclass(frozen=True, eq=False)
 class Plate:
-    """Measurements of one force plate.
+    """Measurements of one force plate; optional ones are None where the file does not hold them.
 
     Attributes:
         name: Its name for messages, such as "plate 1".
         force: Force (n, 3) in N; horizontal ones NaN where they were not measured.
-        moment: Moment (n, 3) in N m about `origin`; None where the file holds CoPs or none.
-        cop: Centre of pressure (n, 2) in m that the file states; None without.
-        free: Free moment (n,) in N m that the file states; None where it follows from `moment`, or is unknown.
+        moment: Moment (n, 3) in N m about `origin`.
+        cop: Centre of pressure (n, 2) in m.
+        free: Free moment (n,) in N m, where it does not follow from `moment`.
         origin: Point (2,) in m on the surface that moments are about.
-        corners: Corners (4, 2) in m; None where they are not known.
+        corners: Corners (4, 2) in m.
         side: The foot that the file or the user names for it.
         stepped: Whether a foot was on it.
         placed: Whether its place and axes in the laboratory are known.
@@ -262,7 +262,6 @@ def _with_cop(plate: Plate, warnings: list[str]) -> Plate:
 
 
 def _is_of_both(plate: Plate, contact: PlateContact) -> bool:
-    """Whether the CoP of a contact moves farther than that of one foot."""
     if plate.cop is None:
         return False
     span = slice(contact.begin, contact.end)

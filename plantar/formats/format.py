@@ -17,14 +17,13 @@ class ReadOptions:
     """What is known about a file, used instead of its own statements.
 
     Attributes:
-        layout: Sole layout to use instead of the format's own geometry; mirrored for the other foot.
+        layout: Sole layout; mirrored for the other foot.
         unit: Unit of the values, for example "kPa", "N" or "raw"; see `plantar.formats.units`.
         rate_hz: Frames a second.
         side: The foot of a file of one; of a pedar file of two insoles that it does not separate, of the first columns.
         insole_size: Size of a pedar insole, for example "x" or "vw"; see `plantar.formats.nominal_insole`.
         mass_kg: Mass of the body, which turns forces in body weights into N.
-        plates: The foot of each force plate, in the file's order; None for a plate that is left out. Empty where the
-            data decides.
+        plates: The foot of each force plate, in the file's order; None for a plate that is left out.
     """
 
     layout: SoleLayout | None = None
@@ -43,7 +42,7 @@ class Format:
     Attributes:
         name: Name for `--format`.
         title: Description in a few words.
-        suffixes: Usual ends of file names; only for listing, files are recognised by their content.
+        suffixes: Usual ends of file names, only for listing.
         recognises: Whether a file's first bytes are of this format.
         read: Reads a file; None for footprint images, which are no recordings.
         folders: File that a folder of this format holds, where the format is a folder.

@@ -93,13 +93,11 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _wanted(channels: list[str]) -> list[int]:
-    """Columns of the time and of the feet's channels that hold numbers."""
     found = [i for i, n in enumerate(channels) if i > 0 and _CHANNEL.match(n)]
     return [0, *(i for i in found if not re.search(r"label|events|steps", channels[i], re.IGNORECASE))]
 
 
 def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], list[str], str]:
-    """Facts of the header, names of the channels, and the delimiter."""
     header: dict[str, str] = {}
     for line in islice(lines, _LARGEST_HEADER):
         text = line.lstrip("\ufeff").rstrip("\n")
@@ -117,7 +115,6 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], list
 
 
 def _columns(names: list[str], side: Side) -> dict[str, tuple[int, str]]:
-    """Column and unit of each channel of one foot."""
     out: dict[str, tuple[int, str]] = {}
     for i, name in enumerate(names):
         match = _CHANNEL.match(name)

@@ -112,14 +112,11 @@ def insole_outline(length: float) -> NDArray[np.float64]:
 
 
 def nominal_insole(size: str, side: Side) -> SoleLayout:
-    """Returns a parametric insole of 99 quadrilateral cells with the areas that are published for the size.
+    """Returns a parametric insole of a side, of 99 quadrilateral cells with the areas published for the size
+    (`CELL_AREAS`).
 
     Each row's height is proportional to the area of its cells. The origin is in the middle of the heel edge; x points
     to the toe; ids are 1 to 99.
-
-    Args:
-        size: A key of `CELL_AREAS`.
-        side: "left" or "right".
 
     Example:
         >>> layout = nominal_insole("y", "left")
@@ -227,15 +224,10 @@ _AREA_SIZE = 7
 
 
 def moticon_insole(size: int | None, side: Side, areas: NDArray[np.float64] | None = None) -> SoleLayout:
-    """Returns the insole cut into the parts that are nearest to each cell.
+    """Returns the insole of a size (7 where unknown) and side, cut into the parts that are nearest to each cell.
 
-    The origin is in the middle of the heel edge, ids are 1 to 16. Its areas differ a little from those of the drawn
-    parts.
-
-    Args:
-        size: Size of the insole; 7 is assumed where None or unknown.
-        side: "left" or "right".
-        areas: Area (16,) in m^2 of each cell, where the recording gives it.
+    The origin is in the middle of the heel edge, ids are 1 to 16. Areas (16,) in m^2 are those of the recording, if
+    known; they differ a little from those of the drawn parts.
 
     Example:
         >>> layout = moticon_insole(7, "left")

@@ -1,8 +1,7 @@
 """Novel emed ASCII exports (.lst): one page of a printed table for each frame of a pressure platform.
 
-Each page gives the columns and rows of the matrix that it shows, pressures, and the force of each row, column and
-frame. The unit of pressure is not stated; it follows from those forces. Wide frames have several pages. Summary pages
-(MVP, MPP) follow the frames.
+Each page gives its columns and rows, pressures, and the force of each row, column and frame, from which the unit of
+pressure follows. Wide frames have several pages. Summary pages (MVP, MPP) follow the frames.
 """
 
 from __future__ import annotations
@@ -205,7 +204,6 @@ def _is_count(text: str) -> bool:
 
 
 def _frames(pages: list[_Page], warnings: list[str]) -> list[_Page]:
-    """Pages joined to frames, with a report of damaged ones."""
     frames: list[_Page] = []
     for page in pages:
         if frames and frames[-1].goes_on_with(page):
@@ -238,7 +236,6 @@ def _matrix(facts: dict[str, str], needed: tuple[int, int], warnings: list[str])
 
 
 def _sensor_size(facts: dict[str, str], warnings: list[str]) -> tuple[float, float]:
-    """Pitch of rows and columns in m."""
     numbers = [float(v.replace(",", ".")) for v in re.findall(r"\d+(?:[.,]\d+)?", facts.get("size", ""))]
     unit = next((LENGTHS[w] for w in re.findall(r"[a-z]+", facts.get("size", "").lower()) if w in LENGTHS), None)
     area = number_in(facts.get("area", ""))

@@ -1,8 +1,8 @@
 """Novel pedar and pliance ASCII exports (.asc): pressures of insoles or a mat, one row a frame.
 
-A header states the sensor, the rate and the unit, and may list the cells of each insole ("left insole: 1,2,..."). The
-row of column names starts with "time[secs]" and gives cell numbers; where they restart, the next foot begins. A pliance
-export may end with a table of cell corners (x[0] .. y[3], in cm).
+A header states the sensor, the rate and the unit, and may list the cells of each insole. The row of column names starts
+with "time[secs]" and gives cell numbers; where they restart, the next foot begins. A pliance export may end with a
+table of cell corners.
 """
 
 from __future__ import annotations
@@ -276,7 +276,6 @@ def _layout(
     warnings: list[str],
     insole_size: str | None = None,
 ) -> SoleLayout:
-    """The layout of one foot, its taxels in the order of the columns."""
     if given is not None:
         sole = layout_for(side, given)
         assert sole is not None

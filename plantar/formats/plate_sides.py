@@ -52,12 +52,8 @@ class PlateContact:
 
 
 def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> list[PlateContact]:
-    """Returns the contacts on one plate in order; cut ones as well, but none that lasts throughout.
-
-    Args:
-        plate: Its number.
-        vertical: Vertical force (n,) in N on the foot.
-        rate: Frames a second.
+    """Returns the contacts on a plate by its vertical force (n,) in N at a rate in Hz; cut ones, too, but none
+    throughout.
     """
     force = np.nan_to_num(vertical)
     loaded = force > max(_LEAST, _SHARE * float(np.percentile(force, 99.5)))

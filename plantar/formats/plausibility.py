@@ -223,7 +223,6 @@ def _is(value: NDArray[np.float64], mark: float) -> NDArray[np.bool_]:
 
 
 def _left_out(force: NDArray[np.float64], per: NDArray[np.float64], mark: float) -> tuple[NDArray[np.float64], int]:
-    """The readings with NaN in place of a mark, and their number."""
     out, count = room(*force.shape), 0
     for rows in blocks_of_frames(force):
         marked = _is(force[rows] / per, mark)

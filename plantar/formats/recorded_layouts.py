@@ -25,15 +25,12 @@ def grid_cells(
     Its origin is in the middle of the hind edge; ids count through the whole matrix.
 
     Args:
-        present: Which cells (rows, columns) there are.
+        present: Which cells (rows, columns) there are; FormatError without any, or for a bad pitch.
         row_pitch: Distance of rows in m.
         column_pitch: Distance of columns in m.
         side: The foot.
         name: Name of the layout.
         threshold: Pressure in Pa from which a cell counts as loaded.
-
-    Raises:
-        FormatError: If there is no cell, or a pitch is not usable.
 
     Example:
         >>> layout = grid_cells(np.ones((3, 2), dtype=bool), 0.01, 0.005, side="left", name="mat", threshold=1e4)
@@ -86,15 +83,11 @@ def grid_cells(
 
 
 def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], side: Side, name: str) -> SoleLayout:
-    """Returns a layout from the corners of each cell.
+    """Returns a named layout of a side from rings: the corners (k, 2) of each cell in m, counter-clockwise, and its
+    ids.
 
-    Cells that share two corners are neighbours, the outline is the convex hull, and the activation threshold is 10 kPa.
-
-    Args:
-        rings: Corners (k, 2) of each cell in the sole frame in m, counter-clockwise.
-        ids: Their ids; FormatError if they are not unique, or a cell has no area.
-        side: The foot.
-        name: Name of the layout.
+    Cells that share two corners are neighbours, the outline is the convex hull, the threshold 10 kPa. FormatError if
+    ids are not unique, or a cell has no area.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]])
@@ -153,13 +146,9 @@ def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
 
 
 def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
-    """Returns corners (cells, 4, 2) in m in the file's axes, from the rows "x[0]" .. "y[3]" (in cm); None without a
-    whole table.
+    """Returns corners (cells, 4, 2) in m in the file's axes, from the rows "x[0]" .. "y[3]" (in cm) of its tail.
 
-    Args:
-        tail: The lines after the frames.
-        cells: Number of cells.
-        warnings: List to which an incomplete table is reported.
+    None without a whole table, which warnings report.
     """
     rows: dict[str, list[float]] = {}
     for line in tail:
@@ -183,12 +172,9 @@ def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np
 
 
 def layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
-    """Returns a layout of quadrilateral cells; the file's y becomes x (forward), its x becomes -y (to the right).
+    """Returns a layout of quadrilateral cells of a side by their corners (n, 4, 2) in m in the file's axes.
 
-    Args:
-        corners: Corners (n, 4, 2) in m in the file's axes, in any order.
-        cells: Ids of the cells.
-        side: "left" or "right".
+    The file's y becomes x (forward), its x becomes -y (to the right).
     """
     import shapely  # only where a file brings its own geometry
 

@@ -106,7 +106,6 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _size(path: Path) -> int:
-    """Bytes of a bag's regular files."""
     if not os.path.isdir(path):
         return check_input(path, FormatError)
     check_input(path / _FOLDERS, FormatError, JSON_MOST)
@@ -169,7 +168,6 @@ def series_of_bag(path: Path) -> dict[str, Any]:
 
 
 def _arrays(message: Any, depth: int) -> Iterator[tuple[str, NDArray[np.float64]]]:
-    """Numeric arrays of a message and of the messages in it."""
     for name in getattr(message, "__dataclass_fields__", {}):
         value = getattr(message, name, None)
         if isinstance(value, np.ndarray) and value.dtype.kind in "iuf":

@@ -87,12 +87,7 @@ def with_numbers(lines: Iterator[str], delimiter: str | None, column: int) -> It
 
 
 def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side, NDArray[np.int64]]:
-    """Returns the indices of the rows of each foot.
-
-    Args:
-        values: Numbers (n,) of the side column; FormatError for more than two.
-        warnings: List to which assumptions are added.
-    """
+    """Returns the indices of each foot's rows by the values (n,) of a side column; warnings get assumptions."""
     kinds = np.unique(values[np.isfinite(values)])
     if len(kinds) > 2 or len(kinds) == 0:
         raise FormatError(
@@ -114,19 +109,11 @@ def rows_of_sides(values: NDArray[np.float64], warnings: list[str]) -> dict[Side
 def on_one_time(
     time: NDArray[np.float64], rows: dict[Side, NDArray[np.int64]], columns: Sequence[NDArray[np.float64]]
 ) -> tuple[NDArray[np.float64], dict[Side, NDArray[np.float64]], bool]:
-    """Returns rows of both feet on one time base: times (m,), values (m, k) of each foot, and whether the right's
-    moved.
+    """Returns rows of both feet on one time base: times (m,), values (m, k) of each foot, and whether these are
+    interpolated.
 
-    Values are NaN where a foot has no rows for a while; where times differ, the right foot's are interpolated at the
-    left's.
-
-    Args:
-        time: Time (n,) of each row.
-        rows: Indices of the rows of each foot.
-        columns: Columns (n,) of values.
-
-    Raises:
-        FormatError: If a foot has no time.
+    Rows are indices of each foot's in time (n,) and in columns (n,) of values; NaN where a foot has none for a while.
+    Where times differ, the right foot's values are interpolated at the left's. FormatError if a foot has no time.
     """
     if len(rows) == 1:
         ((side, own),) = rows.items()
@@ -151,7 +138,6 @@ def on_one_time(
 
 
 def _usual(time: NDArray[np.float64]) -> float:
-    """Usual distance between times (n,); 0 of a single one."""
     return float(np.median(np.diff(time))) if len(time) > 1 else 0.0
 
 

@@ -100,12 +100,10 @@ def _number(cell: ElementTree.Element | None) -> float:
 
 
 def _root(path: str | os.PathLike[str], archive: zipfile.ZipFile, part: str) -> ElementTree.Element:
-    """A part of a report as XML."""
     return parse_xml(read_part(archive, part, FormatError, f"{path}: no events ({part[:80]})"), FormatError, str(path))
 
 
 def _sheets(path: str | os.PathLike[str], archive: zipfile.ZipFile) -> list[tuple[str, str]]:
-    """Name and path of each sheet, each once."""
     links = {r.get("Id"): r.get("Target", "") for r in _root(path, archive, "xl/_rels/workbook.xml.rels")}
     sheets = list(_root(path, archive, "xl/workbook.xml").iter(f"{_SHEET}sheet"))
     if len(sheets) > _MOST_SHEETS:

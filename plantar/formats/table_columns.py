@@ -41,7 +41,7 @@ def recording_of_columns(
     """Returns a recording from a table of numbers and the names of its columns.
 
     Columns are, by quantity, forces, moments and centres of pressure of plates; forces of a foot; or cells. Others are
-    left out, with a warning.
+    left out, with a warning. FormatError if no column is a load, rows are curves of trials, or a unit is not known.
 
     Args:
         table: Numbers (n, k), NaN where one is missing.
@@ -50,9 +50,6 @@ def recording_of_columns(
         path: Name of the recording.
         facts: "unit", "rate", "side" of comments.
         warnings: List to which assumptions are added.
-
-    Raises:
-        FormatError: If no column is a load, rows are curves of trials, or a unit is not known.
     """
     facts, warnings = {} if facts is None else facts, [] if warnings is None else warnings
     if not names:
@@ -233,7 +230,6 @@ def _cells(
     options: ReadOptions,
     warnings: list[str],
 ) -> tuple[dict[Side, FootRecording], bool]:
-    """Feet of a table of cells, and whether its values are counts."""
     chosen = _chosen_cells(headings, columns) if names else columns
     if names:
         _report_left_out([names[i] for i in columns if i not in chosen], warnings, "cell")

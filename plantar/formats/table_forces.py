@@ -58,11 +58,8 @@ def feet_of_forces(
         columns: Headings of columns by number, without times.
         rate: Frames a second.
         options: What is known of the table.
-        stated: Unit that comments state.
+        stated: Unit that comments state; FormatError if it is not known, or no force is vertical.
         warnings: List to which assumptions are added.
-
-    Raises:
-        FormatError: If a unit of force is not known, or the vertical force cannot be found.
     """
     groups: dict[_Key, dict[str, dict[str, int]]] = {}
     for i, h in columns.items():
@@ -112,7 +109,6 @@ def _scaled(foot: FootRecording, scale: float) -> FootRecording:
 
 
 def _numbered_sides(plates: list[Plate], names: Sequence[_Key]) -> list[Plate]:
-    """Plates whose names give each foot several: they keep their foot."""
     return [replace(p, name=f"{p.name} {names[i][1]}") for i, p in enumerate(plates)]
 
 
@@ -181,7 +177,6 @@ def _plate(
     unit: float,
     warnings: list[str],
 ) -> Plate:
-    """One plate, or the ground under one foot, z up."""
     side, number = key
     name = f"plate {number}" if number is not None else f"the {side} plate" if side else "the plate"
     up = vertical if vertical in _UPRIGHT else "z"

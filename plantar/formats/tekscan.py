@@ -112,7 +112,6 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 
 
 def _measuring(frames: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which cells hold a number in any frame, block by block."""
     out = np.zeros(frames.shape[1], dtype=bool)
     for rows in blocks_of_frames(frames):
         out |= ~np.isnan(frames[rows]).all(axis=0)
@@ -181,7 +180,6 @@ def _take_frames(
 def _shape(
     path: Path, header: dict[str, str], rows: int | None, bodies: list[list[str]]
 ) -> tuple[tuple[int, int], str | None]:
-    """Rows and columns of the matrix, and the sign between its cells."""
     first = bodies[0]
     rows = rows or int(np.median([len(b) for b in bodies]))
     delimiter = next((d for d in ";\t," if first and d in first[0]), None)
@@ -243,8 +241,6 @@ def _unit(path: Path, header: dict[str, str], options: ReadOptions, warnings: li
 
 
 def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
-    """Distances of rows and of columns in m."""
-
     def length(key: str) -> float | None:
         text = header.get(key, "")
         value = number_in(text)

@@ -39,12 +39,9 @@ _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 
 
 def open_text(path: Path, encoding: str | None = None, longest: int = _LONGEST_LINE) -> TextIO:
-    """Returns a text file opened for reading line by line, with uniform line ends; FormatError if it cannot be read.
+    """Returns a text file at path opened for reading, with uniform line ends; FormatError if it cannot be read.
 
-    Args:
-        path: The file.
-        encoding: Its encoding; found from its beginning where None.
-        longest: Longest line in bytes; a longer one is an error when it is read.
+    Its encoding is found from its beginning where None; a line longer than `longest` bytes is an error when it is read.
     """
     stream = open_input(path, FormatError)
     if encoding is None:
@@ -73,12 +70,7 @@ class _Lines(io.BufferedReader):
 
 
 def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16_000_000) -> Iterator[list[str]]:
-    """Yields blocks of one line or more, small whatever the lines are.
-
-    Args:
-        lines: The lines; more can be taken from them between blocks.
-        most: Lines of a block.
-        characters: Characters from which a block ends sooner.
+    """Yields blocks of up to most lines that end sooner at a number of characters; lines can be taken between blocks.
 
     Example:
         >>> [len(block) for block in blocks_of_lines(iter(["ab", "c", "d", "e"]), most=3, characters=2)]
@@ -99,13 +91,9 @@ def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16
 def frames_of_lines(
     lines: Iterator[str], mark: re.Pattern[str], first: re.Match[str] | None, most: int
 ) -> Iterator[tuple[re.Match[str], list[str]]]:
-    """Yields the match of `mark` that begins each frame, and its lines that are not empty.
+    """Yields the match of `mark` that begins each frame, and its lines that are not empty, up to "@@".
 
-    Args:
-        lines: The lines after the `first` match, which is None where there is none; "@@" ends them.
-        mark: Pattern of a frame's first line.
-        first: Match of the first frame.
-        most: Lines of a frame; one of more ends the frames.
+    Lines follow the first match (None for no frames); a frame of more than most lines ends them.
     """
     while first is not None:
         begin, body = first, list[str]()
@@ -175,18 +163,18 @@ def table_of_lines(
     warnings: list[str],
     columns: Sequence[int] = (),
 ) -> NDArray[np.float64]:
-    """Returns the numbers (n, k) of lines, NaN where a cell is empty or none, and warns of what is damaged.
+    """Returns the numbers (n, k) of lines of a file at path, NaN where a cell is empty or none.
+
+    Warnings get a cut last row, and counts of damaged rows and cells. FormatError without lines, or for too many
+    damaged.
 
     Args:
         path: The file, whose size decides how much room is made.
         lines: The lines.
         delimiter: The sign between cells; None for blanks.
         width: Cells of a line, empty ones at its end aside.
-        warnings: List to which a cut last row, and counts of damaged rows and cells, are added.
+        warnings: The list.
         columns: Cells (k,) that are read; all where empty.
-
-    Raises:
-        FormatError: If there are no lines, or too many are of another width or hold text.
     """
     wanted = list(columns) or list(range(width))
     table = FrameTable(len(wanted), 0)
@@ -286,9 +274,8 @@ def number_rows(
 
     Args:
         lines: The lines, with their ends or without.
-        delimiter: The sign between numbers, between two of which a number may be missing; None for any blanks. Unless
-            it is a comma, numbers may have a decimal comma.
-        columns: Number of numbers of a line; or for each of them the column that it goes to, -1 where it is left out.
+        delimiter: The sign between numbers; None for blanks. Unless it is a comma, numbers may have a decimal comma.
+        columns: Numbers of a line; or for each of them the column that it goes to, -1 where it is left out.
 
     Example:
         >>> rows = number_rows(["1;2,5;x\\n", ";1e3;y\\n"], ";", [0, 1, -1])

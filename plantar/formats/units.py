@@ -13,7 +13,6 @@ _PSI = 6894.757293168  # Pa
 
 
 def _each(*named: tuple[str, float]) -> Mapping[str, float]:
-    """A unit's factor by each of its names, from names with blanks between."""
     return {name: factor for names, factor in named for name in names.split()}
 
 

@@ -1,8 +1,7 @@
 """XSENSOR CSV exports: for each frame, for each insole, a header of its own and a matrix of pressures.
 
-Repeated parts of the matrix for groups of cells (heel, toes, ...) are skipped. Each header states load and contact area
-of its insole, which check the unit and give the cells' area more precisely than width and height. In swing the stated
-load is 0 whatever the matrix holds.
+Matrices of groups of cells (heel, toes, ...) are skipped. Load and contact area in the headers check the unit and give
+the cells' area more precisely; in swing the stated load is 0.
 """
 
 from __future__ import annotations
@@ -230,7 +229,6 @@ def _take_fact(facts: dict[str, str], sensor: _Sensor, key: str, value: str) -> 
 
 
 def _keep(facts: dict[str, str], key: str, value: str) -> None:
-    """Store the first value of a key, up to a number of keys."""
     if len(facts) < _MOST_FACTS:
         facts.setdefault(key[:_LONGEST_NAME].lower(), value[:_LONGEST_NAME])
 
@@ -329,7 +327,6 @@ def _cell(
     side: Side,
     warnings: list[str],
 ) -> tuple[float, float]:
-    """Height and width of a cell in m."""
     sides: list[float] = []
     for name in ("sensel height", "sensel width"):
         text = next((v for k, v in facts.items() if k.startswith(name)), "")
@@ -364,7 +361,6 @@ def _cell(
 def _check_load(
     sensor: _Sensor, values: NDArray[np.float64], factor: float, frames: int, side: Side, warnings: list[str]
 ) -> None:
-    """Warn where the stated load shows a wrong unit or cell size."""
     sums = np.array([np.nansum(m) * factor for m in sensor.values.rows])
     load = np.array(sensor.load[: len(sums)])
     known = (load > _ENOUGH) & (sums > 0.0) if len(load) == len(sums) else np.zeros(0, dtype=bool)

@@ -87,7 +87,6 @@ class Channel(Generic[_Message]):
         self._messages.append(message)
 
     def _take_messages(self) -> _Gathered:
-        """The gathered messages as MCAP message records, then emptied."""
         times, messages = self._times, self._messages
         self._times, self._messages = [], []
         encoded, count, size = self._encode(times, messages), len(times), _MESSAGE_HEAD.itemsize
@@ -313,7 +312,6 @@ class Recorder:
             raise self._write_error(error) from None
 
     def _take_name(self) -> None:
-        """Give the file its name, once."""
         if self._temporary is not None:
             os.replace(self._temporary, self.path)
             self._temporary = None

@@ -112,12 +112,10 @@ def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tup
 
 
 def _later(tell: Callable[[float, str], None], begin: float, share: float) -> Callable[[float, str], None]:
-    """A callback that fills a part of another one's range."""
     return lambda fraction, text: tell(begin + share * fraction, text)
 
 
 def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
-    """Feet that are compared: the same ones, or the only foot of each."""
     common: dict[str, tuple[Side, Side]] = {s: (s, s) for s in SIDES if s in a.feet and s in b.feet}
     if not common and len(a.feet) == 1 and len(b.feet) == 1:
         one, other = next(iter(a.feet)), next(iter(b.feet))
@@ -199,7 +197,6 @@ def _curves(a: Analysis, b: Analysis, pairs: Mapping[str, tuple[Side, Side]]) ->
 
 
 def _changes(difference: Mapping[str, Any]) -> dict[str, float]:
-    """Differences of the main measures in percent, where known."""
     found = {key: difference[key]["percent"] for key in _MAIN if key in difference}
     return {key: percent for key, percent in found.items() if percent is not None}
 

@@ -121,7 +121,6 @@ def _views(analysis: Analysis, gait: FootGait) -> Sequence[StepView]:
 
 
 def _places(analysis: Analysis, gait: FootGait, step: Step | None) -> NDArray[np.float64] | None:
-    """Foot coordinates (k, 2) of the cells."""
     layout = gait.foot.layout
     if layout is None:
         return None

@@ -185,7 +185,6 @@ def _unit(analysis: Analysis) -> str:
 
 
 def _events(analysis: Analysis) -> list[tuple[str, str, float]]:
-    """Foot, kind and time in s of each event, in order."""
     found: list[tuple[str, str, float]] = []
     for side, gait in analysis.feet.items():
         found += [(side, "heel_strike", t) for t in gait.heel_strikes]

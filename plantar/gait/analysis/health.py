@@ -125,7 +125,6 @@ def _mirrored(layout: SoleLayout, other: SoleLayout) -> bool:
 
 
 def _inside(layout: SoleLayout, cell: int, beside: NDArray[np.int64], loaded: NDArray[np.bool_], mirror: bool) -> bool:
-    """Whether a cell lies among loaded ones."""
     on = beside[loaded[beside]]
     if not len(beside) or len(on) < _AROUND * len(beside):
         return False

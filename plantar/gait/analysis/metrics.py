@@ -123,7 +123,6 @@ def _segment(segment: Segment, feet: Mapping[Side, FootGait]) -> dict[str, Any]:
 
 
 def _segment_notes(segments: Sequence[Segment], feet: Mapping[Side, FootGait]) -> list[str]:
-    """Note on a recording with several activities or stops."""
     kinds = list(dict.fromkeys(s.activity for s in segments))
     if len(segments) < 2 or (len(kinds) == 1 and len(segments) < 2):
         return []
@@ -207,7 +206,6 @@ def _missing_percent(recording: PressureRecording, foot: FootRecording) -> float
 
 
 def _step(step: Step, named: Callable[[str], str]) -> dict[str, Any]:
-    """Row of a step in the report's table."""
     out = {"number": step.number, "used": step.used, "note": step.unused or step.odd}
     times = {"heel_strike_s": step.heel_strike_s, "toe_off_s": step.toe_off_s}
     return {**out, **times, **{named(key): _plain(step[key]) for key in EACH_STEP}}

@@ -104,7 +104,6 @@ def _check_clock(recording: PressureRecording) -> None:
 
 
 def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
-    """The gait of each foot, with all steps in the means."""
     events = {side: _events_of(recording, side, stated) for side in recording.feet}
     feet = {side: analyse_foot(recording, side, prints, stated, events) for side in recording.feet}
     places = {side: [_place(recording, gait, step, prints) for step in gait.steps] for side, gait in feet.items()}
@@ -164,7 +163,6 @@ def _events_of(recording: PressureRecording, side: Side, stated: bool) -> tuple[
 def _with_events(
     recording: PressureRecording, side: Side, levels: Levels | None, contacts: Sequence[Contact]
 ) -> FootGait:
-    """One foot with its contacts and its CoP, without steps."""
     foot = recording.feet[side]
     force = foot.vertical_force
     cop = foot.center_of_pressure(levels.release if levels is not None else np.inf)
@@ -176,14 +174,12 @@ def _with_events(
 def _other_foot(
     recording: PressureRecording, side: Side, events: Mapping[Side, tuple[Levels | None, list[Contact]]]
 ) -> OtherFoot | None:
-    """Contacts of the other foot; None where it was not recorded."""
     if other_side(side) not in recording.feet or not recording.metadata.get("sees_every_step", True):
         return None  # plates in a walkway do not see what the other foot does next to them
     return OtherFoot(recording, other_side(side), events[other_side(side)][1])
 
 
 def _contacts(recording: PressureRecording, side: Side, stated: bool, levels: Levels | None) -> list[Contact]:
-    """Contacts of a foot: found in its force, or stated by the file."""
     if stated:
         return stated_contacts(recording.time, recording.events[side])
     if levels is None:
@@ -206,7 +202,6 @@ def _levels(recording: PressureRecording, side: Side) -> Levels | None:
 def _regions(
     load: StepLoad, region: NDArray[np.int64] | None, lasts: Sequence[float]
 ) -> list[dict[str, dict[str, float]]]:
-    """Measures of each region in each contact of a load; none without geometry."""
     if region is None or load.pressure is None:
         return [{} for _ in lasts]
     return region_measures(load, region, list(REGIONS), lasts)
@@ -227,7 +222,6 @@ def _place(recording: PressureRecording, gait: FootGait, step: Step, prints: Seq
 
 
 def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
-    """Warnings about a foot's steps."""
     out: list[str] = []
     side = gait.foot.side
     if recording.kind != "insole":

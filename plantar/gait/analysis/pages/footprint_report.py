@@ -105,7 +105,6 @@ def _forward(centres: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _sides(image: FootprintImage, pixel: float, stated: Side | None) -> tuple[list[Side], list[str]]:
-    """The foot of each print in an image, and what had to be assumed."""
     if len(image.prints) == 2:
         tops = [_forward(_centres(p, pixel)) for p in image.prints]
         up = tops[0][0] + tops[1][0] >= 0.0
@@ -214,8 +213,6 @@ def _draw_contours(axes: Any, part: Print, side: Side, height: int, scale: _Scal
 
 
 def _draw_lines(axes: Any, print_: Footprint, scale: _Scale) -> None:
-    """Draw the thirds without toes, the axis and the toe line of a footprint."""
-
     def place(points: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.asarray(print_.from_foot(points)[:, ::-1] * (-scale.of_length, scale.of_length)).T
 

@@ -49,7 +49,6 @@ def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 def _packed(
     recording: PressureRecording, feet: Mapping[Side, FootGait]
 ) -> tuple[NDArray[np.int64], list[dict[str, Any]]]:
-    """Shown frames and each foot's data, thinned until all of it is small enough."""
     chosen = _frames(recording, feet)
     highest = max(_highest(recording, gait, chosen) for gait in feet.values())
     while True:
@@ -61,14 +60,12 @@ def _packed(
 
 
 def _events(feet: Mapping[Side, FootGait], begin: float, end: float) -> list[tuple[float, str]]:
-    """Times in s and names of the events between two times, in order."""
     strikes = [(t, f"{side} heel strike") for side, gait in feet.items() for t in gait.heel_strikes]
     lifts = [(t, f"{side} toe off") for side, gait in feet.items() for t in gait.toe_offs]
     return sorted((round(float(t), 3), name) for t, name in strikes + lifts if begin <= t <= end)
 
 
 def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDArray[np.int64]:
-    """Indices of the frames that are shown."""
     time = recording.time
     begin = 0
     if time[-1] - time[0] > LONGEST:
@@ -125,5 +122,4 @@ def _seen(ring: NDArray[np.float64]) -> list[list[float]]:
 
 
 def _seen_point(x: float, y: float) -> list[float] | None:
-    """A point from above, in mm; None where there is none."""
     return [round(-1e3 * float(y), 1), round(1e3 * float(x), 1)] if np.isfinite(x) else None

@@ -69,7 +69,6 @@ def _asset(name: str) -> str:
 def _with_figures(
     key: str, name: str, content: str, figures: Sequence[tuple[Path, str]], names: Sequence[str]
 ) -> list[Section]:
-    """A section with the figures of these names; none where it would be empty."""
     content += embedded(figures, names)
     return [Section(key, name, content)] if content else []
 
@@ -226,7 +225,6 @@ def _participant(metrics: Mapping[str, Any]) -> str:
 
 
 def _mass(metrics: Mapping[str, Any]) -> str:
-    """The stated mass and that which the forces imply."""
     stated, implied = metrics["subject"]["mass_kg"], metrics["gait"].get("implied_weight_N")
     parts = [] if stated is None else [f"{number(stated)} kg"]
     if implied is not None:

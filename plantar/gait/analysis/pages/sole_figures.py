@@ -48,7 +48,6 @@ def _shown(gait: FootGait, platform: bool) -> _Cells:
 
 
 def _panels(shown: Mapping[Side, _Cells], extra: float) -> tuple[Any, Any]:
-    """A figure with one upright panel a foot."""
     extents = [np.ptp(cells.layout.outline, axis=0) for cells in shown.values()]
     slender = max(float(length / width) for length, width in extents)
     size = 2.7 * len(shown) + extra, min(6.4, 1.8 + 2.5 * slender)
@@ -62,7 +61,6 @@ def _highest(feet: Iterable[FootGait]) -> float:
 
 
 def _draw_picture(panel: Any, gait: FootGait, cells: _Cells, factor: float, highest: float) -> Any:
-    """Draw a foot's maximum pressure picture; cells that are never loaded stay empty."""
     assert gait.picture is not None
     values = gait.picture[cells.chosen] * factor
     return draw_cells(panel, cells.layout, np.where(values > 0.0, values, np.nan), highest)
@@ -102,7 +100,6 @@ def _steps_of_picture(gait: FootGait) -> str:
 
 
 def _legend(figure: Any, panels: Iterable[Any], place: str, **look: Any) -> None:
-    """Draw one legend for all panels, next to them, each entry once."""
     entries: dict[str, Any] = {}
     for panel in panels:
         handles, names = panel.get_legend_handles_labels()
@@ -112,7 +109,6 @@ def _legend(figure: Any, panels: Iterable[Any], place: str, **look: Any) -> None
 
 
 def _draw_paths(panel: Any, gait: FootGait) -> None:
-    """Draw the CoP paths of the complete steps; of very many every n-th."""
     complete: list[Contact] = [step.contact for step in gait.used]
     if gait.cop is None or not complete:
         return
@@ -217,7 +213,6 @@ def axis_is_inside(print_: Footprint) -> bool:
 
 
 def _list_regions(panel: Any, used: set[int]) -> None:
-    """Add legend entries of the used regions and the thirds."""
     for i, (colour, title) in enumerate(zip(REGION_COLOURS, REGIONS.values(), strict=True)):
         if i in used:
             panel.plot([], [], "s", color=colour, label=title)

@@ -61,7 +61,6 @@ def measures_table(metrics: Mapping[str, Any]) -> str:
 
 
 def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
-    """Rows of the measures that a foot has, under the headings of their groups."""
     feet = metrics["feet"].values()
     columns = 4 * len(feet) + 1 + both
     group = ""
@@ -80,7 +79,6 @@ def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
 
 
 def _rows_of_body_weight(metrics: Mapping[str, Any], columns: int, both: bool) -> Iterator[str]:
-    """Rows of the main forces in percent of the stated or implied body weight."""
     weight = metrics["gait"].get("body_weight_N")
     if not weight:
         return

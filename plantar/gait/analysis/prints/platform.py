@@ -79,7 +79,6 @@ def told_apart(recording: PressureRecording) -> tuple[PressureRecording, tuple[P
 
 
 def _feet(force: NDArray[np.float64], layout: SoleLayout, prints: Sequence[PlatformPrint]) -> dict[Side, FootRecording]:
-    """Recording of each foot: the load of its footprints, on the whole platform."""
     feet: dict[Side, FootRecording] = {}
     for side in SIDES:
         own = [p for p in prints if p.side == side]
@@ -94,7 +93,6 @@ def _feet(force: NDArray[np.float64], layout: SoleLayout, prints: Sequence[Platf
 def _prints(
     load: PlatformLoad, cells: Sequence[PrintCells], stated: Side | None
 ) -> tuple[list[PlatformPrint], list[str]]:
-    """Footprints with their feet and directions, and what had to be assumed."""
     notes: list[str] = []
     out: list[PlatformPrint] = []
     for walk in passes_over(load, cells):

@@ -108,7 +108,6 @@ def cells_of_prints(load: PlatformLoad, threshold: float) -> list[PrintCells]:
 
 
 def _pieces(load: PlatformLoad, loaded: NDArray[np.bool_]) -> Iterator[_Piece]:
-    """Parts of the platform that are loaded without a break."""
     for cells in _components(load.layout, np.asarray(loaded.any(axis=0))):
         frames = np.flatnonzero(loaded[:, cells].any(axis=1))
         cuts = np.flatnonzero(np.diff(load.time[frames]) > _BREAK)
@@ -265,7 +264,6 @@ def _path(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
 
 
 def _longer_side(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The axis along which points (n, 2) spread most."""
     return np.array([1.0, 0.0]) if np.ptp(points[:, 0]) >= np.ptp(points[:, 1]) else np.array([0.0, 1.0])
 
 

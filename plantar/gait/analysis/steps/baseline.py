@@ -189,7 +189,6 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
 
 
 def _cells(ids: Sequence[int]) -> str:
-    """Names of a few cells, or their number."""
     if len(ids) > 8:
         return f"{len(ids)} cells"
     return f"cell{'s' if len(ids) > 1 else ''} {', '.join(str(i) for i in ids)}"

@@ -376,7 +376,6 @@ def _end_of_push_off(
 def _longest_gap(
     time: NDArray[np.float64], force: NDArray[np.float64], spans: list[tuple[int, int]], level: float
 ) -> float:
-    """Longest time in s between one span and the next."""
     return max(
         _crossing(time, force, later[0], level) - _crossing(time, force, earlier[1], level)
         for earlier, later in pairwise(spans)

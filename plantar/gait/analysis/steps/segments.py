@@ -143,7 +143,6 @@ def segments_of(feet: Mapping[Side, FootGait]) -> tuple[Segment, ...]:
 
 
 def _common(spans: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Spans joined where they overlap."""
     joined: list[tuple[float, float]] = []
     for begin, end in sorted(spans):
         if joined and begin <= joined[-1][1]:

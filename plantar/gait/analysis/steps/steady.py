@@ -118,7 +118,6 @@ def _within(step: Step, options: AnalysisOptions) -> bool:
 
 
 def _odd(steps: Sequence[Step], raw: bool) -> list[str]:
-    """Why each step is odd, empty for nothing."""
     out = [""] * len(steps)
     for key, least in _JUDGED.items():
         values = np.array([step[key] for step in steps])

@@ -117,7 +117,6 @@ class StepLoads:
         return np.concatenate(out)
 
     def _count(self, contact: Contact) -> None:
-        """Release the contacts that were read before, now and then."""
         self._read += (contact.end - contact.begin) * self.foot.force.shape[1] * 8
         if self._read > LARGE:
             let_go(self.foot.force)

@@ -162,7 +162,6 @@ def _curves(
 def _maps(
     a: Sequence[Sequence[RecordingResult]], b: Sequence[Sequence[RecordingResult]], paired: bool
 ) -> tuple[tuple[NDArray[np.float64], NDArray[np.float64]] | None, NDArray[np.bool_] | None, PermutationTest | None]:
-    """Mean maps of the participants, the places that all have, and where they differ."""
     everyone = [r for own in (*a, *b) for r in own]
     if not all(any(r.maps for r in own) for own in (*a, *b)) or len({r.raw for r in everyone}) > 1:
         return None, None, None

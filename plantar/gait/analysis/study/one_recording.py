@@ -204,7 +204,6 @@ def normalised(measures: Mapping[str, float | None], who: Participation) -> dict
 
 
 def _means(rows: list[dict[str, Any]], side: Side) -> dict[str, float]:
-    """Mean of each measure over the used steps of a foot."""
     own = [row for row in rows if row["side"] == side and row["used"]]
     out: dict[str, float] = {"steps": float(len(own))}
     for key in own[0] if own else ():
@@ -217,7 +216,6 @@ def _means(rows: list[dict[str, Any]], side: Side) -> dict[str, float]:
 
 
 def _map(analysis: Analysis, gait: FootGait) -> NDArray[np.float64] | None:
-    """A foot's maximum pressure picture in the common frame; None without geometry or steps."""
     layout, picture = gait.foot.layout, gait.picture
     if layout is None or picture is None or not gait.used:
         return None

@@ -176,7 +176,6 @@ def _others(
 def _result(
     root: Path, cache: Path, who: Participation, choices: AnalysisOptions, options: ReadOptions | None
 ) -> RecordingResult:
-    """The stored result of a recording, or a new one, which is stored."""
     path, digest, key = root / who.file, "", ""
     try:
         if not path.resolve().is_relative_to(root.resolve()):
@@ -196,13 +195,11 @@ def _result(
 
 
 def _identity(result: RecordingResult) -> dict[str, Any]:
-    """First columns of every table."""
     who = result.who
     return {"recording": who.file, "participant": who.participant, "condition": who.condition, **who.more}
 
 
 def _provenance(study: Study, result: RecordingResult) -> dict[str, Any]:
-    """Last columns of every table."""
     return {
         "format": result.format,
         "version": __version__,
@@ -216,7 +213,6 @@ def _step_rows(study: Study) -> list[dict[str, Any]]:
 
 
 def _recording_rows(study: Study) -> list[dict[str, Any]]:
-    """A row a foot of a recording, or one with the reason."""
     rows: list[dict[str, Any]] = []
     for result in study.results:
         who = {"mass_kg": result.who.mass_kg, "foot_length_m": result.who.foot_length_m}
@@ -266,7 +262,6 @@ def _csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
 
 
 def _plain(comparison: Comparison) -> dict[str, Any]:
-    """A comparison as plain JSON values."""
     effects = {
         key: {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(effect).items()}
         for key, effect in comparison.effects.items()
@@ -286,7 +281,6 @@ def _plain(comparison: Comparison) -> dict[str, Any]:
 
 
 def _write(study: Study, target: Path, root: Path) -> list[str]:
-    """Write the tables, figures and page; returns their paths."""
     written: list[Path] = []
     tables: Iterable[tuple[str, list[dict[str, Any]]]] = (
         ("steps.csv", _step_rows(study)),

@@ -183,7 +183,6 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
 
 
 def _correction(freedom: float) -> float:
-    """Hedges' factor for few samples."""
     return 1.0 - 3.0 / (4.0 * freedom - 1.0) if freedom > 1 else 1.0
 
 

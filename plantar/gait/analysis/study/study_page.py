@@ -74,7 +74,6 @@ def _summary(summary: Mapping[str, Any], comparisons: Sequence[Comparison]) -> s
 
 
 def _sentence(one: Comparison) -> str:
-    """A comparison's result in words."""
     if one.note:
         return f"{one.a} and {one.b} are not compared: {one.note}."
     sizes = {key: e.effect_size if math.isfinite(e.effect_size) else None for key, e in one.effects.items()}
