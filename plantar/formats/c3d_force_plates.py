@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from plantar.errors import DependencyError, FormatError
 from plantar.files.gate import read_apart
 from plantar.files.input_file import check_input, open_input
-from plantar.formats.force_plates import Plate, feet_of_plates
+from plantar.formats.force_plates import feet_of_plates
 from plantar.formats.format import Format, ReadOptions
+from plantar.formats.plate_sides import Plate
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
 from plantar.recordings.pressure_recording import PressureRecording, StatedEvents, possible_rate
 from plantar.sides import SIDES, Side

@@ -21,17 +21,21 @@ _IN_AIR, _ALONE = 0.05, 0.15
 __all__ = ["cells_of_foot", "foot_of_matrix", "halves", "scale_to_force", "unit_of_values"]
 
 
-def unit_of_values(stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file") -> Unit:
-    """Returns the unit of the values: the options', else the stated one, else raw counts with warnings that name
-    what.
+def unit_of_values(
+    stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file", pressures: bool = False
+) -> Unit:
+    """Returns the unit of the values: the options', else the stated one, else raw counts with warnings that name what.
+
+    FormatError if it is not known, or for pressures one of force.
     """
     text = options.unit or stated
     if not text:
         warnings.append(f"{what} states no unit: the values are kept as raw counts (--unit says what they are)")
         return Unit("raw", 1.0, "raw")
     unit = find_unit(text)
-    if unit is None:
-        raise FormatError(f"unknown unit {text!r}; allowed: kPa, N/cm2, mmHg, psi, N, kg, raw and their like")
+    if unit is None or (pressures and unit.kind == "force"):
+        kind, force = ("unit of pressure", "") if pressures else ("unit", "N, kg, ")
+        raise FormatError(f"unknown {kind} {text!r}; allowed: kPa, N/cm2, mmHg, psi, {force}raw and their like")
     return unit
 
 

@@ -6,21 +6,18 @@ Axes are the laboratory's with z up; loads are on the foot.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError, InputError
 from plantar.formats.format import ReadOptions
-from plantar.formats.plate_sides import PlateContact, plate_contacts, sides_of_contacts
+from plantar.formats.plate_sides import LEAST, Plate, PlateContact, plate_contacts, sides_of_contacts
 from plantar.recordings.pressure_recording import FootRecording, StatedEvents, true_runs
 from plantar.sides import SIDES, Side
 
-__all__ = ["LEAST", "Plate", "feet_of_plates"]
-
-LEAST = 20.0
-"""Vertical force in N from which a plate counts as stepped on, and has a centre of pressure."""
+__all__ = ["feet_of_plates"]
 
 # An empty plate reads less than 0.15 of its peak, or 60 N; else the commonest level is its own, if it is an end.
 _WINDOW, _WINDOW_N = 0.15, 60.0
@@ -40,35 +37,6 @@ _OUTSIDE, _EDGE = 0.3, 0.05
 # Time in s before and after a contact in which its plate is read: another plate's drift is no load of this foot.
 _BESIDE = 0.3
 _STATED = 2.0  # Offset in N from which it is reported
-
-
-@dataclass(frozen=True, eq=False)
-class Plate:
-    """Measurements of one force plate; optional ones are None where the file does not hold them.
-
-    Attributes:
-        name: Its name for messages, such as "plate 1".
-        force: Force (n, 3) in N; horizontal ones NaN where they were not measured.
-        moment: Moment (n, 3) in N m about `origin`.
-        cop: Centre of pressure (n, 2) in m.
-        free: Free moment (n,) in N m, where it does not follow from `moment`.
-        origin: Point (2,) in m on the surface that moments are about.
-        corners: Corners (4, 2) in m.
-        side: The foot that the file or the user names for it.
-        stepped: Whether a foot was on it.
-        placed: Whether its place and axes in the laboratory are known.
-    """
-
-    name: str
-    force: NDArray[np.float64]
-    moment: NDArray[np.float64] | None = None
-    cop: NDArray[np.float64] | None = None
-    free: NDArray[np.float64] | None = None
-    origin: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2))
-    corners: NDArray[np.float64] | None = None
-    side: Side | None = None
-    stepped: bool = True
-    placed: bool = True
 
 
 def feet_of_plates(

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.formats.cells_of_foot import scale_to_force
+from plantar.formats.cells_of_foot import scale_to_force, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import MOTICON_LENGTH, MOTICON_WIDTH, moticon_insole
 from plantar.formats.text import head_text, number, open_text, table_of_lines
@@ -63,7 +63,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         )
         if not cells or np.isnan(table[:, [i for _, i, _ in cells]]).all():
             continue
-        unit = _unit(path, options, [stated for _, _, stated in cells], warnings)
+        unit = _unit(options, [stated for _, _, stated in cells], warnings)
         raw = raw or unit.kind == "raw"
         units.add(unit.name)
         pressure = table[:, [i for _, i, _ in cells]]
@@ -123,19 +123,14 @@ def _columns(names: list[str], side: Side) -> dict[str, tuple[int, str]]:
     return out
 
 
-def _unit(path: Path, options: ReadOptions, stated: list[str], warnings: list[str]) -> Unit:
+def _unit(options: ReadOptions, stated: list[str], warnings: list[str]) -> Unit:
     text = options.unit or max(set(stated), key=stated.count)
     if len(set(stated)) > 1:
         warnings.append(f"the cells' units differ ({', '.join(sorted(set(stated)))}): {text} is used")
     if not text:
         warnings.append(f"the file states no unit of pressure: {_USUAL_UNIT} is assumed (--unit overrides)")
         text = _USUAL_UNIT
-    unit = find_unit(text)
-    if unit is None or unit.kind == "force":
-        raise FormatError(
-            f"{path}: unknown unit of pressure {text!r}; allowed: N/cm2, kPa, mmHg, psi, raw and their like"
-        )
-    return unit
+    return unit_of_values(text, options, warnings, pressures=True)
 
 
 def _size(header: dict[str, str], warnings: list[str]) -> int | None:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +12,12 @@ from numpy.typing import NDArray
 from plantar.recordings.pressure_recording import StatedEvents, true_runs
 from plantar.sides import SIDES, Side, other_side
 
-__all__ = ["PlateContact", "plate_contacts", "sides_of_contacts"]
+__all__ = ["LEAST", "Plate", "PlateContact", "plate_contacts", "sides_of_contacts"]
 
-_LEAST, _SHARE = 20.0, 0.05  # Vertical force in N, and share of the plate's peak, above which a foot is on it
+LEAST = 20.0
+"""Vertical force in N from which a plate counts as stepped on, and has a centre of pressure."""
+
+_SHARE = 0.05  # Share of the plate's peak above which a foot is on it
 _SHORTEST, _BRIDGED = 0.1, 0.1  # Contacts in s that are shorter are none; gaps in s that are shorter are bridged
 _NEARER = 0.1  # How much nearer in m one foot's markers are to the CoP than the other's, at least
 _REACH = 0.2  # Time in s between a contact's begin and a stated heel strike of its foot, at most
@@ -25,21 +27,33 @@ _ACROSS = 0.02  # Distance in m of plates or contacts across the direction of wa
 _LONG = 1.4  # Contacts and gaps on a treadmill's belt of so many medians show that a foot was on the other belt
 
 
-class _Plate(Protocol):
-    """The used properties of a plate."""
+@dataclass(frozen=True, eq=False)
+class Plate:
+    """Measurements of one force plate; optional ones are None where the file does not hold them.
 
-    @property
-    def name(self) -> str: ...
-    @property
-    def side(self) -> Side | None: ...
-    @property
-    def force(self) -> NDArray[np.float64]: ...
-    @property
-    def cop(self) -> NDArray[np.float64] | None: ...
-    @property
-    def corners(self) -> NDArray[np.float64] | None: ...
-    @property
-    def placed(self) -> bool: ...
+    Attributes:
+        name: Its name for messages, such as "plate 1".
+        force: Force (n, 3) in N; horizontal ones NaN where they were not measured.
+        moment: Moment (n, 3) in N m about `origin`.
+        cop: Centre of pressure (n, 2) in m.
+        free: Free moment (n,) in N m, where it does not follow from `moment`.
+        origin: Point (2,) in m on the surface that moments are about.
+        corners: Corners (4, 2) in m.
+        side: The foot that the file or the user names for it.
+        stepped: Whether a foot was on it.
+        placed: Whether its place and axes in the laboratory are known.
+    """
+
+    name: str
+    force: NDArray[np.float64]
+    moment: NDArray[np.float64] | None = None
+    cop: NDArray[np.float64] | None = None
+    free: NDArray[np.float64] | None = None
+    origin: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2))
+    corners: NDArray[np.float64] | None = None
+    side: Side | None = None
+    stepped: bool = True
+    placed: bool = True
 
 
 @dataclass(frozen=True)
@@ -56,7 +70,7 @@ def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> li
     throughout.
     """
     force = np.nan_to_num(vertical)
-    loaded = force > max(_LEAST, _SHARE * float(np.percentile(force, 99.5)))
+    loaded = force > max(LEAST, _SHARE * float(np.percentile(force, 99.5)))
     out: list[PlateContact] = []
     for a, b in true_runs(loaded):
         if out and a - out[-1].end < _BRIDGED * rate:
@@ -67,7 +81,7 @@ def plate_contacts(plate: int, vertical: NDArray[np.float64], rate: float) -> li
 
 
 def sides_of_contacts(
-    plates: Sequence[_Plate],
+    plates: Sequence[Plate],
     contacts: Sequence[PlateContact],
     treadmill: bool,
     rate: float,
@@ -150,9 +164,7 @@ def _walks_on_one_foot(contacts: Sequence[PlateContact], found: Sequence[Side | 
     return False
 
 
-def _by_markers(
-    plate: _Plate, contact: PlateContact, markers: Mapping[Side, NDArray[np.float64]] | None
-) -> Side | None:
+def _by_markers(plate: Plate, contact: PlateContact, markers: Mapping[Side, NDArray[np.float64]] | None) -> Side | None:
     if not markers or plate.cop is None:
         return None
     span = slice(contact.begin, contact.end)
@@ -177,7 +189,7 @@ def _by_events(contact: PlateContact, rate: float, events: Mapping[Side, StatedE
     return near if near is not None and away[near] <= _REACH else None
 
 
-def _forward(plates: Sequence[_Plate], contacts: Sequence[PlateContact], treadmill: bool) -> NDArray[np.float64] | None:
+def _forward(plates: Sequence[Plate], contacts: Sequence[PlateContact], treadmill: bool) -> NDArray[np.float64] | None:
     """The direction (2,) of walking: a foot brakes first and pushes off last; else that of the CoP."""
     push, way = np.zeros(2), np.zeros(2)
     for contact in contacts:
@@ -197,7 +209,7 @@ def _forward(plates: Sequence[_Plate], contacts: Sequence[PlateContact], treadmi
 
 
 def _by_push(
-    plates: Sequence[_Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
+    plates: Sequence[Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
 ) -> list[Side | None]:
     """The foot of each contact by its push in mid-stance, which is inwards, towards the body."""
     out: list[Side | None] = []
@@ -215,7 +227,7 @@ def _by_push(
 
 
 def _by_place(
-    plates: Sequence[_Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
+    plates: Sequence[Plate], contacts: Sequence[PlateContact], forward: NDArray[np.float64] | None
 ) -> list[Side]:
     """The foot of each contact by its plate's place across the direction of walking; empty where they lie in a line."""
     if forward is None or len(contacts) < 2:
@@ -250,7 +262,7 @@ def _filled_in(contacts: Sequence[PlateContact], found: Sequence[Side | None]) -
 
 
 def _report_crossings(
-    plates: Sequence[_Plate], contacts: Sequence[PlateContact], rate: float, warnings: list[str]
+    plates: Sequence[Plate], contacts: Sequence[PlateContact], rate: float, warnings: list[str]
 ) -> None:
     """Warn of contacts in which both feet are on one belt while the other one is empty for too long."""
     for i, plate in enumerate(plates):

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.formats.column_names import BODY_WEIGHTS, Heading
-from plantar.formats.force_plates import Plate, feet_of_plates
+from plantar.formats.force_plates import feet_of_plates
 from plantar.formats.format import ReadOptions
+from plantar.formats.plate_sides import Plate
 from plantar.formats.units import FORCES, LENGTHS, MOMENTS, plain
 from plantar.gravity import GRAVITY
 from plantar.recordings.pressure_recording import FootRecording

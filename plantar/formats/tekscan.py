@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.formats.cells_of_foot import foot_of_matrix
+from plantar.formats.cells_of_foot import foot_of_matrix, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
 from plantar.formats.text import (
@@ -65,7 +65,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         lines = iter(stream)
         header, first = _take_header(path, lines)
         numbers, (rows, columns), table = _take_frames(path, first, lines, header, warnings)
-    unit = _unit(path, header, options, warnings)
+    unit = _unit(header, options, warnings)
     pitch = _pitch(header, warnings)
     rate = options.rate_hz or _rate(header, warnings)
     steps = np.diff(numbers)
@@ -222,20 +222,15 @@ def _stated(header: dict[str, str], key: str) -> int | None:
     return int(value) if value is not None and 0 < value == int(value) else None
 
 
-def _unit(path: Path, header: dict[str, str], options: ReadOptions, warnings: list[str]) -> Unit:
+def _unit(header: dict[str, str], options: ReadOptions, warnings: list[str]) -> Unit:
     stated = header.get("UNITS", "")
-    name = options.unit or stated
-    if not name:
-        warnings.append("the header states no unit: the readings are kept as raw counts (--unit overrides)")
-        return Unit("raw", 1.0, "raw")
-    unit = find_unit(name) or find_unit(re.split(r"[\s,;]", name)[0])
-    if unit is None:
-        raise FormatError(f"{path}: unknown unit {name!r}; allowed: KPa, PSI, mmHg, N/cm2, N, Raw and their like")
+    first = re.split(r"[\s,;]", stated)[0]
+    unit = unit_of_values(first if find_unit(stated) is None and find_unit(first) else stated, options, warnings)
     limit = header.get("SATURATION_PRESSURE", "").split()
     other = find_unit(limit[1]) if len(limit) > 1 else None
     if options.unit is None and limit and len(limit) > 1 and other != find_unit(stated) and unit.kind == "pressure":
         warnings.append(f"the readings are stated in {stated}, the saturation pressure in {limit[1]}: check the unit")
-    if unit.kind == "raw":
+    if unit.kind == "raw" and stated:
         warnings.append("the readings are raw counts: forces and pressures cannot be given")
     return unit
 

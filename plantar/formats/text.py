@@ -38,25 +38,23 @@ _ZEROS = 0.01  # Share of zeros that damage may put into a text
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 
 
-def open_text(path: Path, encoding: str | None = None, longest: int = _LONGEST_LINE) -> TextIO:
+def open_text(path: Path) -> TextIO:
     """Returns a text file at path opened for reading, with uniform line ends; FormatError if it cannot be read.
 
-    Its encoding is found from its beginning where None; a line longer than `longest` bytes is an error when it is read.
+    Its encoding is found from its beginning; a line of more than 1 MB is an error when it is read.
     """
     stream = open_input(path, FormatError)
-    if encoding is None:
-        encoding = encoding_of(stream.read(1 << 20))
-        stream.seek(0)
-    lines = _Lines(stream.detach(), longest, str(path))  # type: ignore[attr-defined]
+    encoding = encoding_of(stream.read(1 << 20))
+    stream.seek(0)
+    lines = _Lines(stream.detach(), str(path))  # type: ignore[attr-defined]
     return io.TextIOWrapper(lines, encoding=encoding, errors="replace", newline=None)
 
 
 class _Lines(io.BufferedReader):
     """The bytes of a text, whose lines may not exceed a length."""
 
-    def __init__(self, stream: io.RawIOBase, longest: int, where: str) -> None:
+    def __init__(self, stream: io.RawIOBase, where: str) -> None:
         super().__init__(stream, 1 << 17)
-        self._longest = longest
         self._where = where
         self._without_end = 0
 
@@ -64,8 +62,8 @@ class _Lines(io.BufferedReader):
         data = super().read1(size)
         end = max(data.rfind(b"\n"), data.rfind(b"\r"))
         self._without_end = len(data) - 1 - end + (self._without_end if end < 0 else 0)
-        if self._without_end > self._longest:
-            raise FormatError(f"{self._where}: a line is longer than {self._longest / 1e6:g} MB: not a text of lines")
+        if self._without_end > _LONGEST_LINE:
+            raise FormatError(f"{self._where}: a line is longer than {_LONGEST_LINE / 1e6:g} MB: not a text of lines")
         return data
 
 

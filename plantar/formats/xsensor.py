@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.formats.cells_of_foot import foot_of_matrix
+from plantar.formats.cells_of_foot import foot_of_matrix, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
 from plantar.formats.text import head_text, number, number_in, open_text, seconds_of_clock
@@ -104,7 +104,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if frames - whole == 1:
             frames = whole
             warnings.append("the last frame is cut short: left out")
-    unit = _unit(path, scan.facts, options, warnings)
+    unit = _unit(scan.facts, options, warnings)
     time, rate, notes = _times(scan.clock[:frames], scan.numbers[:frames], options, warnings)
     feet: dict[Side, FootRecording] = {}
     grid = None
@@ -253,17 +253,10 @@ def _row(line: str, delimiter: str, columns: int) -> NDArray[np.float64] | None:
     return None if np.isinf(values).any() else values
 
 
-def _unit(path: Path, facts: dict[str, str], options: ReadOptions, warnings: list[str]) -> Unit:
+def _unit(facts: dict[str, str], options: ReadOptions, warnings: list[str]) -> Unit:
     bracket = re.search(r"\(([^)]*)\)", facts.get("average pressure", ""))
-    name = options.unit or facts.get("units", "") or (bracket[1] if bracket else "")
-    if not name:
-        warnings.append("the file states no unit: the readings are kept as raw counts (--unit overrides)")
-        return Unit("raw", 1.0, "raw")
-    unit = find_unit(name)
-    if unit is None or unit.kind == "force":
-        raise FormatError(
-            f"{path}: unknown unit of pressure {name!r}; allowed: mmHg, kPa, psi, N/cm2, raw and their like"
-        )
+    name = facts.get("units", "") or (bracket[1] if bracket else "")
+    unit = unit_of_values(name, options, warnings, pressures=True)
     if options.unit is None and bracket and find_unit(bracket[1]) != unit and facts.get("units"):
         warnings.append(f"the file states {name} and, at its averages, {bracket[1]}: {name} is used, check the unit")
     return unit

@@ -108,9 +108,9 @@ class FootRecording:
                 total[:] = np.nan
         return total
 
-    def pressure(self, frames: slice = slice(None)) -> NDArray[np.float64] | None:
-        """Pressure (m, k) in Pa of some frames, NaN where not measured; None without cell areas."""
-        return None if self.layout is None else np.asarray(self.force[frames] / self.layout.areas)
+    def pressure(self) -> NDArray[np.float64] | None:
+        """Pressure (n, k) in Pa, NaN where not measured; None without cell areas."""
+        return None if self.layout is None else np.asarray(self.force / self.layout.areas)
 
     def center_of_pressure(self, minimum_force: float) -> NDArray[np.float64] | None:
         """Centre of pressure (n, 2) in the sole frame in m (T 4.21); NaN below `minimum_force` in N, None without a

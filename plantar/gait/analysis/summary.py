@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,18 +106,17 @@ def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
     return spread([value for gait in feet.values() for value in gait.columns.get(key, ())]).mean
 
 
-def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:
-    """Returns the symmetry index in percent of the `names` of two feet, 100 (L - R) / ((L + R) / 2) (Robinson 1987).
+def symmetry(feet: Mapping[Side, FootGait]) -> dict[str, float | None]:
+    """Returns the symmetry index in percent of each measure of two feet, 100 (L - R) / ((L + R) / 2) (Robinson 1987).
 
     It is above 0 where the left is larger; None where a foot has no value, the signs differ, for unresolved ones and
     angles.
     """
-    names = list(names)
     if "left" not in feet or "right" not in feet:
-        return dict.fromkeys(names)
+        return dict.fromkeys(MEASURES)
     left, right = summary_of_foot(feet["left"]), summary_of_foot(feet["right"])
     out: dict[str, float | None] = {}
-    for name in names:
+    for name in MEASURES:
         a, b = left[name].mean, right[name].mean
         out[name] = None
         small = max(abs(a or 0.0), abs(b or 0.0)) < _RESOLVED.get(name[name.rfind("_") :], 0.0)

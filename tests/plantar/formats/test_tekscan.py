@@ -95,7 +95,7 @@ def test_raw_counts_stay_raw_and_say_so(tmp_path: Path, frames: np.ndarray) -> N
         assert recording.feet["left"].vertical_force == pytest.approx(np.nansum(frames, axis=(1, 2)))
         assert any(word in w for w in recording.warnings)
     export(path, frames, unit="Furlong")
-    with pytest.raises(FormatError, match=r"unknown unit 'Furlong'; allowed: KPa, PSI"):
+    with pytest.raises(FormatError, match=r"unknown unit 'Furlong'; allowed: kPa, N"):
         read_recording(path)
     foot = read_recording(path, options=ReadOptions(unit="kPa")).feet["left"]
     assert foot.vertical_force[0] == pytest.approx(np.nansum(frames[0]) * 1e3 * 5.08e-3**2)

@@ -210,7 +210,6 @@ def find_contacts(
     force: NDArray[np.float64],
     levels: Levels | None = None,
     minimum_stance: float = MINIMUM_STANCE,
-    minimum_swing: float = MINIMUM_SWING,
 ) -> list[Contact]:
     """Returns the contacts of one foot, in order.
 
@@ -220,7 +219,6 @@ def find_contacts(
             one cuts its contact, as the ends of the recording do.
         levels: Levels to use; those of `force_levels` where None.
         minimum_stance: Shortest contact in s.
-        minimum_swing: Shortest swing in s.
 
     Example:
         >>> time = np.arange(400) * 0.01
@@ -237,7 +235,7 @@ def find_contacts(
         part = force[start:stop].copy()
         if gap.any():
             part[gap] = np.interp(time[start:stop][gap], time[start:stop][~gap], part[~gap])
-        contacts += _contacts_of_span(time[start:stop], part, levels, start, minimum_stance, minimum_swing)
+        contacts += _contacts_of_span(time[start:stop], part, levels, start, minimum_stance)
     return contacts
 
 
@@ -267,12 +265,11 @@ def _contacts_of_span(
     levels: Levels,
     offset: int,
     minimum_stance: float,
-    minimum_swing: float,
 ) -> list[Contact]:
     """Contacts in frames without a long gap; `offset` is the number of the first one."""
     found = [
         _contact(time, force, levels, span, offset)
-        for span in _merged(time, force, levels, true_runs(force >= levels.release), minimum_swing)
+        for span in _merged(time, force, levels, true_runs(force >= levels.release))
     ]
     return [c for c in found if not c.complete or cast(float, c.toe_off) - cast(float, c.heel_strike) >= minimum_stance]
 
@@ -282,7 +279,6 @@ def _merged(
     force: NDArray[np.float64],
     levels: Levels,
     spans: list[tuple[int, int]],
-    minimum_swing: float,
 ) -> list[tuple[int, int]]:
     """The spans that reach the contact level, as one where the foot is not off the ground between them."""
     reaching = [k for k, (a, b) in enumerate(spans) if force[a:b].max() >= levels.contact]
@@ -290,7 +286,7 @@ def _merged(
     for i, k in enumerate(reaching):
         # Off the ground between two contacts only if the force stays below the event level for long enough: a foot
         # that lands lightly and chatters does not.
-        if i and _longest_gap(time, force, spans[reaching[i - 1] : k + 1], levels.release) < minimum_swing:
+        if i and _longest_gap(time, force, spans[reaching[i - 1] : k + 1], levels.release) < MINIMUM_SWING:
             merged[-1] = (merged[-1][0], spans[k][1])
         else:
             merged.append(spans[k])

@@ -87,16 +87,7 @@ def test_levels_do_not_depend_on_how_long_someone_stands(stands: float) -> None:
     assert alone is not None
     assert found is not None
     assert (found.peak, found.release) == pytest.approx((alone.peak, alone.release), rel=1e-9)
-    assert (
-        len(
-            [
-                c
-                for c in find_contacts(np.asarray(np.arange(len(before)) * 0.01, dtype=np.float64), before)
-                if c.complete
-            ]
-        )
-        == 5
-    )
+    assert sum(c.complete for c in find_contacts(np.arange(len(before)) * 0.01, before)) == 5
 
 
 def test_a_single_leap_does_not_raise_the_levels_of_a_walk() -> None:
