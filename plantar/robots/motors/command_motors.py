@@ -61,8 +61,9 @@ def planned_wrenches(command: Command) -> dict[Side, NDArray[np.float64]]:
     for side in SIDES:
         foot = command.feet[side]
         if foot.force.item(2) > 0.0:
-            lever = np.array([*foot.center_of_pressure.tolist(), foot.position.item(2)]) - foot.position
-            wrenches[side] = np.concatenate([foot.force, np.cross(lever, foot.force)])
+            (fx, fy, fz), (x, y, _), (px, py) = foot.force.tolist(), foot.position.tolist(), foot.center_of_pressure
+            dx, dy = px - x, py - y
+            wrenches[side] = np.array([fx, fy, fz, dy * fz, -dx * fz, dx * fy - dy * fx])
     return wrenches
 
 

@@ -16,6 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.command import Command, Sensors
+from plantar.geometry.inscribed import safe_rectangle
+from plantar.geometry.polygon import convex_hull
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.robots.kinematics.leg_model import LegModel
@@ -69,10 +71,9 @@ class TorqueControl(CommandMotors):
         )
         motors = [list(model.actuator_trnid[:, 0]).index(j) for j in joints]
         self._torque = np.where(model.actuator_forcelimited[motors] > 0, model.actuator_forcerange[motors, 1], np.inf)
-        self._rectangles, edge = {}, _EDGE * body.sole
-        for side in SIDES:
-            (x, y), (length, width) = robot.sole_rectangle(side)
-            self._rectangles[side] = Rectangle(x - length + edge, x + length - edge, y - width + edge, y + width - edge)
+        self._edge = _EDGE * body.sole
+        self._soles = {s: np.asarray(robot.layouts[s].outline) for s in SIDES}
+        self._rectangles: dict[Side, tuple[NDArray[np.float64], Rectangle]] = {}
         self._sides = {"left": slice(6, 6 + len(names) // 2), "right": slice(6 + len(names) // 2, 6 + len(names))}
         self._last: NDArray[np.float64] | None = None
         self._speeds = np.zeros(len(names))
@@ -80,7 +81,6 @@ class TorqueControl(CommandMotors):
 
     def torques(self, command: Command, sensors: Sensors) -> NDArray[np.float64]:
         """Returns torques (k,) in N m for the `command` that answers the `sensors`."""
-        planned = np.clip(super().torques(command, sensors), -self._torque, self._torque)
         solved = None
         if np.isfinite(sensors.joint_positions).all() and np.isfinite(sensors.gyro).all():
             offsets = command.joint_offsets
@@ -93,7 +93,7 @@ class TorqueControl(CommandMotors):
         if solved is None:
             self.unsolved += command.zmp_desired is not command.reference.vrp
             self._followed[:] = self._legs.joints, self.motion.velocity[6:]
-            return planned
+            return np.clip(super().torques(command, sensors), -self._torque, self._torque)
         leak = min(1.0, self._period * _LEAK / self._beat)
         self._followed += leak * (np.array([self._last, self._speeds]) - self._followed)
         self._followed += self._period * np.array([self._followed[1], solved.acceleration[6:]])
@@ -124,9 +124,9 @@ class TorqueControl(CommandMotors):
         # The base: its orientation alone; where it is follows from the CoM.
         wished[3:6] = self._upright(planned_base, turn, state.rotation_base_to_world, velocity[3:6])
         weights[:3], weights[3:6] = 0.0, _TILT_WEIGHT
-        standing = {}
+        standing, wrenches = {}, planned_wrenches(command)
         for side in SIDES:
-            wrench = planned_wrenches(command).get(side)
+            wrench = wrenches.get(side)
             at = self._sides[side]
             joints = slice(at.start - 6, at.stop - 6)
             error = self._legs.joints[joints] - angles[joints]
@@ -142,7 +142,12 @@ class TorqueControl(CommandMotors):
                     own[:3], own[3:] = turned @ wrench[:3], turned @ wrench[3:]
                 most = (_SEEKS + _GROWS * load) * self._weight
                 standing[side] = Standing(
-                    state.rotations_sole[side], self._rectangles[side], _FRICTION, rest, own, most
+                    state.rotations_sole[side],
+                    self._rectangle(side, command.feet[side].polygon),
+                    _FRICTION,
+                    rest,
+                    own,
+                    most,
                 )
             else:
                 weights[at] = _SWING_WEIGHT
@@ -160,6 +165,15 @@ class TorqueControl(CommandMotors):
             standing,
         )
         return torques_of(dynamics, wish, GRAVITY)
+
+    def _rectangle(self, side: Side, polygon: NDArray[np.float64] | None) -> Rectangle:
+        """The rectangle in which a sole's center of pressure may be."""
+        bears = self._soles[side] if polygon is None or not len(polygon) else polygon
+        known = self._rectangles.get(side)
+        if known is None or known[0] is not bears:
+            (x0, y0), _, (x1, y1), _ = safe_rectangle(convex_hull(bears), self._edge).tolist()
+            known = self._rectangles[side] = bears, Rectangle(x0, x1, y0, y1)
+        return known[1]
 
     def _pendulum(self, command: Command) -> NDArray[np.float64]:
         square = GRAVITY / (command.com.item(2) - min(f.position.item(2) for f in command.feet.values()))
