@@ -58,14 +58,12 @@ class FootTarget(Record, frozen=True):
         rotation: Rotation (3, 3) from the sole to the world frame.
         force: Force (3,) in N that the ground should exert on it.
         center_of_pressure: Point (2,) in the world frame in m at which it acts.
-        polygon: The part (k, 2) of a standing sole that bears the robot, in its frame in m; None for all of it.
     """
 
     position: NDArray[np.float64]
     rotation: NDArray[np.float64]
     force: NDArray[np.float64]
     center_of_pressure: NDArray[np.float64]
-    polygon: NDArray[np.float64] | None = None
 
 
 class JointTargets(NamedTuple):

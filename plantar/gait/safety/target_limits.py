@@ -64,12 +64,11 @@ class TargetLimits:
         )
 
     def _foot_of(self, before: FootTarget, now: FootTarget) -> FootTarget:
-        finite = np.isfinite(now.center_of_pressure).all()
-        return now.changed(
-            position=_moved(before.position, now.position, self._foot),
-            rotation=_turned(before.rotation, now.rotation, self._turn),
-            force=_moved(before.force, now.force, self._force),
-            center_of_pressure=now.center_of_pressure if finite else before.center_of_pressure,
+        return FootTarget(
+            _moved(before.position, now.position, self._foot),
+            _turned(before.rotation, now.rotation, self._turn),
+            _moved(before.force, now.force, self._force),
+            now.center_of_pressure if np.isfinite(now.center_of_pressure).all() else before.center_of_pressure,
         )
 
 

@@ -73,8 +73,7 @@ class FootTargets:
                 x, y = self._footing.damping[side].turn.tolist()
                 rotation = turned(foot.level, x + roll, y + pitch)
                 position = risen(position, foot.center, roll, pitch, shift)
-            bears = self._footing.contacts.polygon(side)
-            targets[side] = FootTarget(position, rotation, action.force, action.center_of_pressure, bears)
+            targets[side] = FootTarget(position, rotation, action.force, action.center_of_pressure)
         return targets
 
     def compensate(
@@ -114,7 +113,7 @@ class FootTargets:
             lean_correction.headed(state.rotation_base_to_world, torso),
         )
         rotation = lean_correction.turned(turn, foot.rotation)
-        feet[side] = foot.changed(position=foot.position + shift, rotation=rotation)
+        feet[side] = FootTarget(foot.position + shift, rotation, foot.force, foot.center_of_pressure)
 
     def _crept(self) -> tuple[int, ...]:
         """How far the command frame has crept, in 1/6000 of the leg (0.1 mm for H1) and 0.1 mrad."""

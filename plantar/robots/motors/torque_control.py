@@ -16,8 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.command import Command, Sensors
-from plantar.geometry.inscribed import safe_rectangle
-from plantar.geometry.polygon import convex_hull
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.robots.kinematics.leg_model import LegModel
@@ -30,13 +28,13 @@ from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["TorqueControl", "command_motors"]
 
-_FRICTION = 0.5
+_FRICTION = 0.6
 _SMOOTH = 0.03  # beat, time constant of the low pass on the encoders' rates: 7 ms on a leg of 0.6 m
 _HEIGHT, _TILT, _SWING, _STANCE = 2.5, 3.5, 5.0, 5.0  # 1/beat: how fast height, base, swing leg and soles are corrected
-_COM_WEIGHT, _TILT_WEIGHT, _SWING_WEIGHT, _STANCE_WEIGHT = 1.0, 0.1, 0.01, 1e-5
+_COM_WEIGHT, _TILT_WEIGHT, _SWING_WEIGHT, _STANCE_WEIGHT = 10.0, 0.1, 0.01, 1e-5
 _LOADED, _CARRIES = 0.03, 0.2  # weight: a sole that carries stays while the one to carry next has less than the former
 _SEEKS, _GROWS = 0.08, 3.0  # weight that a sole may carry at most: so much to find the ground, and times its load
-_EDGE = 0.03  # sole: that centres of pressure keep from its edge
+_EDGE = 0.015  # sole: that centres of pressure keep from its edge
 _SLOW_DOWN, _REACH = 0.1, 0.02  # s in which the way to a limit may be crossed, and a speed beyond it brought back
 _SPEED_SHARE = 0.95  # of a joint's speed limit, which it overshoots
 _FASTEST = 300.0  # rad/s^2 of a joint
@@ -71,9 +69,11 @@ class TorqueControl(CommandMotors):
         )
         motors = [list(model.actuator_trnid[:, 0]).index(j) for j in joints]
         self._torque = np.where(model.actuator_forcelimited[motors] > 0, model.actuator_forcerange[motors, 1], np.inf)
-        self._edge = _EDGE * body.sole
-        self._soles = {s: np.asarray(robot.layouts[s].outline) for s in SIDES}
-        self._rectangles: dict[Side, tuple[NDArray[np.float64], Rectangle]] = {}
+        edge = _EDGE * body.sole
+        self._rectangles: dict[Side, Rectangle] = {}
+        for side in SIDES:
+            (x, y), (length, width) = robot.sole_rectangle(side)
+            self._rectangles[side] = Rectangle(x - length + edge, x + length - edge, y - width + edge, y + width - edge)
         self._sides = {"left": slice(6, 6 + len(names) // 2), "right": slice(6 + len(names) // 2, 6 + len(names))}
         self._last: NDArray[np.float64] | None = None
         self._speeds = np.zeros(len(names))
@@ -143,7 +143,7 @@ class TorqueControl(CommandMotors):
                 most = (_SEEKS + _GROWS * load) * self._weight
                 standing[side] = Standing(
                     state.rotations_sole[side],
-                    self._rectangle(side, command.feet[side].polygon),
+                    self._rectangles[side],
                     _FRICTION,
                     rest,
                     own,
@@ -165,15 +165,6 @@ class TorqueControl(CommandMotors):
             standing,
         )
         return torques_of(dynamics, wish, GRAVITY)
-
-    def _rectangle(self, side: Side, polygon: NDArray[np.float64] | None) -> Rectangle:
-        """The rectangle in which a sole's center of pressure may be."""
-        bears = self._soles[side] if polygon is None or not len(polygon) else polygon
-        known = self._rectangles.get(side)
-        if known is None or known[0] is not bears:
-            (x0, y0), _, (x1, y1), _ = safe_rectangle(convex_hull(bears), self._edge).tolist()
-            known = self._rectangles[side] = bears, Rectangle(x0, x1, y0, y1)
-        return known[1]
 
     def _pendulum(self, command: Command) -> NDArray[np.float64]:
         square = GRAVITY / (command.com.item(2) - min(f.position.item(2) for f in command.feet.values()))
