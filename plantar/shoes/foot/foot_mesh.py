@@ -181,20 +181,8 @@ def _standing(
             notes.append(f"levelled: the plane that the foot rests on was tilted by {tilt:.1f} degrees")
     _check_height(triangles, where)
     upright = triangles
-    axis = forward
-    if axis is None:
-        check_one_body(triangles, where)
-        triangles, turns = straightened(triangles, where)
-        try:
-            axis, how = forward_axis(triangles, where)
-        except FootError:
-            # That there is no sole below comes first: on a foot that lies on its side no axis shows the toes.
-            _checked_sole(triangles - np.array([0.0, 0.0, triangles[..., 2].min()]), sole_band, forward, where)
-            raise
-        notes += [*turns, how]
-    elif axis != "x":
-        notes.append(f"the mesh's {axis} axis points to the toes, as given")
-    triangles = triangles @ rotation_forward(axis).T
+    triangles, facing = _facing(triangles, where, forward, sole_band)
+    notes += facing
     if mesh_side == "right":
         triangles = triangles[:, ::-1] * np.array([1.0, -1.0, 1.0])
         notes.append("the mesh is a right foot; mirrored to the left")
@@ -236,6 +224,22 @@ def _standing(
         support if support.area > 1.0 else None,
         links=links,
     )
+
+
+def _facing(triangles: Triangles, where: str, forward: Axis | None, sole_band: float) -> tuple[Triangles, list[str]]:
+    """Triangles with the toes along x, and notes."""
+    if forward is not None:
+        notes = [] if forward == "x" else [f"the mesh's {forward} axis points to the toes, as given"]
+        return triangles @ rotation_forward(forward).T, notes
+    check_one_body(triangles, where)
+    triangles, notes = straightened(triangles, where)
+    try:
+        axis, how = forward_axis(triangles, where)
+    except FootError:
+        # That there is no sole below comes first: on a foot that lies on its side no axis shows the toes.
+        _checked_sole(triangles - np.array([0.0, 0.0, triangles[..., 2].min()]), sole_band, forward, where)
+        raise
+    return triangles @ rotation_forward(axis).T, [*notes, how]
 
 
 def _moved_along(start: Triangles, end: Triangles, points: Triangles) -> Triangles:

@@ -292,7 +292,8 @@ class ModelSource:
         if self.urdf is not None:
             return mesh_of_urdf(self.file, self.mesh_names.get(mesh.file, mesh.file), FootError, where)
         name = re.split(r"[/\\]", mesh.file)[-1] if spec.strippath else mesh.file
-        places = [folder / _mesh_folder(spec, mesh) / name for folder in self.folders]
+        inside = str(getattr(_compiler(spec, mesh), "meshdir", spec.meshdir))
+        places = [folder / inside / name for folder in self.folders]
         found = next((place for place in places if place.is_file()), places[0])
         return named_file(found, folders_of_model(self.file), FootError, where)
 
@@ -341,10 +342,6 @@ def read_model_source(file: Path) -> ModelSource:
 def _compiler(spec: Spec, element: Any) -> Any:
     """Compiler settings for an element: those of its own file; older MuJoCo has one set for all."""
     return getattr(element, "compiler", spec.compiler)
-
-
-def _mesh_folder(spec: Spec, mesh: Any) -> str:
-    return str(getattr(_compiler(spec, mesh), "meshdir", spec.meshdir))
 
 
 def _fixed_to(body: Any) -> Iterator[Any]:
