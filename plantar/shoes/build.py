@@ -18,20 +18,20 @@ from plantar.shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim
 from plantar.shoes.fit.taxels import TaxelFit, fit_taxels
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.block import Block, Step
+from plantar.shoes.plan.block import Block, Step, mirrored_step
 from plantar.shoes.plan.cell_room import cell_parameters, led_parameters
 from plantar.shoes.plan.insole_plan import fit_insole, insole_foot, insole_parameters, plan_insole
 from plantar.shoes.plan.load_share import LoadShare, check_load_share, relieved
 from plantar.shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
 from plantar.shoes.plan.strength import load_case, strengthened
 from plantar.shoes.plan.touching import Touching, check_touching, observability, softened
-from plantar.shoes.solid.body import bare_floor, insole_steps, mark_outline, mirrored_steps, shoe_steps
+from plantar.shoes.solid.body import bare_floor, insole_steps, mark_outline, shoe_steps
 from plantar.shoes.solid.kernel import build_solid, load_kernel
 from plantar.shoes.solid.polyhedron import Polyhedron
 from plantar.shoes.solid.retention import Retention, choose_retention
 from plantar.sides import SIDES
 
-__all__ = ["Shoe", "ShoeBuild", "build_insole", "build_shoe", "built_sides", "planned_sides", "sides_of"]
+__all__ = ["Shoe", "ShoeBuild", "build_insole", "build_shoe"]
 
 Sides = Literal["left", "right", "both"]  # which shoes to build
 
@@ -139,7 +139,7 @@ def build_shoe(
         >>> [(shoe.side, len(shoe.layout)) for shoe in build.shoes]
         [('left', 21), ('right', 21)]
     """
-    sides = sides_of(side, rim)
+    sides = _sides_of(side, rim)
     if parameters is not None and parameters.material == "TPU":
         raise InputError("a shoe of TPU would bend under the robot; allowed: PA12, PETG, PLA (TPU is for insoles)")
     if rim == "fine" and taxels is not None:
@@ -191,10 +191,10 @@ def build_shoe(
     share, touching = check_load_share(left, load, p), check_touching(left, load, p)
     if layout_only:
         tell(1.0, "layouts fitted")
-        return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=notes, touching=touching)
+        return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=notes, touching=touching)
     retention = choose_retention(foot, left, p)
     steps = shoe_steps(foot, left, retention, p)
-    shoes = built_sides(left, steps, p, sides, tell)
+    shoes = _built_sides(left, steps, p, sides, tell)
     return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
 
 
@@ -236,8 +236,7 @@ def _sensitive(left: ShoePlan, mass: float) -> tuple[ShoePlan, tuple[str, ...]]:
     return replace(left, layout=layout), (f"taxels are active from {level:g} N on: the robot is light",)
 
 
-def sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:
-    """Gives the sides to build, left first; refuses a side or rim that does not exist."""
+def _sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:
     if side not in ("left", "right", "both"):
         raise InputError(f"side is {side!r}; allowed: left, right, both")
     if rim not in RIMS:
@@ -245,25 +244,22 @@ def sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:
     return SIDES if side == "both" else (side,)
 
 
-def planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
-    """Gives the requested sides of a left plan, without their solids."""
+def _planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
     return tuple(Shoe(left if which == "left" else mirrored_plan(left)) for which in sides)
 
 
-def built_sides(
+def _built_sides(
     left: ShoePlan, steps: tuple[Step, ...], parameters: ShoeParameters, sides: tuple[Side, ...], tell: Progress
 ) -> tuple[Shoe, ...]:
-    """Gives the solids of the requested sides, each with its mark: left plan, steps of the left body, parameters; tell
-    receives fraction and text.
-    """
+    """The solids of the requested sides, each with its mark."""
     p = parameters
     tell(0.1, "loading the CAD kernel")
     load_kernel()
     shoes = []
-    for i, shoe in enumerate(planned_sides(left, sides)):
+    for i, shoe in enumerate(_planned_sides(left, sides)):
         plan, which = shoe.plan, shoe.side
         tell(0.4 + 0.6 * i / len(sides), f"building the {which} side")
-        own = steps if which == "left" else mirrored_steps(steps)
+        own = steps if which == "left" else tuple(mirrored_step(s) for s in steps)
         letters = mark_outline(plan, p, which, bare_floor(own)).geoms
         mark = tuple(Block(g, p.thickness - p.mark_depth, p.thickness + 0.5) for g in letters)
         solid = build_solid((*own, Step("cut", "mark", mark)))
@@ -316,7 +312,7 @@ def build_insole(
         >>> build.kind, build.parameters.thickness, round(build.fit.covered_area_ratio, 2)
         ('insole', 6.0, 0.95)
     """
-    sides = sides_of(side, rim)
+    sides = _sides_of(side, rim)
     foot = insole_foot(foot)
     tell = progress or (lambda fraction, text: None)
     p, of_cell = cell_parameters(cell, parameters or ShoeParameters())
@@ -330,6 +326,6 @@ def build_insole(
     share = check_load_share(left, load, p)
     told = (*foot.notes, *of_cell, *notes, *fit.notes, *led, *lowered, *left.notes, _NOTE.format(thickness))
     if layout_only:
-        return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=told, kind="insole")
-    shoes = built_sides(left, insole_steps(left, p), p, sides, tell)
+        return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=told, kind="insole")
+    shoes = _built_sides(left, insole_steps(left, p), p, sides, tell)
     return ShoeBuild(foot, fit, p, shoes, share, Retention("none", (), 0.0, 0.0, ""), told, kind="insole")

@@ -7,7 +7,7 @@ of your printer replaces them: parameters `gap_press`, `gap_slide`, `gap_play` a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 __all__ = ["Material", "Process"]
 
@@ -32,10 +32,6 @@ class Material:
     strength: float
     across: float
     strain: float
-
-    def with_density(self, density: float) -> Material:
-        """The material with another density in g/cm^3; 0 keeps its own."""
-        return replace(self, density=density) if density > 0.0 else self
 
 
 # The printed materials by name

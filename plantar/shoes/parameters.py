@@ -142,7 +142,8 @@ class ShoeParameters:
 
     @property
     def printed(self) -> Material:
-        return MATERIALS[self.material].with_density(self.density)
+        material = MATERIALS[self.material]
+        return replace(material, density=self.density or material.density)
 
     @property
     def pad_material(self) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import overload
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +11,10 @@ __all__ = ["to_m", "to_mm"]
 
 MM_PER_M = 1000.0  # millimetres in a metre
 
+_Length = TypeVar("_Length", float, NDArray[np.float64])
 
-@overload
-def to_m(length: float) -> float: ...
-@overload
-def to_m(length: NDArray[np.float64]) -> NDArray[np.float64]: ...
-def to_m(length: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
+
+def to_m(length: _Length) -> _Length:
     """A length or array of lengths in mm, in m.
 
     Example:
@@ -26,11 +24,7 @@ def to_m(length: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
     return length / MM_PER_M
 
 
-@overload
-def to_mm(length: float) -> float: ...
-@overload
-def to_mm(length: NDArray[np.float64]) -> NDArray[np.float64]: ...
-def to_mm(length: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
+def to_mm(length: _Length) -> _Length:
     """A length or array of lengths in m, in mm.
 
     Example:

@@ -169,11 +169,6 @@ class Cell:
         share = {"round": 0.25 * math.pi, "hex": 0.75}.get(self.shape, 1.0)
         return share * along * across
 
-    @property
-    def staggered(self) -> bool:
-        """Whether every other row is shifted by half a pitch."""
-        return self.lattice == "hex" or (self.lattice == "auto" and self.shape in ("hex", "round"))
-
     def as_dict(self) -> dict[str, float | str]:
         """The keys of its shape with values that are set, as in a TOML."""
         every = {f.name: f.default for f in fields(self) if f.name in KEYS[self.shape]}

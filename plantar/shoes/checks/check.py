@@ -101,12 +101,13 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: StepSolid)
     watertight = bool(mesh.is_watertight and mesh.is_winding_consistent and mesh.volume > 0.0)
     volume = step.volume
     difference = 100.0 * abs(float(mesh.volume) / volume - 1.0) if volume > 0.0 else math.inf
-    shoe_kind, plan = build.kind == "shoe", _left(shoe, build)
+    shoe_kind = build.kind == "shoe"
+    left = shoe.plan if shoe.side == "left" else mirrored_plan(shoe.plan)
     engraved = ((p.bottom - 0.01, p.bottom + p.scribe + 0.01), (p.thickness - p.mark_depth - 0.01, p.thickness + 0.01))
     wall = thinnest_wall(surface, engraved)
     printing = choose_direction(surface, p)
     mounting = check_mounting(build.foot, shoe.side, surface, build.retention, p) if shoe_kind else None
-    load, members = check_strength(build.foot, plan.contact, p)
+    load, members = check_strength(build.foot, left.contact, p)
     members = members if shoe_kind else ()  # an insole bends with the foot and has no wall
     share = build.load_share
     weights = weigh(shoe, build, volume)
@@ -164,14 +165,6 @@ def check_plan(plan: ShoePlan, build: ShoeBuild) -> tuple[Check, ...]:
         *_contact_checks(plan, build),
         _least("load that the taxels carry on flat ground, %", 100.0 * share.flat, 100.0 * _FLAT_SHARE),
         _least("load that the taxels carry on half the sole, %", 100.0 * share.half, 100.0 * _HALF_SHARE),
-    )
-
-
-def _left(shoe: Shoe, build: ShoeBuild) -> ShoePlan:
-    return (
-        shoe.plan
-        if shoe.side == "left"
-        else next((s.plan for s in build.shoes if s.side == "left"), mirrored_plan(shoe.plan))
     )
 
 

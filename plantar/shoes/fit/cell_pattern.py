@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import shapely
@@ -19,7 +19,6 @@ from plantar.shoes.geometry.outline import ring
 
 __all__ = [
     "CellPattern",
-    "Lattice",
     "RowLattice",
     "active_shape",
     "hex_pattern",
@@ -32,29 +31,6 @@ Array = NDArray[np.float64]
 
 _SIDES = 24  # corners of a circle's polygon: flats along the directions to the neighbours on both lattices
 _TOUCH = 1e-6  # mm^2 that rooms may share: rounding
-
-
-class Lattice(Protocol):
-    """A placed lattice of cells, as `HexLattice` is one."""
-
-    @property
-    def origin(self) -> tuple[float, float]:
-        """Centre of cell (0, 0) in mm."""
-
-    @property
-    def angle(self) -> float:
-        """Angle of the rows against x in rad."""
-
-    def centres(self, axial: Any) -> Array:
-        """Centres (n, 2) of cells (n, 2) in mm."""
-
-    def corners(self, axial: Any) -> Array:
-        """Corners (n, k, 2) of cells' rooms in mm."""
-
-    def cells_near(self, lower: Any, upper: Any) -> NDArray[np.int64]:
-        """Gives cells (n, 2) whose centres lie within about one cell of a box with corners lower (2,) and upper (2,) in
-        mm.
-        """
 
 
 @dataclass(frozen=True)
@@ -151,6 +127,9 @@ class RowLattice:
         return np.asarray(axial[near])
 
 
+Lattice = HexLattice | RowLattice  # a placed lattice of cells
+
+
 def hex_pattern(area: float) -> CellPattern:
     """Hexagons of an area in mm^2 that tile.
 
@@ -183,7 +162,8 @@ def pattern_of(cell: Cell, rib: float) -> CellPattern:
         if cell.kind == "tile":
             return hex_pattern(0.5 * math.sqrt(3.0) * width**2)
         return CellPattern(width, 0.5 * math.sqrt(3.0) * width, 0.5 * width, parts, math.pi / 3.0)
-    shift = 0.5 * width if cell.staggered else 0.0
+    staggered = cell.lattice == "hex" or (cell.lattice == "auto" and cell.shape == "round")
+    shift = 0.5 * width if staggered else 0.0
     rise = _pitch(cell, "y", _least_rise(parts, width, shift, high[1] - low[1]), rib)
     if cell.kind == "tile":
         parts = (_rectangle(width, rise),)

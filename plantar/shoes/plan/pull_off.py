@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from plantar.mechanics.lip import GRAVITY
 from plantar.shoes.parameters import ShoeParameters
 
-__all__ = ["PullOff", "clip_force", "needed_force", "pull_off"]
+__all__ = ["PullOff", "clip_force", "pull_off"]
 
 _MU = 0.3  # plastic on plastic or metal
 _SWING = 5.0  # g
@@ -61,11 +61,6 @@ def clip_force(length: float, parameters: ShoeParameters) -> float:
     return bend * (_MU + 1.0) / (1.0 - _MU)
 
 
-def needed_force(worn: float) -> float:
-    """Pull in N of a shoe of a worn mass in kg in swing."""
-    return _SWING * GRAVITY * worn
-
-
 def pull_off(
     kind: str, places: tuple[tuple[float, float], ...], width: float, heel: float, worn: float, mass: float,
     parameters: ShoeParameters,
@@ -90,5 +85,5 @@ def pull_off(
     moment = sum(f * (x - heel) for f, (x, _) in zip(each, places, strict=True))
     scuff = _MU * _SCUFF * mass * GRAVITY * (p.thickness + p.rim_height / 3.0)
     snap = max(each) if kind == "clips" else 0.0
-    rounded = (round(v, 3) for v in (sum(each), needed_force(worn), 1e-3 * moment, 1e-3 * scuff, snap))
+    rounded = (round(v, 3) for v in (sum(each), _SWING * GRAVITY * worn, 1e-3 * moment, 1e-3 * scuff, snap))
     return PullOff(*rounded)

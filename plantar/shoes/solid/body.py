@@ -11,13 +11,13 @@ from plantar.layouts.layout import Side
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.geometry.outline import apart, grown, ring, tidy
 from plantar.shoes.parameters import ShoeParameters
-from plantar.shoes.plan.block import Block, Groove, Step, mirrored_step, moved_edges, tapered
+from plantar.shoes.plan.block import Block, Groove, Step, moved_edges, tapered
 from plantar.shoes.plan.shoe_plan import ShoePlan
 from plantar.shoes.plan.wiring import pocket_outlines, wiring_steps
 from plantar.shoes.solid.lettering import lettering
 from plantar.shoes.solid.retention import Retention, retention_steps
 
-__all__ = ["bare_floor", "cavity_levels", "insole_steps", "mark_outline", "mirrored_steps", "shoe_steps"]
+__all__ = ["bare_floor", "cavity_levels", "insole_steps", "mark_outline", "shoe_steps"]
 
 LEVELS = (0.06, 0.14, 0.25, 0.4, 0.6, 1.0)  # shares of the wall's height at which the foot's outline is taken
 
@@ -120,11 +120,6 @@ def _scribe(cell: Any, p: ShoeParameters) -> Block | Groove:
             return Groove(cell, shapely.Polygon(inner), p.bottom, p.bottom + p.scribe)
     hole = cell.buffer(-0.1 * p.scribe, join_style="mitre")
     return Block(shapely.Polygon(ring(cell), [ring(hole)[::-1]]), p.bottom - 0.5, p.bottom + p.scribe)
-
-
-def mirrored_steps(steps: tuple[Step, ...]) -> tuple[Step, ...]:
-    """The steps of the other foot's shoe."""
-    return tuple(mirrored_step(s) for s in steps)
 
 
 def bare_floor(steps: tuple[Step, ...]) -> Any | None:

@@ -277,17 +277,13 @@ def _lugs(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
     for place in retention.places:
         window = _window(place.x, place.side, half, middle)
         lug = outer.intersection(window)
-        blocks.append(Block(_one(lug), p.bottom, p.thickness + top))
+        blocks.append(Block(tidy(lug), p.bottom, p.thickness + top))
         slot = _window(place.x, place.side, 0.5 * (retention.width + _SLOT_PLAY), middle)
         cuts.append(Block(slot, slot_low, slot_high))
         for end in (-1, 1):
             cuts.append(_bevel(place, end, half, bevel, middle, p.thickness + top))
     room = Block(inner, p.rim_top, p.thickness + top + 1.0)
     return blocks, [Step("cut", "room and slots of the straps", (room, *cuts))]
-
-
-def _one(shape: Any) -> Any:
-    return tidy(max(getattr(shape, "geoms", [shape]), key=lambda g: g.area))
 
 
 def _bevel(place: _Place, end: int, half: float, size: float, middle: float, top: float) -> Block:

@@ -14,8 +14,9 @@ from plantar.shoes import build_shoe
 from plantar.shoes.foot.foot import Foot
 from plantar.shoes.foot.foot_mesh import foot_from_triangles
 from plantar.shoes.parameters import ShoeParameters
+from plantar.shoes.plan.block import mirrored_step
 from plantar.shoes.plan.shoe_plan import mirrored_plan
-from plantar.shoes.solid.body import bare_floor, cavity_levels, insole_steps, mark_outline, mirrored_steps, shoe_steps
+from plantar.shoes.solid.body import bare_floor, cavity_levels, insole_steps, mark_outline, shoe_steps
 from plantar.shoes.solid.retention import choose_retention
 
 from ..foot_family import FAMILY, prism, small_turns, turned
@@ -75,7 +76,7 @@ def test_the_mark_lies_beside_what_rises_below_an_arch() -> None:
     assert not floor.covers(mark_outline(plan, p, "left"))  # the middle lies on what rises
     steps = shoe_steps(foot, plan, choose_retention(foot, plan, p), p)
     assert bare_floor(steps) == floor
-    other = bare_floor(mirrored_steps(steps))
+    other = bare_floor(tuple(mirrored_step(s) for s in steps))
     assert other is not None
     assert other.equals(shapely.affinity.scale(floor, 1.0, -1.0, origin=(0.0, 0.0)))
     assert other.buffer(-3.9).covers(mark_outline(mirrored_plan(plan), p, "right", other))
