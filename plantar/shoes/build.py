@@ -144,13 +144,13 @@ def build_shoe(
         raise InputError("a shoe of TPU would bend under the robot; allowed: PA12, PETG, PLA (TPU is for insoles)")
     if rim == "fine" and taxels is not None:
         raise InputError("a fine rim takes as many taxels as it needs; leave their number out, or take rim whole")
-    tell = progress or (lambda fraction, text: None)
+    report = progress or (lambda fraction, text: None)
     p, of_cell = cell_parameters(cell, parameters or ShoeParameters())
     if not 0.0 <= overhang <= p.overhang_max:
         raise InputError(
             f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {p.overhang_max:g} mm (overhang_max)"
         )
-    tell(0.0, "fitting the taxels to the sole")
+    report(0.0, "fitting the taxels to the sole")
     # The plate under the wall meets the ground, too; the load case may ask for a thicker wall.
     wall = strengthened(foot, foot.sole, p)[0].rim_thickness
     face, reach = foot.passing(p.rim_height), max(overhang, p.clearance + wall - p.border)
@@ -190,11 +190,11 @@ def build_shoe(
     load = load_case(foot, p)
     share, touching = check_load_share(left, load, p), check_touching(left, load, p)
     if layout_only:
-        tell(1.0, "layouts fitted")
+        report(1.0, "layouts fitted")
         return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=notes, touching=touching)
     retention = choose_retention(foot, left, p)
     steps = shoe_steps(foot, left, retention, p)
-    shoes = _built_sides(left, steps, p, sides, tell)
+    shoes = _built_sides(left, steps, p, sides, report)
     return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note), touching=touching)
 
 
@@ -249,22 +249,22 @@ def _planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
 
 
 def _built_sides(
-    left: ShoePlan, steps: tuple[Step, ...], parameters: ShoeParameters, sides: tuple[Side, ...], tell: Progress
+    left: ShoePlan, steps: tuple[Step, ...], parameters: ShoeParameters, sides: tuple[Side, ...], report: Progress
 ) -> tuple[Shoe, ...]:
     """The solids of the requested sides, each with its mark."""
     p = parameters
-    tell(0.1, "loading the CAD kernel")
+    report(0.1, "loading the CAD kernel")
     load_kernel()
     shoes = []
     for i, shoe in enumerate(_planned_sides(left, sides)):
         plan, which = shoe.plan, shoe.side
-        tell(0.4 + 0.6 * i / len(sides), f"building the {which} side")
+        report(0.4 + 0.6 * i / len(sides), f"building the {which} side")
         own = steps if which == "left" else tuple(mirrored_step(s) for s in steps)
         letters = mark_outline(plan, p, which, bare_floor(own)).geoms
         mark = tuple(Block(g, p.thickness - p.mark_depth, p.thickness + 0.5) for g in letters)
         solid = build_solid((*own, Step("cut", "mark", mark)))
         shoes.append(Shoe(plan, solid, solid.surface))
-    tell(1.0, "all sides built")
+    report(1.0, "all sides built")
     return tuple(shoes)
 
 
@@ -314,18 +314,18 @@ def build_insole(
     """
     sides = _sides_of(side, rim)
     foot = insole_foot(foot)
-    tell = progress or (lambda fraction, text: None)
+    report = progress or (lambda fraction, text: None)
     p, of_cell = cell_parameters(cell, parameters or ShoeParameters())
     p, notes = insole_parameters(foot, thickness, p)
-    tell(0.0, "fitting the taxels to the sole")
+    report(0.0, "fitting the taxels to the sole")
     fit = fit_insole(foot, p, cell_area=cell_area, fine=rim == "fine", cell=cell)
     left = plan_insole(foot, fit, p, name=name)
     load = load_case(foot, p)
     p, led = led_parameters(left, p, deepen=False)
     p, lowered = relieved(left, load, p)
     share = check_load_share(left, load, p)
-    told = (*foot.notes, *of_cell, *notes, *fit.notes, *led, *lowered, *left.notes, _NOTE.format(thickness))
+    every = (*foot.notes, *of_cell, *notes, *fit.notes, *led, *lowered, *left.notes, _NOTE.format(thickness))
     if layout_only:
-        return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=told, kind="insole")
-    shoes = _built_sides(left, insole_steps(left, p), p, sides, tell)
-    return ShoeBuild(foot, fit, p, shoes, share, Retention("none", (), 0.0, 0.0, ""), told, kind="insole")
+        return ShoeBuild(foot, fit, p, _planned_sides(left, sides), share, notes=every, kind="insole")
+    shoes = _built_sides(left, insole_steps(left, p), p, sides, report)
+    return ShoeBuild(foot, fit, p, shoes, share, Retention("none", (), 0.0, 0.0, ""), every, kind="insole")

@@ -54,7 +54,7 @@ def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tupl
     plan, p = build.shoes[0].plan, build.parameters
     if plan.side != "left":
         raise InputError("a coupon is a piece of the left shoe, which the right one mirrors; use side left or both")
-    tell = progress or (lambda fraction, text: None)
+    report = progress or (lambda fraction, text: None)
     if build.kind == "insole":
         retention, steps = Retention("none", (), 0.0, 0.0, ""), insole_steps(plan, p)
     else:
@@ -66,7 +66,7 @@ def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tupl
         windows.append((name, f"the foot's edge, with its {name}: {_place_text(retention)}", _holder(plan, retention)))
     out = []
     for i, (name, text, window) in enumerate(windows):
-        tell(i / len(windows), f"building the coupon of a {name}")
+        report(i / len(windows), f"building the coupon of a {name}")
         out.append(Coupon(name, text, window, build_solid(_limited(steps, window)).surface))
     return tuple(out)
 

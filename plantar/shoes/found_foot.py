@@ -22,7 +22,7 @@ from plantar.sides import SIDES
 
 __all__ = ["FoundShoes", "shoe_for_surface", "taxel_area"]
 
-TAXELS = 42  # taxels of the papers' soles, which a smaller sole has, too: what they tell depends on how many there are
+TAXELS = 42  # taxels of the papers' soles, which a smaller sole has, too: what they measure depends on their number
 
 _THRESHOLD = 0.146  # of the mean load of a taxel of a standing robot: 0.15 kg of the papers' 86 kg over two soles of 42
 _AREAS = (100.0, 691.0)  # mm^2 of a taxel: what can be made, and what the papers have
@@ -82,11 +82,11 @@ def shoe_for_surface(
     """
     foot = replace(_foot(name, triangles), mass=mass)
     area = taxel_area(foot.sole.area)
-    build = _felt(build_shoe(foot, cell_area=area, layout_only=True), mass)
+    build = _adapted(build_shoe(foot, cell_area=area, layout_only=True), mass)
     weight, notes = None, build.notes
     if solid:
         try:
-            build = _felt(build_shoe(foot, cell_area=area, progress=progress), mass)
+            build = _adapted(build_shoe(foot, cell_area=area, progress=progress), mass)
             (folder / "shoe").mkdir()
             report = export_shoe(build, folder / "shoe").as_dict()
             weight = 1e-3 * float(report["worn_mass_g"])
@@ -99,11 +99,11 @@ def shoe_for_surface(
         for side in SIDES:
             (folder / "shoe" / f"layout_{side}.json").replace(folder / f"layout_{side}.json")
     level = build.shoes[0].layout.force_threshold
-    told = (f"{len(build.shoes[0].layout)} taxels of {area:g} mm^2, each active from {level:.2g} N on", *notes)
-    return FoundShoes(to_m(build.parameters.thickness), weight, told)
+    found = (f"{len(build.shoes[0].layout)} taxels of {area:g} mm^2, each active from {level:.2g} N on", *notes)
+    return FoundShoes(to_m(build.parameters.thickness), weight, found)
 
 
-def _felt(build: ShoeBuild, mass: float) -> ShoeBuild:
+def _adapted(build: ShoeBuild, mass: float) -> ShoeBuild:
     shoes = []
     for shoe in build.shoes:
         layout = shoe.layout

@@ -64,7 +64,7 @@ class Cell:
     length: float = mm(0.0, 4.0, 120.0, "body of a rectangle, along the rows")
     width: float = mm(0.0, 4.0, 120.0, "body of a rectangle, across the rows")
     active: float = mm(
-        0.0, 2.0, 120.0, "part that feels, measured as size; left out: up to the next cell, or all of a round body"
+        0.0, 2.0, 120.0, "active part, measured as size; left out: up to the next cell, or all of a round body"
     )
     active_length: float = mm(0.0, 2.0, 120.0, "of a rectangle, as active")
     active_width: float = mm(0.0, 2.0, 120.0, "of a rectangle, as active")
@@ -156,7 +156,7 @@ class Cell:
         return self.size, self.size * 2.0 / math.sqrt(3.0) if self.shape == "hex" else self.size
 
     @property
-    def felt(self) -> tuple[float, float]:
+    def active_extent(self) -> tuple[float, float]:
         """Extent of a film's active area along and across the rows."""
         if self.shape == "rectangle":
             return self.active_length, self.active_width
@@ -165,7 +165,7 @@ class Cell:
 
     @property
     def active_area(self) -> float:
-        along, across = self.felt
+        along, across = self.active_extent
         share = {"round": 0.25 * math.pi, "hex": 0.75}.get(self.shape, 1.0)
         return share * along * across
 

@@ -231,7 +231,7 @@ def joined(parts: Sequence[Array]) -> Any:
 
 def active_shape(cell: Cell) -> Array:
     """Corners (k, 2) of a film's active area about the middle of its body; of equal area for a circle."""
-    along, across = cell.felt
+    along, across = cell.active_extent
     if cell.shape == "round":
         equal = math.sqrt(2.0 * math.pi / (_SIDES * math.sin(2.0 * math.pi / _SIDES))) * math.cos(math.pi / _SIDES)
         return equal * _circle(0.5 * along)

@@ -16,8 +16,8 @@ from plantar.shoes.foot.mesh_file import Unit, read_mesh
 from plantar.shoes.foot.orientation import (
     AXES,
     Axis,
+    check_level,
     check_one_body,
-    check_told,
     check_upright,
     flat_share,
     forward_axis,
@@ -212,7 +212,7 @@ def _standing(
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
     lifted = triangles + np.array([0.0, 0.0, 0.0 if sole_z is None else -float(triangles[..., 2].min())])
     if not up_given and sole_z is None:
-        notes += [*check_upright(upright, where), *check_told(upright, where)]
+        notes += [*check_upright(upright, where), *check_level(upright, where)]
     support = touching(lifted, _TOUCHING).intersection(sole)
     return Foot(
         name,

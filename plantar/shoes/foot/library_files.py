@@ -25,7 +25,7 @@ def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
     """
     with optional_library("trimesh", "shoes"):
         import trimesh
-    with np.errstate(all="ignore"):  # coordinates that are not finite are reported by who reads the mesh
+    with np.errstate(all="ignore"):  # coordinates that are not finite are refused later
         mesh = trimesh.load(path, process=False, force="mesh", skip_materials=True)
     if not isinstance(mesh, trimesh.Trimesh):
         return {"triangles": np.empty((0, 3, 3))}

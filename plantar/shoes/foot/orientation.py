@@ -14,8 +14,8 @@ from plantar.optional_library import optional_library
 from plantar.shoes.geometry.surface import convex_outline, corner_numbers, thinned
 
 __all__ = [
+    "check_level",
     "check_one_body",
-    "check_told",
     "check_upright",
     "flat_share",
     "forward_axis",
@@ -46,7 +46,7 @@ _UPWARD = 0.2  # of a normal: faces above are no sole
 _LONGER = 1.05  # of the other side: what counts as the long side
 _CLEAR = 0.06  # of the foot's length: how far the ankle lies from its middle where it shows the heel from the toes
 _BLOCK = 0.6  # of the foot's length: what is shorter on top of it is its ankle
-_TURN_TOLD = 4.0  # degrees: a foot that stands so much askew is asked to
+_TURN_NOTED = 4.0  # degrees: a foot askew by more is noted
 _TURN_SQUARE = 30.0  # degrees: a foot about as wide as long that stands so much askew could point either way
 _TURN_LEAST = 6.0  # degrees: a foot turned by less is taken as it stands
 _STRAIGHTER = 0.03  # by how much a foot is more like its mirror image where it is taken to be turned
@@ -173,13 +173,11 @@ def check_upright(triangles: Array, where: str) -> list[str]:
             f"on another side ({which}); give the axis that points up ({', '.join(AXES)}), or level the mesh"
         )
     if area > below:
-        return [
-            f"another side of the foot is as large as what lies below ({which}); look whether it stands as it should"
-        ]
+        return [f"another side of the foot is as large as what lies below ({which}); check its orientation"]
     return []
 
 
-def check_told(triangles: Array, where: str) -> list[str]:
+def check_level(triangles: Array, where: str) -> list[str]:
     """Refuse triangles in mm of a foot without a resting plane whose upper side is tilted; where is the file's name.
 
     Returns:
@@ -269,7 +267,7 @@ def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list
     alike = [_likeness(hull, v) for v in angles]
     best = float(angles[int(np.argmax(alike))])
     off = (best + 45.0) % 90.0 - 45.0
-    if abs(off) < _TURN_TOLD or max(alike) - _likeness(hull, best - off) < _STRAIGHTER:
+    if abs(off) < _TURN_NOTED or max(alike) - _likeness(hull, best - off) < _STRAIGHTER:
         return triangles, []
     if abs(off) < _TURN_LEAST:
         return triangles, [
@@ -279,7 +277,7 @@ def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list
     if square and abs(off) > _TURN_SQUARE:
         raise FootError(
             f"{where}: the foot is about as wide as long and stands askew by {abs(off):.0f} degrees, so that nothing "
-            f"tells where it points; turn the mesh, or give the forward axis ({', '.join(AXES[:4])}) to take it as it "
+            f"shows where it points; turn the mesh, or give the forward axis ({', '.join(AXES[:4])}) to take it as it "
             "stands"
         )
     c, s = math.cos(math.radians(-off)), math.sin(math.radians(-off))
@@ -307,24 +305,24 @@ def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
     i = 1 if size[1] > _LONGER * size[0] else 0
     name = "xy"[i]
     middle = 0.5 * (low + high)
-    told: list[tuple[float, str]] = []
+    clues: list[tuple[float, str]] = []
     if (low[:2] <= 0.0).all() and (high[:2] >= 0.0).all():
-        told.append((float(middle[i] / size[i]), "origin"))
+        clues.append((float(middle[i] / size[i]), "origin"))
     upper = points[points[:, 2] > high[2] - 0.15 * size[2], i]
     if upper.max() - upper.min() < _BLOCK * size[i]:
-        told.append((float((middle[i] - 0.5 * (upper.max() + upper.min())) / size[i]), "uppermost part"))
-    told = [(share, what) for share, what in told if abs(share) > _CLEAR]
+        clues.append((float((middle[i] - 0.5 * (upper.max() + upper.min())) / size[i]), "uppermost part"))
+    clues = [(share, what) for share, what in clues if abs(share) > _CLEAR]
     how = f"the foot is longer along {name}" if i else f"{name} points to the toes, as usual"
-    if not told:
+    if not clues:
         return ("y", f"{how}, taken to point to the toes (or give the forward axis)") if i else ("x", how)
-    if len({share > 0.0 for share, _ in told}) > 1:
+    if len({share > 0.0 for share, _ in clues}) > 1:
         raise FootError(
             f"{where}: origin and uppermost part lie near opposite ends of the foot; give the forward axis "
             f"({', '.join(AXES[:4])})"
         )
-    axis: Axis = ("x", "y")[i] if told[0][0] > 0.0 else ("-x", "-y")[i]
+    axis: Axis = ("x", "y")[i] if clues[0][0] > 0.0 else ("-x", "-y")[i]
     if axis == "x":
         return "x", how
-    what = " and ".join(what for _, what in told)
-    verb = "lie" if len(told) > 1 else "lies"
+    what = " and ".join(what for _, what in clues)
+    verb = "lie" if len(clues) > 1 else "lies"
     return axis, f"the foot is longer along {name}, and its {what} {verb} nearer to the heel: {axis} points to the toes"

@@ -148,7 +148,7 @@ def triangles_of_3mf(path: Path, most: int) -> tuple[Array, str]:
                 with package.open(held[part]) as stream:
                     model.read(stream, part)
     unit, factor = _UNITS[model.unit]
-    with np.errstate(all="ignore"):  # what is not finite is reported by who reads the mesh
+    with np.errstate(all="ignore"):  # what is not finite is refused later
         return model.triangles() * factor, unit
 
 

@@ -82,9 +82,9 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
         raise FootError(f"{where} has no geometry; name the body that has the foot's: {_names_shown(bodies, body)}")
     triangles = _together(shapes, where)
     mass, note = source.mass(body)
-    told = f"body '{body}': {len(shapes)} {'drawn' if drawn else 'colliding'} shape(s), in m as models are"
+    read = f"body '{body}': {len(shapes)} {'drawn' if drawn else 'colliding'} shape(s), in m as models are"
     links, swept = swept_points(source, body, triangles)
-    return BodyGeometry(triangles, side_of_name(body), mass, (told, note, swept), links)
+    return BodyGeometry(triangles, side_of_name(body), mass, (read, note, swept), links)
 
 
 def _names_shown(bodies: dict[str, BodyPlace], wanted: str) -> str:

@@ -30,7 +30,7 @@ _SVG_UNITS: dict[str, tuple[Unit, float]] = {
     "mm": ("mm", 1.0),
     "cm": ("cm", 1.0),
     "in": ("in", 1.0),
-    "px": ("in", 1.0 / 96.0),  # as SVG has it; a number without a unit says nothing
+    "px": ("in", 1.0 / 96.0),  # as SVG has it; a number without a unit has none
 }
 
 _PER_PX: dict[Unit, float] = {"mm": 25.4 / 96.0, "cm": 2.54 / 96.0, "in": 1.0 / 96.0}
@@ -92,7 +92,7 @@ def lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
         for child in element:
             walk(child, here, uses)
 
-    with np.errstate(all="ignore"):  # what is not finite is told by who reads the drawing
+    with np.errstate(all="ignore"):  # what is not finite is refused later
         walk(root, start)
     return lines, unit, factor
 

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 Bodies = list[tuple[Array, tuple[float, float, float]]]
 
 _PRINT, _PAD = (0.36, 0.55, 0.72), (0.30, 0.31, 0.33)
-_TAXELS = ((0.45, 0.72, 0.50), (0.55, 0.82, 0.58), (0.37, 0.62, 0.43))  # in turn, so that neighbours can be told apart
+_TAXELS = ((0.45, 0.72, 0.50), (0.55, 0.82, 0.58), (0.37, 0.62, 0.43))  # in turn, so that neighbours differ
 _WIRE, _BOARD, _FOOT, _MOULD = (0.84, 0.28, 0.22), (0.16, 0.42, 0.30), (0.78, 0.74, 0.68), (0.80, 0.63, 0.40)
 _ABOVE, _BELOW = {"azimuth": -62.0, "elevation": 38.0}, {"azimuth": -62.0, "elevation": -48.0}
 _BEHIND, _LOW = {"azimuth": -160.0, "elevation": 14.0}, {"azimuth": -62.0, "elevation": 20.0}
@@ -140,8 +140,8 @@ def _print(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views:
             f"Then: {_words(made.finish)}.",
             f"Gaps a side: {gaps}; seats within {made.scatter:g} (1 sigma); it may shrink by {made.shrinkage:g} % and "
             f"spread by {made.foot:g} on the bed. A coupon of your printer replaces these (--set gap_slide=...).",
-            f"Walls are {min(c.min_wall_mm for c in checks.values()):g} or thicker. The files are in mm; the 3MF says "
-            "so itself, the STEP is for changes in CAD.",
+            f"Walls are {min(c.min_wall_mm for c in checks.values()):g} or thicker. The files are in mm; the 3MF "
+            "states it, the STEP is for changes in CAD.",
         ],
         views.of_print(),
         f"The {shoe.side} print from above, toes to the right",
@@ -189,8 +189,8 @@ def _taxels(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
     if plan.lands:  # films or a sheet, which the pad presses on
         what = "One sheet" if plan.lines is not None else f"{count} films{groups}"
         text = [
-            f"{what} for each foot, to be glued to the ceilings of the pockets, {p.pocket_depth:g} deep, the face that "
-            f"feels down; the pad's lands press there. The ids are on <code>drawing_{shoe.side}.png</code>.{begin}"
+            f"{what} for each foot, to be glued to the ceilings of the pockets, {p.pocket_depth:g} deep, the active "
+            f"face down; the pad's lands press there. The ids are on <code>drawing_{shoe.side}.png</code>.{begin}"
         ]
         return _step(text, views.of_cells(), f"From below: {what.lower()} before the pockets")
     return _step(
@@ -308,7 +308,7 @@ def _put_on(shoe: Shoe, build: ShoeBuild, bills: Mapping[str, Sequence[Part]], v
         )
     else:
         how = "Nothing holds it but the fit, as asked for."
-    letter = "" if p.mark_height <= 0.0 else f" The mark in the floor says {shoe.side[0].upper()}."
+    letter = "" if p.mark_height <= 0.0 else f" The mark in the floor reads {shoe.side[0].upper()}."
     return _step(
         [
             f"Push the shoe onto the foot from below until the foot stands on the floor.{letter}",
@@ -326,7 +326,7 @@ def _tare(shoe: Shoe, build: ShoeBuild, checks: Mapping[str, ShoeCheck], views: 
     return _step(
         [
             "With the foot in the air take the taxels' offsets (tare); the layout itself needs no calibration: cells "
-            f"lie where <code>layout_{shoe.side}.json</code> says.",
+            f"lie as in <code>layout_{shoe.side}.json</code>.",
             f"Stand on a flat floor and compare the sum over both feet with the {who}'s weight: {load.mass:g} kg "
             f"({_words(load.source)}) are {load.mass * GRAVITY:.0f} N.",
             f"Record it and read it with <code>plantar analyze standing.npz --layout layout_{shoe.side}.json</code>: "

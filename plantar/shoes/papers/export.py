@@ -112,9 +112,9 @@ def _extent(shoe: Shoe) -> NDArray[np.float64]:
 
 def _plain(value: Any) -> Any:
     if isinstance(value, ShoeCheck):
-        told = asdict(value) | {"holds": value.holds}
-        del told["weights"]  # stated with their unit and sum
-        return _plain(told)
+        plain = asdict(value) | {"holds": value.holds}
+        del plain["weights"]  # stated with their unit and sum
+        return _plain(plain)
     if isinstance(value, dict):
         return {k: _plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple)):
@@ -165,7 +165,7 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
         InputError: If a file cannot be written.
     """
     target = Path(folder)
-    tell = progress or (lambda fraction, text: None)
+    report_progress = progress or (lambda fraction, text: None)
     checks: dict[str, ShoeCheck] = {}
     weights: dict[str, Weights] = {}
     bills: dict[str, list[Part]] = {}
@@ -173,14 +173,14 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
     for i, shoe in enumerate(build.shoes):
         side, count = shoe.side, len(build.shoes)
         if shoe.surface is not None:
-            tell(i / count, f"writing the {side} shoe")
+            report_progress(i / count, f"writing the {side} shoe")
             surface, step, names = _write_solids(shoe, build, target)
-            tell((i + 0.4) / count, f"checking the {side} shoe")
+            report_progress((i + 0.4) / count, f"checking the {side} shoe")
             checks[side] = check_shoe(shoe, build, surface=surface, step=step)
             weights[side] = checks[side].weights
             bills[side] = bill_of_parts(shoe, build, weights[side])
             names += _write_for_wiring(shoe, build, target)
-            tell((i + 0.6) / count, f"drawing the {side} shoe")
+            report_progress((i + 0.6) / count, f"drawing the {side} shoe")
             names += _draw(shoe, build, surface, target)
             files += names
         layout = write_text(target / f"layout_{side}.json", _layout_text(shoe, build, weights.get(side)))
@@ -196,7 +196,7 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
     report = ShoeReport(build, checks, tuple(files), weights, bills, plans)
     if checks:
         write_text(target / "check.json", json.dumps(report.as_dict(), indent=1) + "\n")
-    tell(1.0, "shoes written")
+    report_progress(1.0, "shoes written")
     return report
 
 

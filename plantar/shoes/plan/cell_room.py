@@ -111,6 +111,6 @@ def lead_rooms(plan: ShoePlan, parameters: ShoeParameters) -> tuple[LeadRoom, ..
         width = min(p.port_width, plan.port(*full)[2])
         rooms.append(LeadRoom("fullest port", each * float(behind[full[1]]), width * p.pocket_depth))
     if cell.kind == "film":  # around the land
-        beside = (min(cell.body) + 2.0 * cell.play - min(cell.felt)) * (p.pocket_depth - cell.thickness)
+        beside = (min(cell.body) + 2.0 * cell.play - min(cell.active_extent)) * (p.pocket_depth - cell.thickness)
         rooms.append(LeadRoom("fullest pocket", each * float(patches.max()), beside))
     return tuple(rooms)

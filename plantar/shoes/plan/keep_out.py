@@ -44,7 +44,7 @@ class KeepOut:
     @property
     def note(self) -> str:
         """Where the links are from."""
-        return "" if self.known else "the shank is taken to stand on the ankle: no robot's model says where it passes"
+        return "" if self.known else "the shank is taken to stand on the ankle: no robot's model shows where it passes"
 
     def meets(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> int:
         """Gives the number of points within 2 mm of the box with corners low and high (3,)."""

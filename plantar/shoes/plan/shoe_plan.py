@@ -188,9 +188,9 @@ def plan_face(
         heel, connectors, route = replace(heel, board=False), (), ()
         note = "no ports, channel or board for a cable (port_width 0): the cells are to be wired by themselves"
     notes = () if note is None else (note,)
-    told = (fit.cell, fit.lines, fit.crossings)
+    kinds = (fit.cell, fit.lines, fit.crossings)
     return ShoePlan(
-        "left", outline, contact, cavity, rim, cells, pockets, route, connectors, heel, layout, notes, *told
+        "left", outline, contact, cavity, rim, cells, pockets, route, connectors, heel, layout, notes, *kinds
     )
 
 

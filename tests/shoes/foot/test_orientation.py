@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.shoes.foot.orientation import (
     AXES,
+    check_level,
     check_one_body,
-    check_told,
     check_upright,
     flat_share,
     forward_axis,
@@ -131,18 +131,18 @@ def rocker(radius: float, prism: Shape) -> NDArray[np.float64]:
 @pytest.mark.parametrize("radius", [400.0, 800.0])
 def test_a_rounded_sole_that_is_tilted_with_its_foot_is_refused(prism: Shape, radius: float) -> None:
     foot = rocker(radius, prism)
-    assert "level as the mesh's axes" in check_told(foot, "foot")[0]
+    assert "level as the mesh's axes" in check_level(foot, "foot")[0]
     for tilt in (4.0, 8.0, -8.0, 15.0):
         c, s = np.cos(np.radians(tilt)), np.sin(np.radians(tilt))
         tilted = foot @ np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]).T
         with pytest.raises(FootError, match=rf"tilted by {abs(tilt):.1f} degrees, .*--up z"):
-            check_told(tilted, "foot")
+            check_level(tilted, "foot")
 
 
 def test_what_could_stand_on_either_side_is_told(box: Shape) -> None:
     plate = box((-80, 150), (-45, 45), (0, 30))
-    assert "upper side as well" in check_told(plate, "foot")[0]
-    assert check_told(np.concatenate([plate, box((-20, 20), (-20, 20), (30, 80))]), "foot") == []
+    assert "upper side as well" in check_level(plate, "foot")[0]
+    assert check_level(np.concatenate([plate, box((-20, 20), (-20, 20), (30, 80))]), "foot") == []
 
 
 @pytest.mark.parametrize("yaw", [8.0, 20.0, -25.0, 40.0, 5.0])
