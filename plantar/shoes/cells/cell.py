@@ -17,8 +17,8 @@ from typing import Any, Literal
 from plantar.errors import InputError
 from plantar.files.structured_text import packaged_files, read_toml
 from plantar.settings.unknown_keys import refuse_unknown_keys
-from plantar.shoes.dimensions import check_dimensions, checked, choice, number, text
-from plantar.shoes.dimensions import length as mm
+from plantar.shoes.parameters import check_dimensions, checked, choice, number, text
+from plantar.shoes.parameters import length as mm
 
 __all__ = ["Cell", "built_in_cells", "read_cell"]
 
