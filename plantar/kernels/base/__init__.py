@@ -1,7 +1,5 @@
 """Memory of arrays, small vectors, work arrays, fused products and checks of numbers, for all kernels."""
 
-from __future__ import annotations
-
 from contextlib import nullcontext
 from types import SimpleNamespace
 

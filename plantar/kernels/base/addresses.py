@@ -1,7 +1,5 @@
 """Interpreted counterpart of `addresses_in_c.pxd`: memory of another library."""
 
-from __future__ import annotations
-
 import ctypes
 
 __all__ = ["at"]

@@ -1,7 +1,5 @@
 """Fused multiply-add, as BLAS rounds a product and its sum; interpreted counterpart of `fused_in_c.pxd`."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Checks of all numbers that a caller hands over."""
 
-from __future__ import annotations
-
 from . import memory
 
 __all__ = ["are_plane_points", "pair_of", "points_within", "values_within"]

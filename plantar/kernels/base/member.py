@@ -1,7 +1,5 @@
 """The descriptor behind `plantar.lazy`, compiled, since every member of a percept passes it."""
 
-from __future__ import annotations
-
 from . import memory
 
 __all__ = ["Member", "close_all"]

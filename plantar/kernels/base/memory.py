@@ -3,8 +3,6 @@
 A buffer costs a kernel 0.1 us, its memory 5 ns; a tick has some hundred small arrays.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["close", "flags", "is_array", "is_mask", "new_mask", "new_matrix", "new_vector"]

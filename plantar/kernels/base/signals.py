@@ -1,8 +1,6 @@
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
 """Interpreted counterpart of CPython's function that checks for signals such as Ctrl-C."""
 
-from __future__ import annotations
-
 __all__ = ["PyErr_CheckSignals"]
 
 

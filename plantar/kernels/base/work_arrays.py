@@ -2,8 +2,6 @@
 # cython: infer_types=True
 """Work arrays: arrays for compiled kernels, lists for interpreted ones, which read them faster."""
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["numbers", "places"]

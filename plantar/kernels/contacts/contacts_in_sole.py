@@ -1,7 +1,5 @@
 """Kernel that turns a foot's contacts into its sole frame."""
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["ContactsInSole"]

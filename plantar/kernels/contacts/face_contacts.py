@@ -4,8 +4,6 @@ The contacts are the corners of the overlap of both faces, each as deep as the s
 ground's face. The smallest overlap of both boxes along their axes selects that face.
 """
 
-from __future__ import annotations
-
 import math
 
 from ..base import addresses, memory

@@ -1,7 +1,5 @@
 """Kernel that gathers and sums one foot's contacts from a simulator's list."""
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["ContactList", "FootContacts", "gather_feet"]

@@ -1,7 +1,5 @@
 """Kernel of a rigid sole on an elastic foundation that cannot pull (Winkler): the load of each cell."""
 
-from __future__ import annotations
-
 __all__ = ["spread_part", "spread_whole"]
 
 

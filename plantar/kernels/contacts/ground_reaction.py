@@ -1,7 +1,5 @@
 """Kernel of the ground's reaction on all feet: wrench, ZMP, support, and its margin."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..geometry import few_points

@@ -1,7 +1,5 @@
 """Kernel of a load on a patch of an elastic sole, spanned by contact points."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..geometry import clean, convex

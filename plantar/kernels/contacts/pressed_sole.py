@@ -1,7 +1,5 @@
 """Kernel of an elastic sole: the load of its taxels from its contacts."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from . import pressed_patch

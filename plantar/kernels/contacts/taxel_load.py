@@ -1,7 +1,5 @@
 """Kernel of the force on each taxel of a sole; together they have the wrench of the sole's contacts."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

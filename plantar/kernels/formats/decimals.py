@@ -5,8 +5,6 @@ A number of up to 15 digits is a whole number below 2^53 over a power of ten up 
 their quotient is the nearest double (Clinger 1990). Others are handed to `float`.
 """
 
-from __future__ import annotations
-
 import math
 
 from ..base import work_arrays

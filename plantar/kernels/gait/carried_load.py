@@ -1,7 +1,5 @@
 """Kernel of the loads that the taxels of a foot have carried since touchdown."""
 
-from __future__ import annotations
-
 __all__ = ["mark_carried", "take_in"]
 
 _INFINITE = float("inf")

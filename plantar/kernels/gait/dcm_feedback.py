@@ -1,7 +1,5 @@
 """Kernel of the DCM feedback: desired ZMP, and admittance of the CoM reference (sources: `plantar.gait.balance`)."""
 
-from __future__ import annotations
-
 import math
 
 from ..base import memory, vectors

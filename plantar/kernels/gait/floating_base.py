@@ -3,8 +3,6 @@
 Feet are numbered in the order of `plantar.sides.SIDES`.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

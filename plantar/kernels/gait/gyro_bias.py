@@ -1,7 +1,5 @@
 """Kernel of `plantar.gait.estimate.gyro_bias` and `steady_load`; feet in the order of `plantar.sides.SIDES`."""
 
-from __future__ import annotations
-
 __all__ = ["GyroBias", "SteadyLoad"]
 
 _INFINITE = float("inf")

@@ -1,7 +1,5 @@
 """Kernel of the plane through the highest ground under a swinging sole."""
 
-from __future__ import annotations
-
 import math
 
 __all__ = ["highest_plane"]

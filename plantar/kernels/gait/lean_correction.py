@@ -1,7 +1,5 @@
 """Kernel of `plantar.gait.feet.posture_compensation`: keeps a swing foot in place while the body leans."""
 
-from __future__ import annotations
-
 import math
 
 from ..base import fused, memory

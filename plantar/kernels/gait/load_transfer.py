@@ -1,7 +1,5 @@
 """Kernel of `plantar.gait.balance.load_transfer`."""
 
-from __future__ import annotations
-
 from ..base import memory, vectors
 
 __all__ = ["shared_load"]

@@ -1,7 +1,5 @@
 """Kernel of `plantar.gait.balance.foot_admittance` for one sole."""
 
-from __future__ import annotations
-
 from ..base import memory
 
 __all__ = ["SoleAdmittance"]

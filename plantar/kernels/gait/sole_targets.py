@@ -1,7 +1,5 @@
 """Kernel of a sole's commanded pose and force (products summed as BLAS does, `fused`)."""
 
-from __future__ import annotations
-
 from ..base import fused, memory, vectors
 from ..mechanics import rotations
 

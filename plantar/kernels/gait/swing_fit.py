@@ -1,7 +1,5 @@
 """Kernel of `plantar.gait.feet.swing_fit` (K 13-16): ridge regression of three axes through both ends."""
 
-from __future__ import annotations
-
 import math
 
 __all__ = ["fit"]

@@ -5,8 +5,6 @@ within `_NEAR` of its size is that hull already. Of any other, where rounding ma
 any way, the hull is taken, with every turn decided exactly.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from . import hull

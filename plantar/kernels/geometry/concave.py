@@ -1,8 +1,6 @@
 # cython: infer_types=True
 """Kernel for the largest rectangle in an outline with islands and holes, exact."""
 
-from __future__ import annotations
-
 import math
 
 from ..base import signals, work_arrays

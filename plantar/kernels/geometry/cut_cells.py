@@ -1,7 +1,5 @@
 """Kernel of cells cut by straight lines: what is left of each, and the chords of the cuts."""
 
-from __future__ import annotations
-
 __all__ = ["cut_cells"]
 
 

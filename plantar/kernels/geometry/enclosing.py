@@ -4,8 +4,6 @@
 They write 4 corners to `out`, flat, counter-clockwise, and return the area.
 """
 
-from __future__ import annotations
-
 import math
 
 __all__ = ["least_box", "least_parallelogram"]

@@ -1,7 +1,5 @@
 """Kernel of the convex hull of a few points, cheaper than making arrays of them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Kernel of the part of a polygon on one side of a line."""
 
-from __future__ import annotations
-
 from ..base import memory
 
 __all__ = ["part_below"]

@@ -1,7 +1,5 @@
 """Kernel of the convex hull of points (n, 2): every turn decided exactly, so that the ring is exactly convex."""
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["convex_hull", "gather", "hull_of_cloud", "hull_ring", "hull_tolerance", "turn_is_left"]

@@ -4,8 +4,6 @@
 A ring is flat, x0, y0, x1, y1, ..., counter-clockwise and near the origin. They write to `out` and return the size.
 """
 
-from __future__ import annotations
-
 import math
 
 __all__ = ["ends_of_flat", "largest_circle", "largest_triangle"]

@@ -1,8 +1,6 @@
 # cython: infer_types=True
 """Kernel of the contact's outline: a walk along the edges that two active cells do not share."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -6,8 +6,6 @@ the corner B walks once round; C and D are the ends of the far chord that is par
 stay on their edges they move linearly and the area is a parabola.
 """
 
-from __future__ import annotations
-
 __all__ = ["largest_parallelogram"]
 
 _B_ENDS = 0  # what ends a stretch of the walk: B meets a vertex,

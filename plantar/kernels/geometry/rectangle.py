@@ -1,8 +1,6 @@
 # cython: infer_types=True
 """Kernel for the largest rectangle in a convex ring, at a given angle."""
 
-from __future__ import annotations
-
 import math
 
 __all__ = ["largest_rectangle", "write_corners"]

@@ -1,8 +1,6 @@
 # cython: infer_types=True
 """Kernels from any polygon to the corners of a shape in or around it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Kernel of `mj_integratePos` over one unit of time, summed in its order."""
 
-from __future__ import annotations
-
 import math
 
 __all__ = ["Configuration"]

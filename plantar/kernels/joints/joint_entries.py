@@ -1,7 +1,5 @@
 """Kernel of a model vector's entries for its joints."""
 
-from __future__ import annotations
-
 __all__ = ["JointEntries"]
 
 

@@ -1,7 +1,5 @@
 """Kernel that copies the legs' targets to where their tasks read them."""
 
-from __future__ import annotations
-
 from ..base import memory
 
 __all__ = ["LegTargets"]

@@ -1,7 +1,5 @@
 """Kernel of a Newton step of inverse kinematics by the normal equations."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

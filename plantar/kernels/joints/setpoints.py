@@ -1,7 +1,5 @@
 """Kernel of the set-points of joint servos."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..base import memory

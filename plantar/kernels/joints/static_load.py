@@ -1,7 +1,5 @@
 """Kernel of the joint torques at rest against gravity, less those of other forces (`mj_rne`, summed in its order)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..base import memory

@@ -4,8 +4,6 @@ A velocity moves a body by the unit motion (w, v) in `motions` (nv, 6), MuJoCo's
 c), c the `center` of the body's tree. `chain` (c,) are the velocities that move the body.
 """
 
-from __future__ import annotations
-
 from ..mechanics import rotations
 
 __all__ = ["ComRows", "PointRows", "PoseRows", "Rows", "TurnRows"]

@@ -7,8 +7,6 @@ left by the levels before bring each level's rows to triangular form and make th
 (`plantar.wholebody.fusion.hierarchy`).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

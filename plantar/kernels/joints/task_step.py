@@ -1,7 +1,5 @@
 """Kernel of a step of inverse kinematics: rows of all tasks, Newton's step, and the configuration."""
 
-from __future__ import annotations
-
 __all__ = ["TaskStep"]
 
 

@@ -1,7 +1,5 @@
 """Kernel of the errors of a controller's estimates."""
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["EstimateError"]

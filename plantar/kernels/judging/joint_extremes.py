@@ -1,7 +1,5 @@
 """Kernel of joint speeds both ways, and time at limits."""
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["JointExtremes"]

@@ -1,7 +1,5 @@
 """Kernel of the steadiness of the ground's force in single support."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

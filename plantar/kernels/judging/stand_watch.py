@@ -1,7 +1,5 @@
 """Kernel of the places of loaded feet, and their slip."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Kernel that follows a walk step by step: landings, margins, forces, stands, limits and falls."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

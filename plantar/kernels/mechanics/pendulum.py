@@ -1,7 +1,5 @@
 """Kernel of a pendulum over a VRP that moves along a line."""
 
-from __future__ import annotations
-
 import math
 
 from ..base import memory, vectors

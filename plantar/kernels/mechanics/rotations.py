@@ -1,7 +1,5 @@
 """Kernels of rotations: products of matrices (3, 3) and vectors (3,), exponential map, nearest rotation, errors."""
 
-from __future__ import annotations
-
 import math
 
 from ..base import vectors

@@ -1,7 +1,5 @@
 """Kernel of the quadratic program that shares a net wrench between contacts: what changes from call to call."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Kernel of the safety shell: plausibility of sensors, and largest change of commands in a tick."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

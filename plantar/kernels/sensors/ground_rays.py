@@ -1,7 +1,5 @@
 """Kernel of rays against simple solids, equal to MuJoCo's `mj_ray` to the last bit."""
 
-from __future__ import annotations
-
 import math
 
 __all__ = ["cast_rays"]

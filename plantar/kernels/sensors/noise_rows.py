@@ -1,7 +1,5 @@
 """Kernel of noise that is drawn many samples at a time."""
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["NoiseRows"]

@@ -1,7 +1,5 @@
 """Kernel of the readings of encoders and IMU of a simulated body."""
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["SensedBody"]

@@ -1,7 +1,5 @@
 """Kernel of the proximity sensors of one sole: a ray of each taxel against the ground."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Kernel of the samples of taxels: their electronics' readings of forces."""
 
-from __future__ import annotations
-
 import numpy as np
 
 __all__ = ["TaxelSample"]

@@ -3,8 +3,6 @@
 Forces up to `threshold`, NaN, and from `saturation` on are left out.
 """
 
-from __future__ import annotations
-
 try:
     import cython
 except ImportError:

@@ -1,7 +1,5 @@
 """Kernel of the ground's plane under a sole: least squares, or least median of squares if taxels disagree."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Fields of a percept, and the results that most of its members read: active taxels, sums of loads, the hull."""
 
-from __future__ import annotations
-
 from ..base import memory, vectors
 
 __all__ = ["PerceptFields"]

@@ -1,7 +1,5 @@
 """Fields of a reading, kept without running Python where time and arrays are plain."""
 
-from __future__ import annotations
-
 try:
     import cython
 except ImportError:

@@ -3,8 +3,6 @@
 Constants of the sole are prepared once. A call borrows its work arrays, so that threads do not share them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from plantar.errors import ReadingError
