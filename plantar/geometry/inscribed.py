@@ -55,12 +55,7 @@ _PROVEN = 1e-6  # share of the area that is not looked for
 
 
 class Circle(NamedTuple):
-    """A circle: center (2,) in m and radius in m.
-
-    Example:
-        >>> Circle(np.array([0.0, 0.0]), 0.05).radius
-        0.05
-    """
+    """A circle: center (2,) in m and radius in m."""
 
     center: NDArray[np.float64]
     radius: float
@@ -167,11 +162,6 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
 
     Returns:
         Corners (4, 2) in m.
-
-    Example:
-        >>> corners = inscribed_rectangle_any_angle([[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0]])
-        >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 9)
-        2.0
     """
     ring = np.asarray(convex_ring(polygon))
     edges = np.roll(ring, -1, axis=0) - ring

@@ -16,7 +16,7 @@ from plantar.errors import InputError
 from plantar.kernels.geometry import convex as _kernel
 from plantar.kernels.geometry import hull as _hull
 from plantar.kernels.geometry.clean import clean_ring, extent, turning
-from plantar.kernels.geometry.half_plane import part_below
+from plantar.kernels.geometry.cut_cells import part_below
 from plantar.plane_points import plane_point, plane_points
 
 __all__ = [

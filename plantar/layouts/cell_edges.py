@@ -34,12 +34,6 @@ def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTab
 
     Raises:
         InputError: If the points are not (v, 2) finite numbers, or an index is out of range.
-
-    Example:
-        >>> table = edge_table([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [2, 1]], [[0, 1, 2, 3], [1, 4, 5, 2]])
-        >>> points, starts, areas = table.walk(bytes([1, 1]))
-        >>> sorted(points.tolist()), starts, areas
-        ([[0.0, 0.0], [0.0, 1.0], [2.0, 0.0], [2.0, 1.0]], [0, 4], [2.0])
     """
     xy = plane_points(vertices, "vertices")
     if any(not 0 <= i < len(xy) for cell in corners for i in cell):

@@ -39,10 +39,6 @@ def hexagon_side(area: float) -> float:
 
     Args:
         area: Area in m^2, above 0 (else an InputError).
-
-    Example:
-        >>> round(hexagon_side(691e-6) * 1e3, 3)
-        16.308
     """
     whole = number(area, "cell area", nan=True)
     if not 0.0 < whole <= LARGEST:

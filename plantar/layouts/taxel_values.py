@@ -31,15 +31,6 @@ def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> from plantar import grid_layout
-        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
-        >>> taxel_values(layout, [1, 2]).tolist()
-        [1.0, 2.0]
-        >>> taxel_values(layout, [1, 2, 3])
-        Traceback (most recent call last):
-        plantar.errors.ReadingError: forces have shape (3,); layout 'sole' has 2 taxels
     """
     if not isinstance(layout, SoleLayout):
         instance(layout, SoleLayout, "layout")

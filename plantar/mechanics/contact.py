@@ -46,13 +46,7 @@ class Contact:
         return px + dx, py + dy, pz + dz
 
     def wrench_in_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
-        """A wrench (..., 6) about the contact frame's origin as one about the world's origin, in N and N m.
-
-        Example:
-            >>> hand = Contact(np.array([0.3, 0.0, 1.0]), np.eye(3), Rectangle(-0.04, 0.04, -0.04, 0.04))
-            >>> hand.wrench_in_world([0.0, 0.0, 10.0, 0.0, 0.0, 0.0]).tolist()
-            [0.0, 0.0, 10.0, 0.0, -3.0, 0.0]
-        """
+        """A wrench (..., 6) about the contact frame's origin as one about the world's origin, in N and N m."""
         return wrench_in_frame(wrench, self.rotation, self.position)
 
 

@@ -6,12 +6,7 @@ __all__ = ["minimum_jerk"]
 
 
 def minimum_jerk(phase: float) -> tuple[float, float]:
-    """Minimum-jerk blend 10 s^3 - 15 s^4 + 6 s^5 and its rate at phase s, held at 0 and 1 outside.
-
-    Example:
-        >>> minimum_jerk(0.5)
-        (0.5, 1.875)
-    """
+    """Minimum-jerk blend 10 s^3 - 15 s^4 + 6 s^5 and its rate at phase s, held at 0 and 1 outside."""
     if phase <= 0.0:
         return 0.0, 0.0
     if phase >= 1.0:

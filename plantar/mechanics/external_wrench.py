@@ -75,12 +75,6 @@ def external_acceleration(
 
     Raises:
         InputError: As `vrp_offset`.
-
-    Example:
-        >>> from plantar.mechanics.lip import pendulum_frequency
-        >>> omega = pendulum_frequency(0.83)
-        >>> external_acceleration([50.0, 0.0, 0.0, 0.0, 50.0 * 0.4, 0.0], 86.0, omega).round(3).tolist()
-        [0.862, 0.0]
     """
     return np.asarray(vrp_offset(wrench, mass, omega, virtual_mass) * float(omega) ** 2)
 
@@ -99,10 +93,6 @@ def push_of_dcm(impulse: ArrayLike, mass: float, omega: float, height: float = 0
 
     Raises:
         InputError: If an argument is not valid.
-
-    Example:
-        >>> push_of_dcm([0.0, 20.0], 86.0, 3.44).round(4).tolist()
-        [0.0, 0.0676]
     """
     given = array(impulse, "impulse", (..., 2))
     rate, carried = _positive(omega, "pendulum frequency", "rad/s"), _positive(mass, "mass", "kg")

@@ -80,10 +80,6 @@ def wrench_in_frame(
 
     Returns:
         Wrench (..., 6) about the origin of b.
-
-    Example:
-        >>> wrench_in_frame([0.0, 0.0, 10.0, 0.0, 0.0, 0.0], np.eye(3), np.array([0.2, 0.0, 0.0])).tolist()
-        [0.0, 0.0, 10.0, 0.0, -2.0, 0.0]
     """
     given = np.asarray(wrench, dtype=float)
     force, moment = given[..., :3] @ rotation.T, given[..., 3:] @ rotation.T

@@ -32,9 +32,8 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
     """Facets of the contact wrench cone of a rectangle (T 4.32-4.41, corrected).
 
     The wrench w = [fx, fy, fz, tx, ty, tz] is exerted by the world on the robot, about the origin of the contact frame.
-    The cone is the span of a friction pyramid at each corner; its 16 facets are |fx| <= mu fz and |fy| <= mu fz, the
-    center of pressure inside the rectangle, and eight limits of the yaw moment, in which the coordinates of the edges
-    are signed. (The printed 4.40-4.41 and the split form mix the signs.)
+    The cone is the span of a friction pyramid at each corner: |fx| <= mu fz, |fy| <= mu fz, the center of pressure
+    inside, and eight limits of the yaw moment, with signed coordinates of the edges (printed 4.40-4.41 mix the signs).
 
     Args:
         rectangle: The contact, anywhere, possibly a line or a point.
@@ -48,10 +47,8 @@ def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
 
     Example:
         >>> cone = wrench_cone(Rectangle(-0.1, 0.1, -0.05, 0.05), 0.6)
-        >>> bool((cone @ [0.0, 0.0, 100.0, 4.0, -9.0, 0.0] <= 0.0).all())
-        True
-        >>> bool((cone @ [0.0, 0.0, 100.0, 6.0, 0.0, 0.0] <= 0.0).all())
-        False
+        >>> [bool((cone @ [0.0, 0.0, 100.0, tx, 0.0, 0.0] <= 0.0).all()) for tx in (4.0, 6.0)]
+        [True, False]
     """
     x0, x1, y0, y1 = rectangle
     if not (all(map(math.isfinite, rectangle)) and x0 <= x1 and y0 <= y1):

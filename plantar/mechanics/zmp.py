@@ -104,10 +104,6 @@ def centroidal_moment_pivot(
 
     Raises:
         InputError: If force, CoM, height or least force are not valid.
-
-    Example:
-        >>> centroidal_moment_pivot([50.0, 0.0, 500.0], [0.0, 0.1, 0.8]).round(9).tolist()
-        [-0.08, 0.1]
     """
     given = array(force, "force", ("3 or 6",))
     if len(given) not in (3, 6):
@@ -133,10 +129,6 @@ def zmp_of_wrench(wrench: ArrayLike, minimum_force: float = 0.0) -> NDArray[np.f
 
     Raises:
         InputError: If the wrench is not 6 numbers, or the least force is not a number above 0.
-
-    Example:
-        >>> zmp_of_wrench(np.array([0, 0, 100.0, 5.0, -2.0, 0])).tolist()
-        [0.02, 0.05]
     """
     _, _, fz, tx, ty, _ = array(wrench, "wrench", (6,)).tolist()
     if not (fz >= number(minimum_force, "minimum force") and 0.0 < fz < math.inf):

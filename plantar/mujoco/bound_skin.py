@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from plantar.arguments import integer
 from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
-from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
-from plantar.kernels.contacts.foot_contacts import FootContacts
+from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.contacts.taxel_load import TaxelLoad
 from plantar.layouts.layout import SoleLayout
 from plantar.mujoco.contacts import ContactReader

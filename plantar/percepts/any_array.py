@@ -45,12 +45,6 @@ def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> An
 
     Raises:
         ReadingError: If the forces have another shape or type, or their library has no namespace.
-
-    Example:
-        >>> from plantar import grid_layout
-        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
-        >>> active(layout, np.array([[0.0, 9.0], [np.nan, 9.0]]), threshold=1.0).tolist()
-        [[False, True], [False, True]]
     """
     instance(layout, SoleLayout, "layout")
     _namespace(layout, force)

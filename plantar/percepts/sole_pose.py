@@ -157,11 +157,6 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
 
     Raises:
         InputError: If there are not as many poses as wrenches, or none, or one is of another shape or class.
-
-    Example:
-        >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]
-        >>> wrench_of_feet([load, load], [SolePose.flat(0.2, 0.1), SolePose.flat(0.0, -0.1)]).tolist()
-        [0.0, 0.0, 200.0, 0.0, -20.0, 0.0]
     """
     return np.asarray(sum(_turned(wrenches_in_sole, poses)))
 
@@ -223,10 +218,6 @@ def polygon_in_world(
 
     Raises:
         InputError: If a shape is wrong, or a value not finite.
-
-    Example:
-        >>> polygon_in_world(np.array([[1.0, 0.0]]), np.eye(3), np.array([0.0, 2.0, 5.0])).tolist()
-        [[1.0, 2.0]]
     """
     seen: NDArray[np.float64] = _kernel.seen_from_above(
         plane_points(polygon_in_sole),

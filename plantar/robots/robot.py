@@ -79,9 +79,8 @@ class Robot:
         foot: Shape of the bare foot, if given.
         shoe_thickness: Outer contact face below the bare sole in m.
         shoe_mass: Mass of one shoe in kg.
-        rim_stiffness: Stiffness of the shoe next to its taxels over theirs (`plantar.sim.sensing.blind_rim`); 0 with a
-            relieved pad.
-        contact_damping: Damping ratio of the shoe on the ground; 1 is critical for a sole that carries itself alone.
+        rim_stiffness: Stiffness of the shoe next to its taxels over theirs; 0 with a relieved pad.
+        contact_damping: Damping ratio of the shoe on the ground; 1 is critical for a sole alone.
         sole_origins: Sole frame's origin (3,) of each foot in the frame of its body in m.
         sole_rotations: Rotation (3, 3) of each foot from the sole frame to the frame of its body.
         effort_limits: Torque limit of each leg joint in N m for a robot from a model file; empty for none.
@@ -95,17 +94,16 @@ class Robot:
         stance_width: Distance of the sole frames' origins with the feet together in m.
         leg_length: Length of a leg from hip over knee to ankle in m, for shares; 0 for the model's.
         largest_crouch: How much lower than `com_height` a scene may make the robot walk in m.
-        largest_crouch_partial: The same for a walk on parts of its soles (`control.footholds`, `control.conform`),
-            where a center of pressure at the heel loads the knee more.
+        largest_crouch_partial: The same for a walk on parts of its soles, where a center of pressure at the heel loads
+            the knee more.
         trunk_lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
         single_support: t_ss in s where the scene gives none; 0 for the same number of beats of the leg for every robot.
         double_support: t_ds likewise.
-        approach_support: Least t_ss in s of a walk with slow approach (`walk.approach_height`), whose swing has to
-            arrive in three fifths of it: for weak motors; else 0.
-        ankle_reach: Largest distance in m along the sole from its frame's origin, below the ankle, at which the ankle's
-            motor carries the robot.
-        rocks: Whether it steps in its own time and without a slow approach, whatever the scene asks: legs without ankle
-            roll rock from foot to foot and cannot wait on one.
+        approach_support: Least t_ss in s of a walk with slow approach, for weak motors; else 0.
+        ankle_reach: Largest distance in m along the sole from its frame's origin at which the ankle's motor carries the
+            robot.
+        rocks: Whether it steps in its own time and without a slow approach: legs without ankle roll rock from foot to
+            foot.
         pace: Beats of the leg that a pace lasts, the time unit of quick steps (`plantar.settings.body_scale`).
         stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.
         damping: Servo velocity gain of each leg joint in N m s/rad.

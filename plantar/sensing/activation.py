@@ -29,10 +29,6 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> active_taxels(np.array([0.0, 2.0, np.nan, 785.0]), 1.47, 785.0).tolist()
-        [False, True, False, False]
     """
     given = numbers(force, "forces", ReadingError)
     low, high = number(threshold, "activation threshold"), number(saturation, "saturation")

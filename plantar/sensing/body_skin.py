@@ -34,10 +34,6 @@ def active_cells(
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> active_cells([0.0, 0.4, 0.0, np.nan], [0.8, 0.9, 0.0, np.nan], 0.1, 0.1).tolist()
-        [True, True, False, False]
     """
     f, p = _signals(force, proximity)
     least_force = number(force_threshold, "threshold of force")
@@ -66,10 +62,6 @@ def pseudo_force(
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> pseudo_force([0.0, 0.5, np.nan], [0.2, 1.0, 0.5], 10.0, 2.0).tolist()
-        [0.4, 7.0, 1.0]
     """
     f, p = _signals(force, proximity)
     by_force = number(force_weight, "weight of force", finite=True)
@@ -91,10 +83,6 @@ def patch_signal(force: ArrayLike, proximity: ArrayLike, weight: float) -> NDArr
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> patch_signal([0.0, 1.0], [0.5, 1.0], 0.25).tolist()
-        [0.375, 1.0]
     """
     f, p = _signals(force, proximity)
     share = number(weight, "weight of force against proximity", nan=True)
@@ -116,10 +104,6 @@ def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -
 
     Raises:
         ReadingError: If the shapes do not agree, or a position or rotation is not finite.
-
-    Example:
-        >>> skin_wrench([[0.0, 0.1, 0.5]], [np.eye(3)], [10.0]).tolist()
-        [0.0, 0.0, 10.0, 1.0, 0.0, 0.0]
     """
     r = numbers(positions, "positions of cells", ReadingError)
     turn = numbers(rotations, "rotations of cells", ReadingError)

@@ -40,10 +40,6 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
 
     Raises:
         InputError: If the forces are not numeric, or the noise is not within 0 to 1e6 N.
-
-    Example:
-        >>> clipped_mean([0.0, 10.0], 1.0).round(3).tolist()
-        [0.399, 10.0]
     """
     given, sigma = numbers(force, "forces"), _sigma(noise)
     if sigma < _NEGLIGIBLE:

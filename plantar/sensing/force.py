@@ -101,14 +101,6 @@ def pressure_driven_wrench(
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], clip=False)
-        >>> spread = np.full(len(layout), 60.0 / len(layout))
-        >>> point = np.where(np.arange(len(layout)) == 3, 60.0, 0.0)
-        >>> [round(float(pressure_driven_wrench(layout, f, 691e-6)[2]), 2) for f in (spread, point)]
-        [3.16, 60.0]
     """
     readings = taxel_frames(layout, force)
     active = active_taxels(readings, layout.force_threshold if threshold is None else threshold, layout.force_limit)
@@ -163,11 +155,6 @@ def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: Array
 
     Raises:
         InputError: If a shape is wrong, or the Jacobian or rotation not finite.
-
-    Example:
-        >>> slider_along_z = [[0.0], [0], [1], [0], [0], [0]]
-        >>> joint_torque(slider_along_z, np.eye(3), [0, 0, 5.0, 1, 0, 0]).tolist()
-        [5.0]
     """
     columns = array(jacobian, "jacobian", (6, "joints"), finite=True)
     rotation = array(rotation_to_base, "rotation", (3, 3), finite=True)

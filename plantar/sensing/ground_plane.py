@@ -58,12 +58,6 @@ def ground_points(layout: SoleLayout, distance: ArrayLike) -> NDArray[np.float64
 
     Raises:
         ReadingError: If these are not n numbers a frame.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
-        >>> ground_points(layout, np.full(len(layout), 0.03))[:, 2].max().item()
-        -0.03
     """
     reach = taxel_frames(layout, distance, "distances")
     reach = np.where(np.isfinite(reach), reach, np.nan)
@@ -75,10 +69,9 @@ def fit_ground_plane(
 ) -> GroundPlane | None:
     """Fit a plane to the ground under a sole.
 
-    Least squares where every residual is within the tolerance. Otherwise the least median of squares over triples of
-    taxels, always the same ones, finds the plane of the majority, and least squares over the taxels within the
-    tolerance of it, or within 2.5 robust standard deviations, gives the result (Rousseeuw and Leroy 1987): up to about
-    40 % of outliers, such as an edge or a cable, are ignored.
+    Least squares where every residual is within the tolerance; else around the least median of squares over triples of
+    taxels, always the same ones (Rousseeuw and Leroy 1987), which ignores up to about 40 % of outliers, such as an edge
+    or a cable.
 
     Args:
         layout: The sole, n taxels.

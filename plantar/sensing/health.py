@@ -75,10 +75,6 @@ def dead_taxels(values: ArrayLike) -> NDArray[np.bool_]:
 
     Raises:
         ReadingError: If the readings are not numeric.
-
-    Example:
-        >>> dead_taxels([1.0, np.nan, -np.inf]).tolist()
-        [False, True, True]
     """
     return np.asarray(~np.isfinite(numbers(values, "readings", ReadingError)))
 
@@ -95,10 +91,6 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> saturated_taxels([784.0, 785.0, np.nan, np.inf], 785.0).tolist()
-        [False, True, False, False]
     """
     readings = numbers(values, "readings", ReadingError)
     return np.asarray(np.isfinite(readings) & (readings >= number(highest, "upper end of the range")))

@@ -49,7 +49,7 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
 
     Args:
         layout: The sole, n taxels.
-        time: Times (t,) in s, increasing.
+        time: Times (t,) in s, increasing, 20 or more.
         force: Known normal force (t, n) on each taxel in N. Loads have to rise and fall.
         read: Readings (t, n) of the taxels in N; NaN for a dead one.
 
@@ -57,16 +57,15 @@ def identify_faults(layout: SoleLayout, time: ArrayLike, force: ArrayLike, read:
         The faults.
 
     Raises:
-        ReadingError: If times and arrays do not fit together, there are fewer than 20 frames, or no taxel is loaded.
+        ReadingError: If times and arrays do not fit together, or no taxel is loaded.
 
     Example:
         >>> from plantar import hex_layout
         >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
         >>> time = 0.01 * np.arange(200)
         >>> force = np.outer(10.0 + 10.0 * np.sin(6.0 * time), np.ones(len(layout)))
-        >>> found = identify_faults(layout, time, force, 1.2 * force + 0.5)
-        >>> round(float(found.worn.gains[0]), 3), round(float(found.worn.offsets[0]), 3), found.faults.delay < 1e-3
-        (1.2, 0.5, True)
+        >>> round(float(identify_faults(layout, time, force, 1.2 * force + 0.5).worn.gains[0]), 3)
+        1.2
     """
     times = array(time, "times", ("t",), ReadingError, finite=True)
     if len(times) < 20 or not (np.diff(times) > 0.0).all():

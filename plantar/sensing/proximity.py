@@ -52,10 +52,6 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
 
     Raises:
         InputError: If the distances are not numeric, or the range is not a finite value above 0.
-
-    Example:
-        >>> proximity_measure([0.05, 0.03, 0.0, -0.001, np.inf, np.nan], 0.05).round(9).tolist()
-        [0.0, 0.02, 0.05, 0.05, 0.0, 0.0]
     """
     reach = number(sensing_range, "sensing range", nan=True)
     if not 0.0 < reach < math.inf:
@@ -78,10 +74,6 @@ def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
 
     Raises:
         InputError: If the distances are not numeric, or the threshold is not a number.
-
-    Example:
-        >>> near_taxels([0.01, 0.03, np.inf, np.nan], 0.02).tolist()
-        [True, False, False, False]
     """
     return np.asarray(numbers(distance, "distances") < number(threshold, "threshold of proximity"))
 
@@ -116,12 +108,6 @@ def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], clip=False)
-        >>> preemptive_polygon(layout, np.full(len(layout), np.inf), 0.02).shape
-        (0, 2)
     """
     return cells_polygon(layout, near_taxels(taxel_values(layout, distance, "distances"), threshold))
 

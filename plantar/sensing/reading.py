@@ -13,7 +13,7 @@ from plantar.arguments import number
 from plantar.arrays import numbers, own
 from plantar.errors import ReadingError
 from plantar.kernels.base import vectors
-from plantar.kernels.skin.reading_fields import ReadingFields
+from plantar.kernels.skin.percept_fields import ReadingFields
 from plantar.record import constructed_by_kernel
 
 __all__ = ["Reading"]

@@ -29,10 +29,6 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
 
     Raises:
         InputError: If the temperatures are not numeric, the threshold not finite, or the range not a number.
-
-    Example:
-        >>> temperature_measure([30.0, 31.0, 33.5, 99.0, np.nan], 31.0, 60.0).tolist()
-        [0.0, 0.0, 2.5, 29.0, 0.0]
     """
     readings = numbers(temperature, "temperatures")
     level = number(threshold, "threshold of temperature", finite=True)
@@ -47,7 +43,7 @@ def temperature_wrench(
 ) -> NDArray[np.float64]:
     """Virtual wrench that pushes the sole off a hot surface (T 3.35-3.37).
 
-    w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i]; the gain adds the unit that print lacks.
+    w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i].
 
     Args:
         layout: The sole, n taxels.
@@ -60,12 +56,6 @@ def temperature_wrench(
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
-        >>> temperature_wrench(layout, np.full(len(layout), 25.0)).tolist()
-        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     """
     readings = taxel_frames(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold
@@ -87,10 +77,6 @@ def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
 
     Raises:
         InputError: If the temperatures are not numeric, or the threshold is NaN or no number.
-
-    Example:
-        >>> warm_taxels([30.9, 31.0, np.nan, np.inf], 31.0).tolist()
-        [False, True, False, False]
     """
     readings = numbers(temperature, "temperatures")
     return np.asarray(np.isfinite(readings) & (readings >= number(threshold, "threshold of temperature")))
@@ -111,12 +97,6 @@ def temperature_footprint(
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], clip=False)
-        >>> temperature_footprint(layout, np.where(np.arange(len(layout)) == 3, 40.0, 25.0)).shape
-        (6, 2)
     """
     readings = taxel_values(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold

@@ -72,10 +72,6 @@ def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_]
 
     Raises:
         InputError: If the wrench is not (..., 6) numbers, or the threshold not a number.
-
-    Example:
-        >>> early_stop([0.0, 0.0, 35.0, 0.0, 0.0, 0.0], 30.0)
-        True
     """
     stop = np.asarray(_size(array(virtual_wrench, "wrench", (..., 6))) > number(threshold, "threshold of the stop"))
     return bool(stop) if stop.ndim == 0 else stop
@@ -122,12 +118,6 @@ class SoleWrenchSwitch:
 
     Raises:
         InputError: If `release` is above `threshold`, or one is not a number.
-
-    Example:
-        >>> switch = SoleWrenchSwitch(5.0)
-        >>> up = np.array([0.0, 0, 1, 0, 0, 0])
-        >>> [switch.update(f * up, 2 * up)[2].item() for f in (0.5, 9.0, 4.0, 2.0)], switch.landed
-        ([2.5, 9.0, 4.0, 4.0], False)
     """
 
     def __init__(self, threshold: float, release: float | None = None) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from plantar.gait.balance.law import BalanceState, Feet, FootAction
-from plantar.kernels.gait.load_transfer import shared_load
+from plantar.kernels.gait.dcm_feedback import shared_load
 from plantar.mechanics.lip import GRAVITY
 from plantar.sides import Side
 

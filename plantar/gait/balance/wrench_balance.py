@@ -20,8 +20,7 @@ from plantar.gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
 from plantar.gait.balance.law import BalanceState, Feet, FootAction, FootState
 from plantar.gait.plan.vrp_plan import LipReference
 from plantar.kernels.gait.dcm_feedback import DcmFeedback
-from plantar.kernels.gait.sole_admittance import SoleAdmittance
-from plantar.kernels.gait.sole_targets import pressed
+from plantar.kernels.gait.sole_admittance import SoleAdmittance, pressed
 from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY

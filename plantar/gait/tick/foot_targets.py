@@ -17,7 +17,7 @@ from plantar.gait.tick.footing import Footing
 from plantar.geometry.inscribed import safe_rectangle
 from plantar.kernels.base.vectors import vector
 from plantar.kernels.gait import lean_correction
-from plantar.kernels.gait.sole_targets import risen, turned
+from plantar.kernels.gait.sole_admittance import risen, turned
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.rotation import level_rotation

@@ -2,10 +2,99 @@
 
 import numpy as np
 
-from ..geometry import clean, convex
-from . import foundation
+from ..geometry import (
+    clean,
+    convex,
+)
 
-__all__ = ["PressedPatch", "patch_key"]
+__all__ = [
+    "PressedPatch",
+    "patch_key",
+    "spread_part",
+    "spread_whole",
+]
+
+
+def spread_whole(u, area, inverse, x, y, force, cells, out):
+    """Spread a normal load over covered cells that all carry: pressure a + b x + c y, never negative.
+
+    Args:
+        u: Coordinates (m, 3) of the cells' covered centroids: 1, and scaled place.
+        area: Share (m,) of each cell in the covered area.
+        inverse: Load to field (3, 3) of all covered cells.
+        x: Scaled place of the load; y likewise.
+        force: Load in N.
+        cells: Index (m,) of each cell in `out`.
+        out: Receives the cells' forces in N, if all carry.
+
+    Returns:
+        Whether all cells carry.
+    """
+    a = inverse[0, 0] + inverse[0, 1] * x + inverse[0, 2] * y
+    b = inverse[1, 0] + inverse[1, 1] * x + inverse[1, 2] * y
+    c = inverse[2, 0] + inverse[2, 1] * x + inverse[2, 2] * y
+    total = 0.0
+    for i in range(u.shape[0]):
+        pressure = a + b * u[i, 1] + c * u[i, 2]
+        if pressure < 0.0:
+            return False
+        total += pressure * area[i]
+    for i in range(u.shape[0]):
+        out[cells[i]] = force * (a + b * u[i, 1] + c * u[i, 2]) * area[i] / total
+    return True
+
+
+def spread_part(u, area, x, y, force, active, cells, out):
+    """Spread a normal load where part of the covered cells lifts off: pressure max(0, a + b x + c y).
+
+    Carrying cells and field depend on each other; one or two 3 x 3 solves from the last carrying cells find both.
+    Arguments as of `spread_whole`; `active` (m,) are the cells to start from, then those that carry. Returns whether
+    eight rounds found them.
+    """
+    count = u.shape[0]
+    for _ in range(8):
+        m00 = m01 = m02 = m11 = m12 = m22 = 0.0
+        for i in range(count):
+            if active[i]:
+                w, p, q = area[i], u[i, 1], u[i, 2]
+                m00 += w
+                m01 += w * p
+                m02 += w * q
+                m11 += w * p * p
+                m12 += w * p * q
+                m22 += w * q * q
+        ridge = 1e-12 * (m00 + m11 + m22) + 1e-300
+        m00 += ridge
+        m11 += ridge
+        m22 += ridge
+        i00, i01, i02 = m11 * m22 - m12 * m12, m02 * m12 - m01 * m22, m01 * m12 - m02 * m11
+        i11, i12, i22 = m00 * m22 - m02 * m02, m01 * m02 - m00 * m12, m00 * m11 - m01 * m01
+        determinant = m00 * i00 + m01 * i01 + m02 * i02
+        if determinant == 0.0:
+            return False
+        a = (i00 + i01 * x + i02 * y) / determinant
+        b = (i01 + i11 * x + i12 * y) / determinant
+        c = (i02 + i12 * x + i22 * y) / determinant
+        same = True
+        some = False
+        total = 0.0
+        for i in range(count):
+            pressure = a + b * u[i, 1] + c * u[i, 2]
+            carries = pressure > 0.0
+            if carries != active[i]:
+                same = False
+                active[i] = carries
+            if carries:
+                some = True
+                total += pressure * area[i]
+        if same:
+            for i in range(count):
+                pressure = a + b * u[i, 1] + c * u[i, 2] if active[i] else 0.0
+                out[cells[i]] = force * pressure * area[i] / total
+            return True
+        if not some:
+            break
+    return False
 
 
 def patch_key(points, grid):
@@ -58,7 +147,7 @@ class PressedPatch:
         """
         self.x = (x - self.cx) / self.scale
         self.y = (y - self.cy) / self.scale
-        if foundation.spread_whole(self.u, self.area, self.inverse, self.x, self.y, force, self.cells, out):
+        if spread_whole(self.u, self.area, self.inverse, self.x, self.y, force, self.cells, out):
             return True
         self._to_reach()
         some = False
@@ -77,4 +166,4 @@ class PressedPatch:
 
     def part(self, force, out):
         """Spread the last load, `force` in N, from the cells of `carried` into `out`; whether they were found."""
-        return foundation.spread_part(self.u, self.area, self.x, self.y, force, self.carried, self.cells, out)
+        return spread_part(self.u, self.area, self.x, self.y, force, self.carried, self.cells, out)

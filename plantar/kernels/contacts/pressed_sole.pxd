@@ -1,6 +1,6 @@
 cimport cython
 from . cimport pressed_patch
-from .contacts_in_sole cimport ContactsInSole
+from .foot_contacts cimport ContactsInSole
 from .foot_contacts cimport FootContacts
 from .pressed_patch cimport PressedPatch
 

@@ -1,5 +1,5 @@
 cimport cython
-from .contacts_in_sole cimport ContactsInSole
+from .foot_contacts cimport ContactsInSole
 from .foot_contacts cimport FootContacts
 
 cdef double _SPREAD, _FAINT, _EXACT

@@ -24,3 +24,8 @@ cdef class DcmFeedback:
         self, const double* vrp, const double* planned, const double* dcm, region, bint integrates
     ) except *
     cdef double _integrated(self, double integral, double error) noexcept
+
+cdef int _LEFT, _RIGHT
+@cython.locals(share=double)
+cpdef tuple shared_load(zmp, acceleration, double mass, double gravity, left, right, int stance)
+cdef (double, double) _loaded(foot) except *

@@ -10,3 +10,10 @@ cdef class LegTargets:
     cdef double[::1] right
     cdef double[:, ::1] right_turn
     cpdef void take(self, com, torso, left, left_turn, right, right_turn) except *
+
+@cython.final
+cdef class JointEntries:
+    cdef const double[::1] vector
+    cdef const Py_ssize_t[::1] places
+    cdef double[::1] entries
+    cpdef void take(self) noexcept

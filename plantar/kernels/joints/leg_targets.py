@@ -2,7 +2,10 @@
 
 from ..base import memory
 
-__all__ = ["LegTargets"]
+__all__ = [
+    "JointEntries",
+    "LegTargets",
+]
 
 
 class LegTargets:
@@ -28,3 +31,14 @@ class LegTargets:
             self.com[i], self.left[i], self.right[i] = a[i], b[i], c[i]
             for j in range(3):
                 self.torso[i, j], self.left_turn[i, j], self.right_turn[i, j] = d[3 * i + j], e[3 * i + j], f[3 * i + j]
+
+
+class JointEntries:
+    """Copies the entries at `places` (k,) of a vector (n,) to `entries` (k,)."""
+
+    def __init__(self, vector, places, entries):
+        self.vector, self.places, self.entries = vector, places, entries
+
+    def take(self):
+        for k in range(self.places.shape[0]):
+            self.entries[k] = self.vector[self.places[k]]

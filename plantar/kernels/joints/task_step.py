@@ -1,6 +1,284 @@
 """Kernel of a step of inverse kinematics: rows of all tasks, Newton's step, and the configuration."""
 
-__all__ = ["TaskStep"]
+import math
+
+import numpy as np
+
+from ..mechanics import rotations
+
+__all__ = [
+    "ComRows",
+    "Configuration",
+    "NewtonStep",
+    "PointRows",
+    "PoseRows",
+    "Rows",
+    "TaskStep",
+    "TurnRows",
+]
+
+
+class NewtonStep:
+    """Solves J^T J dq = J^T e, with a term on the diagonal, for some of a model's velocities.
+
+    Args:
+        columns: Velocities (n,) that a step may use.
+        row_units: Factor (m,) of each row of error and Jacobian.
+        column_units: Factor (nv,) of each column of the Jacobian and velocity.
+        movable: Entries (k,) of a step that move a joint.
+        places: Indices (k,) of these joints in the configuration.
+        middle: Middle of each joint's range (k,).
+        half: Half of that range (k,); inf without one.
+        diagonal: Term on the diagonal.
+        least_pivot: Least Cholesky pivot of a valid step.
+        given: Jacobian (m, nv) and error (m,) in m and rad, and configuration (nq,), written by the caller.
+        jacobian: Receives the Jacobian (m, n) in units.
+        step: Receives the step (n,) in units.
+        velocity: Receives the step (nv,) in m and rad.
+    """
+
+    def __init__(
+        self, columns, row_units, column_units, movable, places, middle, half, diagonal, least_pivot, given, jacobian,
+        step, velocity,
+    ):  # fmt: skip
+        self.columns, self.row_units, self.column_units = columns, row_units, column_units
+        self.movable, self.places, self.middle, self.half = movable, places, middle, half
+        self.diagonal, self.least_pivot = diagonal, least_pivot
+        self.given, self.error, self.configuration = given
+        self.jacobian, self.step, self.velocity = jacobian, step, velocity
+        self.normal = np.zeros((len(columns), len(columns)))
+        self.column = np.zeros(len(columns))
+
+    def solve(self, largest):
+        """Whether a step of at most `largest` in units is valid: finite, no small pivot, within joint limits.
+
+        Afterwards the error is in units.
+        """
+        normal, step, used, columns = self.normal, self.step, self.jacobian, self.columns
+        jacobian, error = self.given, self.error
+        m, n = self.row_units.shape[0], self.columns.shape[0]
+        for i in range(n):
+            step[i] = 0.0
+            for j in range(i + 1):
+                normal[i, j] = self.diagonal if i == j else 0.0
+        for r in range(m):
+            error[r] *= self.row_units[r]
+            for i in range(n):
+                used[r, i] = jacobian[r, columns[i]] * (self.row_units[r] * self.column_units[columns[i]])
+            for i in range(n):
+                share = used[r, i]
+                if share != 0.0:
+                    step[i] += share * error[r]
+                    for j in range(i + 1):
+                        normal[i, j] += share * used[r, j]
+        return self._factor(n) and self._stays(n, largest)
+
+    def _factor(self, n):
+        """Cholesky factor and solution; whether all pivots are large enough."""
+        normal, step, column = self.normal, self.step, self.column
+        for k in range(n):
+            if not normal[k, k] > self.least_pivot * self.least_pivot:
+                return False
+            pivot = math.sqrt(normal[k, k])
+            normal[k, k] = pivot
+            step[k] /= pivot
+            for i in range(k + 1, n):
+                column[i] = normal[i, k] / pivot
+                normal[i, k] = column[i]
+                step[i] -= column[i] * step[k]
+            for i in range(k + 1, n):
+                share = column[i]
+                if share != 0.0:
+                    for j in range(k + 1, i + 1):
+                        normal[i, j] -= share * column[j]
+        for k in range(n - 1, -1, -1):
+            step[k] /= normal[k, k]
+            for i in range(k):
+                step[i] -= normal[k, i] * step[k]
+        return True
+
+    def _stays(self, n, largest):
+        """Whether no entry is too large, and no joint leaves its limits."""
+        configuration = self.configuration
+        for i in range(n):
+            if not math.fabs(self.step[i]) <= largest:
+                return False
+        for k in range(self.movable.shape[0]):
+            beside = configuration[self.places[k]] + self.step[self.movable[k]] - self.middle[k]
+            if not math.fabs(beside) <= self.half[k]:
+                return False
+        return True
+
+    def worst(self):
+        """Largest absolute error; NaN if one is."""
+        error, largest = self.error, 0.0
+        for r in range(self.row_units.shape[0]):
+            value = math.fabs(error[r])
+            if not value <= largest:
+                largest = value
+                if value != value:
+                    break
+        return largest
+
+    def write(self):
+        """Write the step, as found or changed since, to the model's velocity."""
+        for i in range(self.columns.shape[0]):
+            self.velocity[self.columns[i]] = self.step[i] * self.column_units[self.columns[i]]
+
+
+class Rows:
+    """Error and Jacobian of a task."""
+
+    def write(self):
+        """Write both, into arrays that begin at zero.
+
+        Returns:
+            Whether the error is valid: a missing turn is so up to a quarter turn, and left to the task beyond.
+        """
+        return True
+
+
+class PointRows:
+    """How a point of a body moves: receives the velocity (3, nv) in `jacobian`."""
+
+    def __init__(self, chain, motions, center, jacobian):
+        self.chain, self.motions, self.center, self.jacobian = chain, motions, center, jacobian
+
+    def write(self, x, y, z):
+        """Write the rows of the point (x, y, z)."""
+        chain, motions, center, out = self.chain, self.motions, self.center, self.jacobian
+        x, y, z = x - center[0], y - center[1], z - center[2]
+        for k in range(chain.shape[0]):
+            i = chain[k]
+            out[0, i] = motions[i, 3] + (motions[i, 1] * z - motions[i, 2] * y)
+            out[1, i] = motions[i, 4] + (motions[i, 2] * x - motions[i, 0] * z)
+            out[2, i] = motions[i, 5] + (motions[i, 0] * y - motions[i, 1] * x)
+
+
+class TurnRows(Rows):
+    """A body's orientation: the missing turn (3,) from `actual` to `wanted` (3, 3), and angular velocity (3, nv), in
+    the world.
+    """
+
+    def __init__(self, chain, motions, wanted, actual, error, jacobian):
+        self.chain, self.motions, self.wanted, self.actual = chain, motions, wanted, actual
+        self.error, self.jacobian = error, jacobian
+
+    def write(self):
+        """See `Rows`."""
+        chain, motions, out = self.chain, self.motions, self.jacobian
+        for k in range(chain.shape[0]):
+            i = chain[k]
+            for j in range(3):
+                out[j, i] = motions[i, j]
+        return rotations.missing_turn(self.wanted, self.actual, self.error)
+
+
+class PoseRows(Rows):
+    """The pose of a frame that a body carries: missing way (3,) and turn (3,) in the world, and Jacobian (6, nv).
+
+    Args:
+        position: Desired origin (3,); `at` the current one.
+        rotation: Desired rotation (3, 3) to the world; `turned` the current one.
+    """
+
+    def __init__(self, chain, motions, center, position, rotation, at, turned, error, jacobian):
+        self.position, self.at, self.error = position, at, error
+        self.point = PointRows(chain, motions, center, jacobian[:3])
+        self.turn = TurnRows(chain, motions, rotation, turned, error[3:], jacobian[3:])
+
+    def write(self):
+        """See `Rows`."""
+        at = self.at
+        for i in range(3):
+            self.error[i] = self.position[i] - at[i]
+        self.point.write(at[0], at[1], at[2])
+        return self.turn.write()
+
+
+class ComRows(Rows):
+    """The CoM `com` (3,) of bodies at a `target` (3,): missing way (3,) and Jacobian (3, nv).
+
+    Args:
+        chains: Velocities that move each of b bodies, one after the other, up to its `ends` (b,).
+        masses: Mass (b,) of each body; `share` one over their sum.
+        centers: Centers (t, 3) of trees; `trees` (b,) that of each body.
+        places: CoM (b, 3) of each body.
+    """
+
+    def __init__(self, chains, ends, masses, share, motions, centers, trees, places, target, com, error, jacobian):
+        self.chains, self.ends, self.masses, self.share = chains, ends, masses, share
+        self.motions, self.centers, self.trees, self.places = motions, centers, trees, places
+        self.target, self.com, self.error, self.jacobian = target, com, error, jacobian
+
+    def write(self):
+        """See `Rows`."""
+        chains, motions, centers, places, out = self.chains, self.motions, self.centers, self.places, self.jacobian
+        for j in range(3):
+            self.error[j] = self.target[j] - self.com[j]
+            for i in range(out.shape[1]):
+                out[j, i] = 0.0
+        begin = 0
+        for b in range(self.ends.shape[0]):
+            mass, t = self.masses[b], self.trees[b]
+            x, y, z = places[b, 0] - centers[t, 0], places[b, 1] - centers[t, 1], places[b, 2] - centers[t, 2]
+            for k in range(begin, self.ends[b]):
+                i = chains[k]
+                out[0, i] += (motions[i, 3] + (motions[i, 1] * z - motions[i, 2] * y)) * mass
+                out[1, i] += (motions[i, 4] + (motions[i, 2] * x - motions[i, 0] * z)) * mass
+                out[2, i] += (motions[i, 5] + (motions[i, 0] * y - motions[i, 1] * x)) * mass
+            begin = self.ends[b]
+        for j in range(3):
+            for i in range(out.shape[1]):
+                out[j, i] *= self.share
+        return True
+
+
+_LEAST = 1e-15  # length that counts as none, and what a quaternion's may differ from 1
+
+
+class Configuration:
+    """A configuration (nq,) and its velocity (nv,).
+
+    Args:
+        ways: Indices (w,) in the configuration that the velocities `speeds` (w,) add to.
+        turns: Where each quaternion begins (t,), w first; `rates` (t,) its angular velocity, in the body's frame.
+    """
+
+    def __init__(self, ways, speeds, turns, rates, configuration, velocity):
+        self.ways, self.speeds, self.turns, self.rates = ways, speeds, turns, rates
+        self.configuration, self.velocity = configuration, velocity
+
+    def move(self):
+        """Integrate the velocity over one unit of time."""
+        for k in range(self.ways.shape[0]):
+            self.configuration[self.ways[k]] += self.velocity[self.speeds[k]]
+        for k in range(self.turns.shape[0]):
+            self._turn(self.turns[k], self.rates[k])
+
+    def _turn(self, place, rate):
+        """Normalise a quaternion and multiply it by that of the turn."""
+        q, velocity = self.configuration, self.velocity
+        w, x, y, z = q[place], q[place + 1], q[place + 2], q[place + 3]
+        length = math.sqrt((w * w + x * x) + (y * y + z * z))
+        if length < _LEAST:
+            w, x, y, z = 1.0, 0.0, 0.0, 0.0
+        elif math.fabs(length - 1.0) > _LEAST:
+            share = 1.0 / length
+            w, x, y, z = share * w, share * x, share * y, share * z
+        i, j, k = velocity[rate], velocity[rate + 1], velocity[rate + 2]
+        angle = math.sqrt(i * i + j * j + k * k)
+        if angle < _LEAST:
+            i, j, k = 1.0, 0.0, 0.0
+        else:
+            share = 1.0 / angle
+            i, j, k = share * i, share * j, share * k
+        cosine, sine = math.cos(0.5 * angle), math.sin(0.5 * angle)
+        i, j, k = sine * i, sine * j, sine * k
+        q[place] = (w * cosine - x * i) - (y * j + z * k)
+        q[place + 1] = (w * i + x * cosine) + (y * k - z * j)
+        q[place + 2] = (w * j - x * k) + (y * cosine + z * i)
+        q[place + 3] = (w * k + x * j) - (y * i - z * cosine)
 
 
 class TaskStep:

@@ -3,7 +3,7 @@ from libc cimport math
 from ..contacts.ground_reaction cimport GroundReaction
 from .joint_extremes cimport JointExtremes
 from .stance_force cimport StanceForce
-from .stand_watch cimport StandWatch
+from .stance_force cimport StandWatch
 
 cdef double _INFINITE, _ROUNDING
 

@@ -18,3 +18,9 @@ cdef class PerceptFields:
     cpdef _cop(self)
     cpdef _centroid(self)
     cpdef tuple _hull(self)
+
+cdef double _LARGEST
+
+cdef class ReadingFields:
+    cdef readonly object time, force, proximity, temperature, acceleration
+    cdef _fill(self, time, force, proximity, temperature, acceleration)

@@ -10,23 +10,19 @@ conditioned, no joint leaves its limits and no entry is larger than allowed, as 
 
       d = near EPSILON^2 + S R.
 
-The first term damps near singularities alone (Maciejewski and Klein 1988, Chiaverini 1997): below EPSILON it makes s^2
-+ d = EPSILON^2, so the inverse rises to 1 / EPSILON without a jump. R is the length of the residual that no step
-removes: in the share `near` along directions near a singularity, and whole across all directions where joints are at
-their limits. It stays when a target is out of reach, where Newton's step, without the task's curvature, oscillates
-(Sugihara 2011). A limb bent by x near straight has reach reduced by c x^2 / 2: s = c x, so out of reach by R the step
-is -c R x / (c^2 x^2 + d), and x goes to 0 where d >= c R / 2. S is the level's largest singular value: of a limb of n
-equal links with parallel axes c is 0.7 sqrt(n) S or less, 2 S up to n = 8.
+The first term damps near singularities alone (Maciejewski and Klein 1988, Chiaverini 1997): the inverse rises to 1 /
+EPSILON without a jump. R is the length of the residual that no step removes, in the share `near` along directions near
+a singularity and whole at joint limits: out of reach, Newton's step would oscillate (Sugihara 2011). A limb bent by x
+near straight loses reach c x^2 / 2, s = c x, and x goes to 0 where d >= c R / 2. S is the level's largest singular
+value: c is 2 S or less for a limb of up to 8 equal links with parallel axes.
 - The residual of a level counts with a length of 1 (m and rad) at most.
-- The largest step L must not carry a limb across the damped zone x < EPSILON / c: c L / 2 <= EPSILON. A leg with thigh
-  and shank of 0.4 m has c = 0.13 m, so L up to 0.15.
+- The largest step L must not carry a limb across the damped zone: c L / 2 <= EPSILON; c is 0.13 m for a leg of 0.8 m.
 - **Posture.** The share `near` of a direction, and what no task uses, is drawn to the reference posture, so that a
   straight knee bends again.
 - **Scale.** One factor scales a level's step for all joints, until no entry of the sum is larger than allowed.
-- **Unit of length.** Lengths and angles share residuals, singular values and limits: 1 rad counts as 1 m for a leg of
-  0.6 m, and in proportion to the leg, so that robots of one shape take the same steps.
-- **Limits.** A joint that would leave its limits stops there, the farthest first, and the step is solved again for the
-  others.
+- **Unit of length.** 1 rad counts as 1 m for a leg of 0.6 m, and in proportion to the leg, so that robots of one shape
+  take the same steps.
+- **Limits.** A joint that would leave its limits stops there, the farthest first, and the step is solved again.
 """
 
 from __future__ import annotations
@@ -38,9 +34,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.joints.configuration import Configuration
-from plantar.kernels.joints.newton_step import NewtonStep
-from plantar.kernels.joints.task_step import TaskStep
+from plantar.kernels.joints.task_step import Configuration, NewtonStep, TaskStep
 from plantar.robots.kinematics.tasks.posture_task import PostureTask
 from plantar.robots.kinematics.tasks.task import Task
 

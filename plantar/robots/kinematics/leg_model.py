@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from plantar.arrays import read_only
 from plantar.gait.estimate.estimator import Posture
-from plantar.kernels.joints.joint_entries import JointEntries
-from plantar.kernels.joints.leg_targets import LegTargets
+from plantar.kernels.joints.leg_targets import JointEntries, LegTargets
 from plantar.kernels.joints.static_load import StaticLoad
-from plantar.kernels.joints.task_rows import PointRows
+from plantar.kernels.joints.task_step import PointRows
 from plantar.robots.kinematics.inverse_kinematics import InverseKinematics
 from plantar.robots.kinematics.tasks.com_task import ComTask
 from plantar.robots.kinematics.tasks.pose_task import OrientationTask, PoseTask, RollingPoseTask

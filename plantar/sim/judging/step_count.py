@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import groupby
 
-from plantar.kernels.judging.stand_watch import StandWatch
+from plantar.kernels.judging.stance_force import StandWatch
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
 from plantar.sim.judging.walk_goal import NEAR_YAW, WalkGoal, Way

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.gait.controller import Sensors
-from plantar.kernels.sensors.sensed_body import SensedBody
+from plantar.kernels.sensors.noise_rows import SensedBody
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side

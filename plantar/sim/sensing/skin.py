@@ -17,10 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
-from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
+from plantar.kernels.contacts.foot_contacts import ContactsInSole
 from plantar.kernels.contacts.pressed_sole import PressedSole
-from plantar.kernels.sensors.noise_rows import NoiseRows
-from plantar.kernels.sensors.taxel_sample import TaxelSample
+from plantar.kernels.sensors.noise_rows import NoiseRows, TaxelSample
 from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME

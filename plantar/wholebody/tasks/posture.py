@@ -30,11 +30,10 @@ class Posture(Task):
         target: Wanted joint positions (k,) in rad or m, in the order of `RobotDynamics.joints`.
         stiffness: K, one or (k,): in 1/s^2, with `torques` in N m/rad.
         damping: D likewise; critical for accelerations if None.
-        joints: Indices of the held joints among the k; all if None.
-        torques: Whether it asks for torques, which add to others of its level, instead of accelerations.
+        joints: Indices of the held joints; all if None.
+        torques: Whether it asks for torques, which add to others of its level.
 
     Attributes:
-        target: Wanted joint positions (k,).
         target_velocity: Wanted joint velocities q'_d (k,) in rad/s or m/s, 0 at first.
     """
 

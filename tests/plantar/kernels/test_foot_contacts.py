@@ -4,12 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import (
+    given,
+    settings,
+)
+from hypothesis import (
+    strategies as st,
+)
 
-from plantar.kernels import is_compiled, python_form
-from plantar.kernels.contacts import foot_contacts, ground_reaction
-from plantar.kernels.geometry import convex, few_points
+from plantar.kernels import (
+    is_compiled,
+    python_form,
+)
+from plantar.kernels.contacts import (
+    foot_contacts,
+    ground_reaction,
+)
+from plantar.kernels.geometry import (
+    convex,
+    few_points,
+)
 from plantar.kernels.geometry.hull import convex_hull
 
 REACH = 5e-4
@@ -191,3 +205,31 @@ def test_each_pair_has_its_contacts_wrench_and_points(seed):
         moment = (np.cross(positions, forces) + torques)[mine].sum(axis=0)
         assert [force, about_x, about_y] == pytest.approx([forces[mine, 2].sum(), *moment[:2]], abs=1e-12)
         assert points == [(x, y) for x, y, _ in positions[mine].tolist()]
+
+
+FORMS = (foot_contacts, python_form("foot_contacts"))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_contacts_are_seen_from_the_sole_wherever_it_is(seed):
+    rng = np.random.default_rng(seed)
+    origin, rotation = np.zeros(3), np.eye(3)
+    seen = [form.ContactsInSole() for form in FORMS]
+    for one in seen:
+        one.look_from(origin, rotation)
+    for k in (4, 1, 0, 3, 30, 2, 1):
+        origin[:], rotation[:] = rng.normal(size=3), np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        vectors = rng.normal(size=(3 * k, 3))
+        shifted = vectors.copy()
+        shifted[::3] -= origin
+        found = []
+        for one, form in zip(seen, FORMS, strict=True):
+            foot = form.FootContacts(np.zeros(1, dtype=np.uint8))
+            foot.take(np.zeros((k, 2), dtype=np.int32), vectors, np.zeros(k), np.ones(k, dtype=np.uint8))
+            one.turn(foot)
+            found.append(np.array(one.vectors)[: 3 * k])
+        assert np.array_equal(*found)
+        assert found[0] == pytest.approx(shifted @ rotation, abs=1e-14)
+        if k == 1:
+            assert np.array_equal(found[0], np.vstack([row[None] @ rotation for row in shifted]))
+    assert [(one.pressed, one.in_air) for one in seen] == [(6, 1)] * 2

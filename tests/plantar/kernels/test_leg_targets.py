@@ -22,3 +22,14 @@ def test_each_target_comes_to_its_array(module):
         assert not np.shares_memory(a, b)
     with pytest.raises(ValueError, match="contiguous"):
         kernel.take(*given[:3], given[3].T, *given[4:])
+
+
+@pytest.mark.parametrize("module", [leg_targets, python_form("leg_targets")])
+def test_it_copies_as_numpy_would(module):
+    rng = np.random.default_rng(0)
+    vector, places, entries = rng.normal(size=9), rng.permutation(9)[:5], np.zeros(5)
+    kernel = module.JointEntries(vector, places, entries)
+    for _ in range(2):
+        vector[:] = rng.normal(size=9)
+        kernel.take()
+        assert np.array_equal(entries, vector[places])

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from plantar import hex_layout
 from plantar.kernels import is_compiled, python_form
-from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
-from plantar.kernels.contacts.foot_contacts import FootContacts
+from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.contacts.pressed_sole import PressedSole
 from plantar.sim.sensing import sole_pressure
 from plantar.sim.sensing.sole_pressure import SolePressure

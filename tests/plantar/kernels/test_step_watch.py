@@ -10,9 +10,9 @@ import pytest
 
 from plantar.kernels import python_form
 from plantar.kernels.contacts import foot_contacts, ground_reaction
-from plantar.kernels.judging import estimate_error, joint_extremes, stance_force, stand_watch, step_watch
+from plantar.kernels.judging import estimate_error, joint_extremes, stance_force, step_watch
 
-MODULES = (foot_contacts, ground_reaction, joint_extremes, stance_force, stand_watch, step_watch, estimate_error)
+MODULES = (foot_contacts, ground_reaction, joint_extremes, stance_force, step_watch, estimate_error)
 NAMES = tuple(module.__name__.split(".")[-1] for module in MODULES)
 COMPILED = SimpleNamespace(**dict(zip(NAMES, MODULES, strict=True)))
 PYTHON = SimpleNamespace(**{name: python_form(name) for name in NAMES})
@@ -25,7 +25,7 @@ WINDOWS = (30, 20, 60)
 
 @FORMS
 def test_a_stand_is_where_it_carried_last_and_slips_from_where_it_did_first(forms):
-    rng, watch = np.random.default_rng(1), forms.stand_watch.StandWatch(100.0)
+    rng, watch = np.random.default_rng(1), forms.stance_force.StandWatch(100.0)
     first, stands, slip = [None, None], [[None], [None]], 0.0
     for step in range(1, 3000):
         foot = int(rng.integers(2))
@@ -49,7 +49,7 @@ def test_a_stand_is_where_it_carried_last_and_slips_from_where_it_did_first(form
 
 @FORMS
 def test_the_first_stand_slips_too(forms):
-    watch = forms.stand_watch.StandWatch(100.0)
+    watch = forms.stance_force.StandWatch(100.0)
     watch.carry(0, 400.0, 0.0, 0.0, 0.0)
     watch.carry(0, 400.0, 0.034, 0.0, 0.0)
     watch.begin(0, 7)
@@ -133,7 +133,7 @@ class Follower:
         self.upright, self.center, self.legs = np.eye(3).ravel(), np.zeros(3), np.zeros(1)
         self.places, self.turns = np.zeros((2, 3)), np.zeros((2, 9))
         self.warnings = np.zeros((8, 2), dtype=np.int32)[:, 1]
-        self.stands = forms.stand_watch.StandWatch(100.0)
+        self.stands = forms.stance_force.StandWatch(100.0)
         joints = forms.joint_extremes.JointExtremes(*[np.zeros(1), np.zeros(1, dtype=np.intp), np.ones(1)] * 2)
         stance = forms.stance_force.StanceForce(self.reaction, self.center, 80.0, 9.81, 1e-3, (2, 5), 20.0, 2e-3)
         self.watch = forms.step_watch.StepWatch(

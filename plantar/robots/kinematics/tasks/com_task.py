@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.joints.task_rows import ComRows, Rows
+from plantar.kernels.joints.task_step import ComRows, Rows
 from plantar.robots.kinematics.tasks.task import Target, Task, chain
 
 __all__ = ["ComTask"]

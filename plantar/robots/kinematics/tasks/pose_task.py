@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.joints.task_rows import (
+from plantar.kernels.joints.task_step import (
     PoseRows,
     Rows,
     TurnRows,

@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.joints.task_rows import Rows
+from plantar.kernels.joints.task_step import Rows
 
 __all__ = [
     "Target",

@@ -1,22 +1,49 @@
-"""The kernels of samples of taxels, and of the noise in them, against numpy, in both forms."""
+"""The kernel of encoders and IMU against numpy, in both forms."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import (
+    given,
+)
+from hypothesis import (
+    strategies as st,
+)
 
 from plantar import hex_layout
 from plantar.kernels import python_form
-from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
-from plantar.kernels.contacts.foot_contacts import FootContacts
-from plantar.kernels.sensors import noise_rows, taxel_sample
+from plantar.kernels.contacts.foot_contacts import (
+    ContactsInSole,
+    FootContacts,
+)
+from plantar.kernels.sensors import noise_rows
 from plantar.sim.sensing.sole_pressure import SolePressure
 
+FORMS = (noise_rows, python_form("noise_rows"))
+
+
+@pytest.mark.parametrize("errs", [False, True])
+@pytest.mark.parametrize("form", FORMS, ids=["compiled", "python"])
+def test_they_read_what_is_there_with_noise_and_errors(form, errs):
+    rng = np.random.default_rng(2)
+    positions, rate, force = np.zeros(9), np.zeros(3), np.zeros(3)
+    places, noise = np.array([7, 2, 3, 8]), rng.normal(size=(5, 10))
+    offsets, bias = (rng.normal(size=4), rng.normal(size=3)) if errs else (np.empty(0), np.empty(0))
+    body = form.SensedBody(positions, places, rate, force, form.NoiseRows(lambda: noise), offsets, bias)
+    kept = []
+    for k in range(12):
+        positions[:], rate[:], force[:] = rng.normal(size=9), rng.normal(size=3), rng.normal(size=3)
+        row = noise[k % 5]
+        wanted = positions[places] + row[:4], rate + row[4:7], force + row[7:]
+        if errs:
+            wanted = wanted[0] + offsets, wanted[1] + bias, wanted[2]
+        kept.append((body.read(), wanted))
+    for told, wanted in kept:  # what was read once stays
+        assert all(np.array_equal(a, b) for a, b in zip(told, wanted, strict=True))
+
+
 LAYOUT = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
-PYTHON = tuple(map(python_form, ("noise_rows", "taxel_sample")))
-FORMS = ((noise_rows, taxel_sample), PYTHON)
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -28,10 +55,10 @@ def test_it_is_what_numpy_makes_of_them(seed):
     dead = np.flatnonzero(rng.random(n) < 0.2)
     wanted = np.minimum(np.maximum(force + noise, 2.0), 20.0)
     wanted[:, dead] = np.nan
-    for rows, samples in FORMS:
-        sample = samples.TaxelSample(rows.NoiseRows(lambda: noise), n, 2.0, 20.0, dead)
-        told = [sample.of(row) for row in force]
-        assert np.array_equal(told, wanted, equal_nan=True)
+    for form in FORMS:
+        sample = form.TaxelSample(form.NoiseRows(lambda: noise), n, 2.0, 20.0, dead)
+        read = [sample.of(row) for row in force]
+        assert np.array_equal(read, wanted, equal_nan=True)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -45,7 +72,7 @@ def test_contacts_are_sampled_as_the_forces_that_they_press_with(seed):
     springs = SolePressure(LAYOUT).springs
     rows = rng.normal(size=(2, len(LAYOUT)))
     one, other = (
-        taxel_sample.TaxelSample(noise_rows.NoiseRows(lambda: rows), len(LAYOUT), 0.0, 785.0, np.array([1, 2]))
+        noise_rows.TaxelSample(noise_rows.NoiseRows(lambda: rows), len(LAYOUT), 0.0, 785.0, np.array([1, 2]))
         for _ in range(2)
     )
     for count in (4, 0):
@@ -55,8 +82,8 @@ def test_contacts_are_sampled_as_the_forces_that_they_press_with(seed):
         assert (np.nansum(springs.forces) > 1.0) == (count > 0)
 
 
-@pytest.mark.parametrize("rows", [noise_rows, PYTHON[0]], ids=["compiled", "python"])
-def test_noise_is_drawn_anew_when_all_of_it_was_handed_out(rows):
+@pytest.mark.parametrize("rows", FORMS, ids=["compiled", "python"])
+def test_noise_is_drawn_again_when_all_of_it_was_handed_out(rows):
     drawn = [np.arange(6.0).reshape(2, 3), np.arange(6.0, 9.0).reshape(1, 3), np.zeros((2, 3))]
     left = iter(drawn)
     noise = rows.NoiseRows(lambda: next(left))

@@ -8,9 +8,9 @@ import shapely
 
 from plantar.geometry.polygon import area, convex_hull, part_inside
 from plantar.kernels import python_form
-from plantar.kernels.geometry import half_plane
+from plantar.kernels.geometry import cut_cells
 
-INTERPRETED = python_form("half_plane")
+INTERPRETED = python_form("cut_cells")
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -21,7 +21,7 @@ def test_a_polygon_is_cut_as_shapely_cuts_it_and_both_forms_give_the_same_bits(s
     nx, ny = np.cos(angle), np.sin(angle)
     if seed % 4 == 0:  # through a corner
         h = float(polygon[0] @ [nx, ny])
-    found = half_plane.part_below(polygon, nx, ny, h)
+    found = cut_cells.part_below(polygon, nx, ny, h)
     assert found.tobytes() == INTERPRETED.part_below(polygon, nx, ny, h).tobytes()
     n, along = np.array([nx, ny]), np.array([-ny, nx])
     side = shapely.Polygon([h * n + along, h * n - along, (h - 1.0) * n - along, (h - 1.0) * n + along])
@@ -33,7 +33,7 @@ def test_a_polygon_is_cut_as_shapely_cuts_it_and_both_forms_give_the_same_bits(s
 
 def test_nothing_is_left_of_nothing_or_beyond_the_line() -> None:
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    for form in (half_plane, INTERPRETED):
+    for form in (cut_cells, INTERPRETED):
         assert form.part_below(np.empty((0, 2)), 1.0, 0.0, 0.0).shape == (0, 2)
         assert form.part_below(square, 1.0, 0.0, -0.5).shape == (0, 2)
         assert form.part_below(square, 1.0, 0.0, 2.0).tolist() == square.tolist()
