@@ -6,18 +6,11 @@ A tick makes some twenty. A named tuple takes 0.24 us, a frozen dataclass 0.7 to
 from __future__ import annotations
 
 import inspect
-from typing import (
-    Any,
-    Self,
-    TypeVar,
-)
+from typing import Any, Self, TypeVar
 
 import msgspec
 
-__all__ = [
-    "Record",
-    "constructed_by_kernel",
-]
+__all__ = ["Record", "constructed_by_kernel"]
 
 
 class Record(msgspec.Struct, frozen=True):

@@ -7,43 +7,17 @@ import inspect
 import json
 import os
 import sys
-from collections.abc import (
-    Callable,
-    Iterable,
-    Mapping,
-)
-from dataclasses import (
-    fields,
-    is_dataclass,
-)
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import fields, is_dataclass
 from pathlib import Path
-from typing import (
-    Annotated,
-    Any,
-    NamedTuple,
-    TypeVar,
-    cast,
-    get_type_hints,
-)
+from typing import Annotated, Any, NamedTuple, TypeVar, cast, get_type_hints
 
 import typer
 
-from plantar.console.ending import (
-    BAD_INPUT,
-    one_line,
-    plain_lines,
-)
+from plantar.console.ending import BAD_INPUT, one_line, plain_lines
 from plantar.errors import InputError
 
-__all__ = [
-    "Command",
-    "Json",
-    "Output",
-    "end_command",
-    "file_lines",
-    "run_command",
-    "with_option_groups",
-]
+__all__ = ["Command", "Json", "Output", "end_command", "file_lines", "run_command", "with_option_groups"]
 
 
 Output = Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")]

@@ -7,21 +7,13 @@ Convex polygons in either direction, with repeated or collinear vertices; corner
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import (
-    ArrayLike,
-    NDArray,
-)
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.kernels import is_compiled
 from plantar.kernels.geometry.shapes import ConvexShapes
 from plantar.plane_points import plane_points
 
-__all__ = [
-    "bounding_box",
-    "convex_shapes",
-    "enclosing_parallelogram",
-    "oriented_box",
-]
+__all__ = ["bounding_box", "convex_shapes", "enclosing_parallelogram", "oriented_box"]
 
 
 def bounding_box(points: ArrayLike) -> NDArray[np.float64]:
@@ -43,13 +35,9 @@ def bounding_box(points: ArrayLike) -> NDArray[np.float64]:
 
 
 def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Rectangle of least area around a convex polygon, at any angle, by rotating calipers.
+    """Corners (4, 2) in m of the rectangle of least area around a convex polygon (k, 2), exact to 1e-12.
 
-    Args:
-        polygon: Convex polygon (k, 2) in m.
-
-    Returns:
-        Corners (4, 2) in m, the first side along an edge of the polygon; area exact to 1e-12.
+    By rotating calipers; the first side lies along an edge of the polygon.
 
     Example:
         >>> box = oriented_box([[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0]])
@@ -60,13 +48,8 @@ def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
 
 
 def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Parallelogram of least area around a convex polygon (T 4.2.5, [175]).
-
-    Args:
-        polygon: Convex polygon (k, 2) in m.
-
-    Returns:
-        Corners (4, 2) in m; area exact to 1e-12.
+    """Corners (4, 2) in m of the parallelogram of least area around a convex polygon (k, 2) (T 4.2.5, [175]), exact to
+    1e-12.
     """
     return np.asarray(convex_shapes().parallelogram_around(plane_points(polygon)))
 

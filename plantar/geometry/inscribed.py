@@ -9,26 +9,14 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Callable
-from typing import (
-    Literal,
-    NamedTuple,
-)
+from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import (
-    ArrayLike,
-    NDArray,
-)
+from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import (
-    integer,
-    number,
-)
+from plantar.arguments import integer, number
 from plantar.errors import InputError
-from plantar.geometry.enclosing import (
-    bounding_box,
-    convex_shapes,
-)
+from plantar.geometry.enclosing import bounding_box, convex_shapes
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import convex_ring
 
@@ -74,15 +62,9 @@ class BoundedRectangle(NamedTuple):
 
 
 def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Triangle of most area in a convex polygon (T 4.2.5, [173]).
+    """Corners (3, 2) in m of the triangle of most area in a convex polygon (k, 2) (T 4.2.5, [173]); exact.
 
     For every first corner the third one walks on with the second, in O(k^2); the O(k) walk of [173] misses some.
-
-    Args:
-        polygon: Convex polygon (k, 2) in m.
-
-    Returns:
-        Corners (3, 2) in m; exact.
 
     Example:
         >>> inscribed_triangle([[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.0, 3.0], [0.0, 1.0]]).tolist()
@@ -92,43 +74,30 @@ def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
 
 
 def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Parallelogram of most area in a convex polygon (T 4.2.5, [174]).
+    """Corners (4, 2) in m of the parallelogram of most area in a convex polygon (k, 2) (T 4.2.5, [174]), exact to
+    1e-12.
 
-    From every vertex one side walks once round, in O(k) pieces on which the area is a parabola (Jin and Matulef 2011):
-    exact, in O(k^2).
-
-    Args:
-        polygon: Convex polygon (k, 2) in m.
-
-    Returns:
-        Corners (4, 2) in m; area exact to 1e-12.
+    From every vertex one side walks once round, in O(k) pieces on which the area is a parabola (Jin and Matulef 2011).
 
     Example:
-        >>> corners = inscribed_parallelogram([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
-        >>> corners.tolist()  # half of the triangle
+        >>> inscribed_parallelogram([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()  # half of the triangle
         [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5]]
     """
     return np.asarray(convex_shapes().parallelogram(convex_ring(polygon)))
 
 
 def inscribed_circle(polygon: ArrayLike) -> Circle | None:
-    """Largest circle in a convex polygon.
+    """Largest circle in a convex polygon (k, 2), or any of several, its radius exact to 1e-12.
 
     The least distance to an edge is concave in x and y; cuts (tangents) find its maximum.
 
-    Args:
-        polygon: Convex polygon (k, 2) in m.
-
     Returns:
-        Center and radius in m, the radius exact to 1e-12; any of several that fit. Radius 0 at the middle of a polygon
-        without area; None for an empty polygon.
+        Center and radius in m; radius 0 at the middle of a polygon without area; None for an empty polygon.
 
     Example:
         >>> circle = inscribed_circle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
-        >>> circle.center.round(12).tolist(), round(circle.radius, 12)
-        ([1.0, 1.0], 1.0)
-        >>> inscribed_circle([]) is None
-        True
+        >>> circle.center.round(12).tolist(), round(circle.radius, 12), inscribed_circle([])
+        ([1.0, 1.0], 1.0, None)
     """
     center, radius = convex_shapes().circle(convex_ring(polygon))
     return Circle(center[0], float(radius)) if len(center) else None
@@ -155,14 +124,7 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 
 
 def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
-    """Largest rectangle in a convex polygon that a scan of angles finds.
-
-    Args:
-        polygon: Convex polygon (k, 2) in m.
-
-    Returns:
-        Corners (4, 2) in m.
-    """
+    """Corners (4, 2) in m of the largest rectangle in a convex polygon (k, 2) that a scan of angles finds."""
     ring = np.asarray(convex_ring(polygon))
     edges = np.roll(ring, -1, axis=0) - ring
     # The edges' directions first: the best rectangle often has a side on one, and that of a needle always.

@@ -181,16 +181,10 @@ def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArr
 
 
 def edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], ...]:
-    """Taxels that share an edge (two consecutive vertices), for each taxel.
+    """For each cell, the increasing indices of those that share an edge: two consecutive vertices of its corners.
 
     Args:
-        corners: Vertex indices of each cell.
-
-    Returns:
-        Indices of the neighbours of each cell, in increasing order.
-
-    Raises:
-        InputError: If a cell is no list of indices.
+        corners: Vertex indices of each cell; an InputError if one is not a list of indices.
     """
     owners: dict[tuple[int, int], list[int]] = {}
     rows = [integers(ring, f"cell {i}", ("k",)).tolist() for i, ring in enumerate(items(corners, "cells"))]

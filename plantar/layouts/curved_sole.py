@@ -79,16 +79,10 @@ def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
 
 
 def rotations_to_normals(normals: ArrayLike) -> NDArray[np.float64]:
-    """Shortest rotations that take the z axis onto directions.
+    """Shortest rotations (n, 3, 3) that take the z axis onto directions.
 
     Args:
-        normals: Directions (n, 3), of any length, with z above 0.
-
-    Returns:
-        Rotations (n, 3, 3).
-
-    Raises:
-        LayoutError: If these are not (n, 3) finite numbers, or a direction does not point up.
+        normals: Directions (n, 3), of any length, with z above 0; else a LayoutError.
     """
     given = array(normals, "directions", ("n", 3), LayoutError, finite=True)
     if not (given[:, 2] > 0.0).all():

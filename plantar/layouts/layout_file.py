@@ -7,10 +7,7 @@ import os
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import (
-    Any,
-    cast,
-)
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,19 +16,9 @@ from plantar.arguments import instance
 from plantar.atomic import write_text
 from plantar.errors import LayoutError
 from plantar.files.structured_text import read_json
-from plantar.layouts.layout import (
-    Side,
-    SoleLayout,
-)
+from plantar.layouts.layout import Side, SoleLayout
 
-__all__ = [
-    "SCHEMA",
-    "check_cells",
-    "layout_from_dict",
-    "layout_to_dict",
-    "read_layout",
-    "write_layout",
-]
+__all__ = ["SCHEMA", "check_cells", "layout_from_dict", "layout_to_dict", "read_layout", "write_layout"]
 
 
 SCHEMA = "plantar.layout/1"
@@ -41,14 +28,7 @@ _UNITS = "m, N, degC; sole frame: x forward, y left, z up, on the outer contact 
 
 
 def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
-    """A layout as plain JSON values, SI units, sole frame; `layout_from_dict` reads them without loss.
-
-    Args:
-        layout: The layout.
-
-    Returns:
-        The dict.
-    """
+    """A layout as plain JSON values, SI units, sole frame; `layout_from_dict` reads them without loss."""
     instance(layout, SoleLayout, "layout")
     return {
         "schema": SCHEMA,
@@ -207,14 +187,11 @@ def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
 
 
 def write_layout(layout: SoleLayout, path: str | os.PathLike[str]) -> Path:
-    """Write a layout file; it appears whole or not at all.
+    """Write a layout file, whole or not at all; returns the path.
 
     Args:
         layout: The layout.
-        path: Where to; replaced if it exists.
-
-    Returns:
-        The path.
+        path: The file, replaced if it exists.
     """
     return write_text(path, json.dumps(layout_to_dict(layout), indent=1) + "\n")
 
@@ -224,10 +201,7 @@ _OFF = 0.5  # of a cell's size: how far a taxel may be next to its own cell
 
 
 def check_cells(layout: SoleLayout) -> None:
-    """Refuse cells that contradict themselves.
-
-    Args:
-        layout: The layout.
+    """Refuse a layout with cells that contradict themselves.
 
     Raises:
         LayoutError: If a cell crosses itself or is clockwise, its area is not that of its corners, its taxel is off the

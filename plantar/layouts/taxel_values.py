@@ -30,7 +30,7 @@ def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> ND
         Values (n,), NaN where a taxel is dead; not copied if float64.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If these are not n real numbers, or it is not a layout.
     """
     if not isinstance(layout, SoleLayout):
         instance(layout, SoleLayout, "layout")
@@ -41,7 +41,7 @@ def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
 
 def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> NDArray[np.float64]:
-    """One reading of a sole's taxels, or several.
+    """One reading of a sole's taxels, (n,), or several, (frames, n), as `taxel_values`.
 
     Args:
         layout: The sole, n taxels.
@@ -49,10 +49,7 @@ def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> ND
         name: Its name in an error.
 
     Returns:
-        Values (n,) or (frames, n), NaN where a taxel is dead; not copied if float64.
-
-    Raises:
-        ReadingError, InputError: If an argument is not valid.
+        The values.
     """
     instance(layout, SoleLayout, "layout")
     given = numbers(values, name, ReadingError)
@@ -62,7 +59,7 @@ def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> ND
 
 
 def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArray[np.bool_]:
-    """Some of a sole's taxels.
+    """Some of a sole's taxels as a mask (n,), not copied if bool; a ReadingError unless n truth values.
 
     Args:
         layout: The sole, n taxels.
@@ -70,10 +67,7 @@ def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArra
         name: Its name in an error.
 
     Returns:
-        Mask (n,), not copied if bool.
-
-    Raises:
-        ReadingError, InputError: If an argument is not valid.
+        The mask.
     """
     if not isinstance(layout, SoleLayout):
         instance(layout, SoleLayout, "layout")

@@ -65,16 +65,13 @@ def external_acceleration(
     """Horizontal acceleration w^2 u_w (..., 2) in m/s^2 of the CoM by a wrench on the body, at a fixed ZMP (K 12).
 
     Args:
-        wrench: Wrench (..., 6) as in `vrp_offset`.
-        mass: Mass of the robot in kg, above 0.
-        omega: Pendulum frequency in rad/s, above 0.
-        virtual_mass: nu as in `vrp_offset`.
+        wrench: As in `vrp_offset`.
+        mass: As in `vrp_offset`.
+        omega: As in `vrp_offset`.
+        virtual_mass: As in `vrp_offset`.
 
     Returns:
         The acceleration.
-
-    Raises:
-        InputError: As `vrp_offset`.
     """
     return np.asarray(vrp_offset(wrench, mass, omega, virtual_mass) * float(omega) ** 2)
 

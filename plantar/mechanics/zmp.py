@@ -61,16 +61,13 @@ def zero_moment_wrench(
     """The wrench transferred to its ZMP (T 4.2.4, after 4.23).
 
     Args:
-        wrench: Wrench (6,) about the frame's origin.
-        height: Height of the plane of the ZMP in m.
+        wrench: As in `zmp_in_plane`.
+        height: As in `zmp_in_plane`.
         minimum_force: As in `zmp_in_plane`.
 
     Returns:
         The point (3,) in m and the wrench (6,) about it: the same force, moments 0 about x and y, and the remaining
         twist about z; None without load.
-
-    Raises:
-        InputError: As `zmp_in_plane`.
 
     Example:
         >>> point, moved = zero_moment_wrench([10.0, 0.0, 100.0, 5.0, -2.0, 0.3])
@@ -118,17 +115,17 @@ def centroidal_moment_pivot(
 
 
 def zmp_of_wrench(wrench: ArrayLike, minimum_force: float = 0.0) -> NDArray[np.float64] | None:
-    """Zero moment point of one wrench in the plane z = 0 of its frame (T 4.5-4.6 for a force-torque sensor).
+    """`zmp_in_plane` in the plane z = 0, for a force-torque sensor; None also where the wrench holds NaN or inf.
 
     Args:
         wrench: Wrench (6,) about the frame's origin.
-        minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
+        minimum_force: Vertical force in N above 0 below which there is no ZMP.
 
     Returns:
-        Position (2,) in m, or None, also where the wrench holds NaN or inf.
+        Position (2,) in m, or None.
 
     Raises:
-        InputError: If the wrench is not 6 numbers, or the least force is not a number above 0.
+        InputError: If the wrench is not 6 numbers, or the least force is not above 0.
     """
     _, _, fz, tx, ty, _ = array(wrench, "wrench", (6,)).tolist()
     if not (fz >= number(minimum_force, "minimum force") and 0.0 < fz < math.inf):

@@ -7,22 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import (
-    ArrayLike,
-    NDArray,
-)
+from numpy.typing import ArrayLike, NDArray
 
-from plantar.arguments import (
-    instance,
-    items,
-    number,
-)
-from plantar.arrays import (
-    array,
-    is_finite,
-    numbers,
-    own,
-)
+from plantar.arguments import instance, items, number
+from plantar.arrays import array, is_finite, numbers, own
 from plantar.errors import InputError
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import convex_hull
@@ -33,13 +21,7 @@ from plantar.mechanics.rotation import level_rotation
 from plantar.mechanics.zmp import zmp_in_plane
 from plantar.plane_points import plane_points
 
-__all__ = [
-    "SolePose",
-    "feet_support_polygon",
-    "polygon_in_world",
-    "wrench_of_feet",
-    "zmp_of_soles",
-]
+__all__ = ["SolePose", "feet_support_polygon", "polygon_in_world", "wrench_of_feet", "zmp_of_soles"]
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,46 +11,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import (
-    InputError,
-    LayoutError,
-    RobotError,
-)
-from plantar.files.input_file import (
-    check_input,
-    is_file,
-)
+from plantar.errors import InputError, LayoutError, RobotError
+from plantar.files.input_file import check_input, is_file
 from plantar.files.model_files import named_file
-from plantar.files.structured_text import (
-    read_json,
-    read_toml,
-)
+from plantar.files.structured_text import read_json, read_toml
 from plantar.gait.balance.balance_laws import balance_gains
-from plantar.gait.controller_tables import (
-    CONTROLLER_TABLES,
-    check_controller_table,
-)
+from plantar.gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.robots.biped import BipedParameters
-from plantar.robots.robot import (
-    Arms,
-    FootShape,
-    LegNames,
-    Robot,
-)
+from plantar.robots.robot import Arms, FootShape, LegNames, Robot
 from plantar.settings.unknown_keys import refuse_unknown_keys
-from plantar.sides import (
-    SIDES,
-    Side,
-)
+from plantar.sides import SIDES, Side
 
-__all__ = [
-    "RobotTables",
-    "builtin_robots",
-    "load_robot",
-]
+__all__ = ["RobotTables", "builtin_robots", "load_robot"]
 
 
 _FOLDER = Path(__file__).parent

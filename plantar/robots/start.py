@@ -4,30 +4,15 @@ from __future__ import annotations
 
 import math
 
-from plantar.errors import (
-    InputError,
-    SceneError,
-)
+from plantar.errors import InputError, SceneError
 from plantar.gait.controller import Start
-from plantar.gait.plan.footsteps import (
-    Footstep,
-    other_side,
-    straight_plan,
-)
-from plantar.gait.propose.velocity_command import (
-    Legs,
-    VelocityCommand,
-    VelocityTable,
-)
+from plantar.gait.plan.footsteps import Footstep, other_side, straight_plan
+from plantar.gait.propose.velocity_command import Legs, VelocityCommand, VelocityTable
 from plantar.robots.robot import Robot
 from plantar.robots.walk import Walk
 from plantar.sides import Side
 
-__all__ = [
-    "STEPS_A_ROUND",
-    "box_plan",
-    "start_of_walk",
-]
+__all__ = ["STEPS_A_ROUND", "box_plan", "start_of_walk"]
 
 
 def start_of_walk(

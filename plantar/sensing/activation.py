@@ -15,7 +15,7 @@ __all__ = ["TaxelActivation", "active_taxels", "hysteresis"]
 
 
 def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.inf) -> NDArray[np.bool_]:
-    """Taxels whose force exceeds the activation threshold (T 4.22: |f_iz| > epsilon_f).
+    """Mask (..., n) of taxels whose force exceeds the activation threshold (T 4.22: |f_iz| > epsilon_f).
 
     Dead taxels (NaN, inf), negative readings and saturated taxels are not active.
 
@@ -25,10 +25,10 @@ def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.i
         saturation: Force in N from which a taxel is saturated.
 
     Returns:
-        Mask (..., n).
+        The mask.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If an argument is not numeric.
     """
     given = numbers(force, "forces", ReadingError)
     low, high = number(threshold, "activation threshold"), number(saturation, "saturation")

@@ -3,28 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import (
-    ArrayLike,
-    NDArray,
-)
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number
 from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
-from plantar.layouts.taxel_values import (
-    taxel_frames,
-    taxel_values,
-)
+from plantar.layouts.taxel_values import taxel_frames, taxel_values
 from plantar.sensing.activation import active_taxels
 
-__all__ = [
-    "center_of_pressure",
-    "ground_reaction_wrench",
-    "joint_torque",
-    "pressure_driven_wrench",
-    "scaled_by_area",
-]
+__all__ = ["center_of_pressure", "ground_reaction_wrench", "joint_torque", "pressure_driven_wrench", "scaled_by_area"]
 
 
 def center_of_pressure(

@@ -123,11 +123,7 @@ def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: fl
 
 
 def ground_fit(layout: SoleLayout) -> GroundFit:
-    """The kernel that fits planes to a sole's distances, made at first use.
-
-    Args:
-        layout: The sole, n taxels.
-    """
+    """The kernel that fits planes to the distances of a layout, made at first use."""
     try:
         kernel: GroundFit = layout.__dict__["_ground_fit"]
     except KeyError:

@@ -65,32 +65,26 @@ class TaxelHealth:
 
 
 def dead_taxels(values: ArrayLike) -> NDArray[np.bool_]:
-    """Taxels that read no finite number.
+    """Mask (..., n) of taxels that read no finite number; not for distances, where inf means out of range.
 
     Args:
-        values: Readings (..., n) of a modality; a distance of inf means out of range and is not for this function.
-
-    Returns:
-        Mask (..., n).
-
-    Raises:
-        ReadingError: If the readings are not numeric.
+        values: Readings (..., n) of a modality; a ReadingError if not numeric.
     """
     return np.asarray(~np.isfinite(numbers(values, "readings", ReadingError)))
 
 
 def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
-    """Taxels at the upper end of their range; dead ones are not.
+    """Mask (..., n) of taxels at the upper end of their range; dead ones are not.
 
     Args:
         values: Readings (..., n) of a modality.
         highest: Upper end of its range in the same unit, for example `layout.ranges["force"][1]`.
 
     Returns:
-        Mask (..., n).
+        The mask.
 
     Raises:
-        ReadingError, InputError: If an argument is not valid.
+        ReadingError, InputError: If an argument is not numeric.
     """
     readings = numbers(values, "readings", ReadingError)
     return np.asarray(np.isfinite(readings) & (readings >= number(highest, "upper end of the range")))

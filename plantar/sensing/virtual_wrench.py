@@ -110,15 +110,7 @@ def sole_wrenches(
 
 
 class SoleWrenchSwitch:
-    """`sole_wrenches`, reading by reading (T 4.30 corrected).
-
-    Args:
-        threshold: As in `sole_wrenches`.
-        release: As in `sole_wrenches`.
-
-    Raises:
-        InputError: If `release` is above `threshold`, or one is not a number.
-    """
+    """`sole_wrenches`, reading by reading (T 4.30 corrected); `threshold` and `release` as there."""
 
     def __init__(self, threshold: float, release: float | None = None) -> None:
         self.threshold = number(threshold, "threshold", nan=True)
@@ -132,17 +124,9 @@ class SoleWrenchSwitch:
         self.landed = landed
 
     def update(self, contact: ArrayLike, virtual: ArrayLike) -> NDArray[np.float64]:
-        """Wrench (6,) in N and N m of the next reading; a part with NaN or inf counts as zero.
+        """Returns the wrench (6,) in N and N m of the next reading of `contact` and `virtual` wrench (6,).
 
-        Args:
-            contact: Wrench (6,) w_f of the taxels' forces in N and N m.
-            virtual: Wrench (6,) w_p of the proximity.
-
-        Returns:
-            The wrench.
-
-        Raises:
-            InputError: If a wrench is not 6 numbers.
+        A part with NaN or inf counts as zero; an InputError if one is not 6 numbers.
         """
         carried, foreseen = _finite(contact, (6,)), _finite(virtual, (6,))
         force = math.hypot(*carried[:3].tolist())

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import (
-    Mapping,
-    Sequence,
-)
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -14,13 +11,7 @@ from plantar.errors import SceneError
 from plantar.files.structured_text import parse_toml
 from plantar.settings.schema import Setting
 
-__all__ = [
-    "owner_of",
-    "setting_rows",
-    "setting_text",
-    "split_setting",
-    "value_of",
-]
+__all__ = ["owner_of", "setting_rows", "setting_text", "split_setting", "value_of"]
 
 
 def split_setting(setting: str) -> tuple[str, str]:

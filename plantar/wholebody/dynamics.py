@@ -60,14 +60,8 @@ class RobotDynamics(Protocol):
         """
 
     def drift(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """J' q' (6,) of the same: the point's acceleration while q'' = 0, in m/s^2 and rad/s^2.
-
-        Args:
-            link: Name of the link.
-            point: Point (3,) in the link's frame in m; its origin if None.
-
-        Returns:
-            The drift.
+        """J' q' (6,) of a `link` and `point` as in `jacobian`: acceleration while q'' = 0. Returns it in m/s^2 and
+        rad/s^2.
         """
 
     def com(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:

@@ -2,12 +2,7 @@
 
 import numpy as np
 
-__all__ = [
-    "ContactList",
-    "ContactsInSole",
-    "FootContacts",
-    "gather_feet",
-]
+__all__ = ["ContactList", "ContactsInSole", "FootContacts", "gather_feet"]
 
 
 class ContactList:

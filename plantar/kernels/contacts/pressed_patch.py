@@ -2,17 +2,9 @@
 
 import numpy as np
 
-from ..geometry import (
-    clean,
-    convex,
-)
+from ..geometry import clean, convex
 
-__all__ = [
-    "PressedPatch",
-    "patch_key",
-    "spread_part",
-    "spread_whole",
-]
+__all__ = ["PressedPatch", "patch_key", "spread_part", "spread_whole"]
 
 
 def spread_whole(u, area, inverse, x, y, force, cells, out):

@@ -2,17 +2,10 @@
 
 import math
 
-from ..base import (
-    memory,
-    vectors,
-)
+from ..base import memory, vectors
 from ..geometry import convex
 
-__all__ = [
-    "ComAdmittance",
-    "DcmFeedback",
-    "shared_load",
-]
+__all__ = ["ComAdmittance", "DcmFeedback", "shared_load"]
 
 
 _SAME = 1e-9  # m: a desired ZMP that its region moves by less is not held back

@@ -1,18 +1,9 @@
 """Kernel of `plantar.gait.balance.foot_admittance` for one sole."""
 
-from ..base import (
-    fused,
-    memory,
-    vectors,
-)
+from ..base import fused, memory, vectors
 from ..mechanics import rotations
 
-__all__ = [
-    "SoleAdmittance",
-    "pressed",
-    "risen",
-    "turned",
-]
+__all__ = ["SoleAdmittance", "pressed", "risen", "turned"]
 
 
 _NONE = 1e-7  # rad and m: below what any servo resolves a correction that fades is exactly none

@@ -2,10 +2,7 @@
 
 from ..base import memory
 
-__all__ = [
-    "cut_cells",
-    "part_below",
-]
+__all__ = ["cut_cells", "part_below"]
 
 
 def cut_cells(points, start, lines, scratch, tags, measure, chords):

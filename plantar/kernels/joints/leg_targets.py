@@ -2,10 +2,7 @@
 
 from ..base import memory
 
-__all__ = [
-    "JointEntries",
-    "LegTargets",
-]
+__all__ = ["JointEntries", "LegTargets"]
 
 
 class LegTargets:

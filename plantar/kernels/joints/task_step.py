@@ -6,16 +6,7 @@ import numpy as np
 
 from ..mechanics import rotations
 
-__all__ = [
-    "ComRows",
-    "Configuration",
-    "NewtonStep",
-    "PointRows",
-    "PoseRows",
-    "Rows",
-    "TaskStep",
-    "TurnRows",
-]
+__all__ = ["ComRows", "Configuration", "NewtonStep", "PointRows", "PoseRows", "Rows", "TaskStep", "TurnRows"]
 
 
 class NewtonStep:

@@ -4,10 +4,7 @@ import math
 
 import numpy as np
 
-__all__ = [
-    "StanceForce",
-    "StandWatch",
-]
+__all__ = ["StanceForce", "StandWatch"]
 
 
 class StanceForce:

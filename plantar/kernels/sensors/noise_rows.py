@@ -2,11 +2,7 @@
 
 import numpy as np
 
-__all__ = [
-    "NoiseRows",
-    "SensedBody",
-    "TaxelSample",
-]
+__all__ = ["NoiseRows", "SensedBody", "TaxelSample"]
 
 
 class NoiseRows:

@@ -1,13 +1,13 @@
 """Fields of a percept, and the results that most of its members read: active taxels, sums of loads, the hull."""
 
-from ..base import (
-    memory,
-    vectors,
-)
+try:
+    import cython
+except ImportError:
+    from plantar.kernels.base import without_cython as cython
 
-__all__ = [
-    "PerceptFields",
-]
+from ..base import memory, vectors
+
+__all__ = ["PerceptFields", "ReadingFields"]
 
 
 _INFINITE = float("inf")
@@ -86,14 +86,6 @@ class PerceptFields:
             self._found = found
         return self._found
 
-
-try:
-    import cython
-except ImportError:
-    from plantar.kernels.base import without_cython as cython
-
-
-__all__ = ["ReadingFields"]
 
 _LARGEST = 1e300
 """`plantar.arguments.LARGEST`: what is beyond it is looked at by `checked`."""

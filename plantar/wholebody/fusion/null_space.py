@@ -18,14 +18,7 @@ from plantar.wholebody.dynamics import RobotDynamics
 from plantar.wholebody.fusion.hierarchy import RANK, Fused, joint_torques
 from plantar.wholebody.tasks.task import Demand
 
-__all__ = [
-    "Projection",
-    "mass_factor",
-    "null_space_projector",
-    "null_space_torques",
-    "task_torque",
-    "weighted_sum",
-]
+__all__ = ["Projection", "mass_factor", "null_space_projector", "null_space_torques", "task_torque", "weighted_sum"]
 
 Projection = Literal["recursive", "augmented", "successive"]
 """How higher tasks count: projected one after another, all rows at once (T 3.9-3.10), or only the last (T 3.7)."""
@@ -94,19 +87,11 @@ def null_space_torques(
 ) -> Fused:
     """Sum of the tasks' torques, each in the null space of those above (T 3.8, 3.11, 3.13).
 
+    `robot`, `levels`, `support` and `external` as in `plantar.wholebody.fusion.hierarchy.fuse`; returns the same.
+
     Args:
-        robot: Kinematics and dynamics of this instant.
-        levels: Demands of the tasks, the highest priority first; None for a task without one.
-        support: Rows of the support, above all levels.
-        external: Known generalized force (n,).
         projection: How higher tasks count.
         consistent: Whether projectors are dynamically consistent; if not, lower tasks push higher ones.
-
-    Returns:
-        Torques, acceleration and support force.
-
-    Raises:
-        InputError: If the robot's base is not driven and there is no support.
     """
     size = len(robot.bias)
     factor = mass_factor(robot.mass_matrix)
@@ -138,18 +123,10 @@ def weighted_sum(
 ) -> Fused:
     """tau = sum W_i tau_i (T 3.6): every task disturbs every other, below the support (T 3.13).
 
+    `robot`, `levels`, `support` and `external` as in `plantar.wholebody.fusion.hierarchy.fuse`; returns the same.
+
     Args:
-        robot: Kinematics and dynamics of this instant.
-        levels: Demands of the tasks; None for a task without one.
-        support: Rows of the support.
-        external: Known generalized force (n,).
         weights: Weight of each level: a number, or one (n,) for each coordinate; 1 for all if None.
-
-    Returns:
-        Torques, acceleration and support force.
-
-    Raises:
-        InputError: If there are not as many weights as levels, or a base that is not driven has no support.
     """
     weights = [1.0] * len(levels) if weights is None else weights
     if len(weights) != len(levels):

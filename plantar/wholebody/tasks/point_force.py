@@ -7,15 +7,9 @@ from numpy.typing import NDArray
 
 from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
-from plantar.wholebody.tasks.task import (
-    Demand,
-    Task,
-)
+from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = [
-    "AlongForce",
-    "PointForce",
-]
+__all__ = ["AlongForce", "PointForce"]
 
 
 class PointForce(Task):

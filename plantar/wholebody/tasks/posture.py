@@ -5,22 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import (
-    ArrayLike,
-    NDArray,
-)
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.sensing.link_skin import SkinReading
 from plantar.wholebody.dynamics import RobotDynamics
-from plantar.wholebody.tasks.task import (
-    Demand,
-    Task,
-)
+from plantar.wholebody.tasks.task import Demand, Task
 
-__all__ = [
-    "BodyCompliance",
-    "Posture",
-]
+__all__ = ["BodyCompliance", "Posture"]
 
 
 class Posture(Task):

@@ -8,18 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
-from plantar.sensing.link_skin import (
-    BodySkin,
-    LinkWrench,
-    SkinReading,
-    link_wrenches,
-)
+from plantar.sensing.link_skin import BodySkin, LinkWrench, SkinReading, link_wrenches
 from plantar.wholebody.dynamics import RobotDynamics
-from plantar.wholebody.tasks.task import (
-    Demand,
-    Task,
-    wrench_demand,
-)
+from plantar.wholebody.tasks.task import Demand, Task, wrench_demand
 
 __all__ = [
     "DirectInteraction",

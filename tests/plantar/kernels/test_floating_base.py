@@ -9,12 +9,7 @@ from scipy.spatial.transform import Rotation
 from plantar import InputError, kernels
 from plantar.kernels.gait import floating_base, gyro_bias
 from plantar.kernels.mechanics import rotations
-from plantar.mechanics.rotation import (
-    heading,
-    orthonormalised,
-    rotation_from_vector,
-    sine_vector,
-)
+from plantar.mechanics.rotation import heading, orthonormalised, rotation_from_vector, sine_vector
 from plantar.mechanics.zmp import zmp_of_feet
 
 OMEGA, PERIOD, GRAVITY = 3.5, 0.005, 9.81

@@ -4,26 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import (
-    given,
-    settings,
-)
-from hypothesis import (
-    strategies as st,
-)
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from plantar.kernels import (
-    is_compiled,
-    python_form,
-)
-from plantar.kernels.contacts import (
-    foot_contacts,
-    ground_reaction,
-)
-from plantar.kernels.geometry import (
-    convex,
-    few_points,
-)
+from plantar.kernels import is_compiled, python_form
+from plantar.kernels.contacts import foot_contacts, ground_reaction
+from plantar.kernels.geometry import convex, few_points
 from plantar.kernels.geometry.hull import convex_hull
 
 REACH = 5e-4

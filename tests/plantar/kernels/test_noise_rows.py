@@ -4,19 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import (
-    given,
-)
-from hypothesis import (
-    strategies as st,
-)
+from hypothesis import given
+from hypothesis import strategies as st
 
 from plantar import hex_layout
 from plantar.kernels import python_form
-from plantar.kernels.contacts.foot_contacts import (
-    ContactsInSole,
-    FootContacts,
-)
+from plantar.kernels.contacts.foot_contacts import ContactsInSole, FootContacts
 from plantar.kernels.sensors import noise_rows
 from plantar.sim.sensing.sole_pressure import SolePressure
 

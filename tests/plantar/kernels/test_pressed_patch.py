@@ -5,22 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import scipy.optimize
-from hypothesis import (
-    given,
-    settings,
-)
-from hypothesis import (
-    strategies as st,
-)
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from plantar.geometry.polygon import (
-    convex_hull,
-    inner_offset,
-)
-from plantar.kernels import (
-    is_compiled,
-    python_form,
-)
+from plantar.geometry.polygon import convex_hull, inner_offset
+from plantar.kernels import is_compiled, python_form
 from plantar.kernels.contacts import pressed_patch
 
 seeds = st.integers(0, 2**32 - 1)

@@ -6,16 +6,7 @@ import shapely
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from plantar import (
-    LayoutError,
-    Percept,
-    Reading,
-    grid_layout,
-    hex_layout,
-    joined_layout,
-    layout_of_cells,
-    mirrored,
-)
+from plantar import LayoutError, Percept, Reading, grid_layout, hex_layout, joined_layout, layout_of_cells, mirrored
 from plantar.layouts import layout_file
 from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
 

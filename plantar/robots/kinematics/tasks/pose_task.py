@@ -6,27 +6,12 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.joints.task_step import (
-    PoseRows,
-    Rows,
-    TurnRows,
-)
-from plantar.kernels.mechanics.rotations import (
-    missing_pose,
-    missing_turn,
-)
+from plantar.kernels.joints.task_step import PoseRows, Rows, TurnRows
+from plantar.kernels.mechanics.rotations import missing_pose, missing_turn
 from plantar.mechanics.rotation import rotation_error
-from plantar.robots.kinematics.tasks.task import (
-    Target,
-    Task,
-    chain,
-)
+from plantar.robots.kinematics.tasks.task import Target, Task, chain
 
-__all__ = [
-    "OrientationTask",
-    "PoseTask",
-    "RollingPoseTask",
-]
+__all__ = ["OrientationTask", "PoseTask", "RollingPoseTask"]
 
 
 class PoseTask(Task):

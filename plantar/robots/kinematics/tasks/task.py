@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from abc import (
-    ABC,
-    abstractmethod,
-)
+from abc import ABC, abstractmethod
 
 import mujoco
 import numpy as np
@@ -13,11 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.kernels.joints.task_step import Rows
 
-__all__ = [
-    "Target",
-    "Task",
-    "chain",
-]
+__all__ = ["Target", "Task", "chain"]
 
 
 class Target:
