@@ -33,15 +33,14 @@ class BipedParameters:
     Attributes:
         total_mass: Mass with skin and shoes; the chest has the rest.
         base_mass: Mass of the pelvis.
-        com_height: Height of the CoM above the outer sole in the given posture; places the chest's mass.
+        com_height: Height of the CoM above the outer sole in the given posture.
         hip_offset: Left hip (3,) in the base frame.
         ankle_offset: Left ankle against the left hip (x, y) at zero angles.
         thigh_length: Hip to knee.
         shank_length: Knee to ankle.
         ankle_height: Ankle axes above the bare sole.
         link_masses: Six link masses from hip yaw to foot (without shoe).
-        joint_lower: Six lower joint limits of the left leg.
-        joint_upper: Six upper joint limits of the left leg.
+        joint_lower: Six lower joint limits of the left leg; `joint_upper` likewise.
         effort_limits: Six joint torque limits in N m.
         velocity_limits: Six joint velocity limits in rad/s.
         chest_size: Box (3,) of the upper body.

@@ -75,12 +75,7 @@ def box_plan(
         The standing feet at the start, and the steps in order.
 
     Raises:
-        InputError: If the steps are not a whole number of rounds, or the stride is not above 0.
-
-    Example:
-        >>> feet, plan = box_plan(6, stride=0.05, width=0.17)
-        >>> [(s.side, round(s.x, 3), round(s.y, 3)) for s in plan[:3]]
-        [('left', 0.05, 0.085), ('right', 0.05, -0.135), ('left', 0.05, 0.035)]
+        InputError: If steps or stride are not valid.
     """
     if steps % STEPS_A_ROUND:
         raise InputError(f"steps is {steps}; allowed: whole rounds of {STEPS_A_ROUND} steps")

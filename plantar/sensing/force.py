@@ -18,7 +18,7 @@ __all__ = ["center_of_pressure", "ground_reaction_wrench", "joint_torque", "pres
 def center_of_pressure(
     layout: SoleLayout, force: ArrayLike, threshold: float | None = None
 ) -> NDArray[np.float64] | None:
-    """Center of pressure of one sole (T 4.21); for many frames see `plantar.batch.loads`.
+    """Center of pressure (2,) of one sole in its frame in m (T 4.21), or None without force.
 
     Args:
         layout: The sole, n taxels.
@@ -26,16 +26,10 @@ def center_of_pressure(
         threshold: Activation threshold in N; the layout's if None.
 
     Returns:
-        Position (2,) in the sole frame in m, or None without force.
+        The point; for many frames see `plantar.batch.loads`.
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
-        >>> center_of_pressure(layout, np.zeros(len(layout))) is None
-        True
     """
     vertical = _active(layout, taxel_values(layout, force), threshold) * layout.rotations[:, 2, 2]
     total = float(vertical.sum())
@@ -57,12 +51,6 @@ def ground_reaction_wrench(layout: SoleLayout, force: ArrayLike, threshold: floa
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> from plantar import grid_layout
-        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
-        >>> ground_reaction_wrench(layout, np.array([10.0, 20.0])).round(9).tolist()
-        [0.0, 0.0, 30.0, 1.5, -3.5, 0.0]
     """
     return np.asarray(_active(layout, taxel_frames(layout, force), threshold) @ layout.wrench_map.T)
 

@@ -30,11 +30,6 @@ class TaxelHealth:
 
     Raises:
         ReadingError: If the masks do not all have n truth values.
-
-    Example:
-        >>> health = TaxelHealth(*np.array([[True, False, False], [False, False, True], [False, False, False]]))
-        >>> health.faulty.tolist(), str(health)
-        ([True, False, True], '1 dead, 1 saturated, 0 stuck of 3 taxels')
     """
 
     dead: NDArray[np.bool_]
@@ -93,7 +88,7 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
 def stuck_taxels(
     times: ArrayLike, values: ArrayLike, hold: float = 1.0, tolerance: float = 0.0, rest: float = 0.0
 ) -> NDArray[np.bool_]:
-    """Taxels that have not changed for a time although they read a load.
+    """Taxels that have not changed for a time although they read a load, as a mask (frames, n).
 
     A change is a difference of more than the tolerance, or NaN that comes or goes. Sensors of coarse steps need a
     `hold` longer than the robot stands still.
@@ -103,10 +98,10 @@ def stuck_taxels(
         values: Readings (frames, n), for example forces in N.
         hold: Time in s without a change from which a taxel is stuck.
         tolerance: Largest difference of two samples that is no change.
-        rest: A taxel that reads this or less is at rest, and never stuck.
+        rest: A taxel that reads this or less is never stuck.
 
     Returns:
-        Mask (frames, n): stuck at that frame.
+        The mask.
 
     Raises:
         InputError: If times, `hold` or readings are not valid.
@@ -192,22 +187,13 @@ def fill_from_neighbours(
         layout: The sole, n taxels.
         values: Readings (n,) or (frames, n); never changed.
         faulty: Mask (n,) or of the shape of `values`: the taxels to fill.
-        per_area: Average values per area, right for forces on cells of different size: force_i = A_i * mean(force_j /
-            A_j).
+        per_area: Average values per area, right for forces on cells of different size.
 
     Returns:
         Readings in the shape of `values`.
 
     Raises:
         ReadingError: If the number of taxels is not that of the layout, or the mask does not fit the readings.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], clip=False)
-        >>> force = np.full(len(layout), 3.0)
-        >>> force[4] = np.nan
-        >>> bool((fill_from_neighbours(layout, force, np.isnan(force)) == 3.0).all())
-        True
     """
     out = taxel_frames(layout, values, "readings").copy()
     bad = mask(faulty, "mask of faulty taxels", (...,), ReadingError)

@@ -76,7 +76,7 @@ class BodySkin:
     """All taxels of a body in one order, link by link, so that a link's taxels are one slice.
 
     Args:
-        patches: The patches, any number a link.
+        patches: The patches, any number a link; a LayoutError for none, or two of one name.
 
     Attributes:
         patches: The patches, sorted by link.
@@ -84,14 +84,11 @@ class BodySkin:
         link_of: Index (N,) of each taxel's link in `links`.
         slices: Taxels of each patch by its name.
         positions: Taxel positions (N, 3) in their link's frame in m.
-        normals: Direction (N, 3) into the body in the link's frame: that of a force on the taxel.
+        normals: Direction (N, 3) into the body in the link's frame.
         areas: Taxel areas (N,) in m^2.
         thresholds: Force threshold (N,) in N.
         ranges: Proximity range (N,) in m.
         unit_wrenches: Wrench (N, 6) about the link's origin of 1 N on each taxel (T 3.16), in the link's frame.
-
-    Raises:
-        LayoutError: If there is no patch, or two have one name.
     """
 
     def __init__(self, patches: Sequence[SkinPatch]) -> None:

@@ -1,9 +1,8 @@
 """The net wrench about a point of all that touches a body, or is about to, from every taxel of its skin (K 2-5).
 
-A taxel counts if it measures force OR proximity (K 2, corrected: with the printed AND none counts before a touch). Its
-pseudo-force is its force plus a share of its proximity (K 3), so a push is answered just before it arrives; wrenches
-are summed taxel by taxel, link by link, about the point, with K the CoM (K 4-5). K's taxels deliver a share of full
-scale, which its weight of 99 turns into newtons; a `SkinReading` is in newtons.
+A taxel counts if it measures force OR proximity (K 2, corrected: printed AND). Its pseudo-force is its force plus a
+share of its proximity (K 3), so a push is answered just before it arrives. K's taxels deliver a share of full scale,
+which its weight of 99 turns into newtons; a `SkinReading` is in newtons.
 """
 
 from __future__ import annotations
@@ -56,8 +55,7 @@ def net_wrench(
     Args:
         skin: The skin.
         reading: One reading of it; NaN for a silent taxel.
-        poses: Origin (3,) in the world in m and rotation (3, 3) to the world of each link that has skin, by name; links
-            with silent taxels alone may be left out.
+        poses: Origin (3,) in m and rotation (3, 3) to the world of each link that has skin and measures.
         point: Point (3,) in the world in m for moments, with K the CoM.
         rules: What counts.
 
@@ -72,8 +70,8 @@ def net_wrench(
         >>> inward = np.array([[[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]])  # z into the body: back to front
         >>> skin = BodySkin([SkinPatch("back", "torso", np.array([[-0.1, 0.0, 0.3]]), inward, np.array([1e-3]))])
         >>> torso = {"torso": (np.array([0.0, 0.0, 1.0]), np.eye(3))}
-        >>> pushed = SkinReading(0.0, np.array([40.0]), np.array([0.0]))
-        >>> net_wrench(skin, pushed, torso, [0.0, 0.0, 0.9], NetWrenchRules(proximity_force=0.0)).wrench.tolist()
+        >>> pushed = SkinReading(0.0, np.array([40.0]), np.array([np.inf]))
+        >>> net_wrench(skin, pushed, torso, [0.0, 0.0, 0.9], NetWrenchRules()).wrench.tolist()
         [-40.0, 0.0, 0.0, 0.0, -16.0, 0.0]
     """
     about = array(point, "point", (3,), ReadingError, finite=True)

@@ -44,14 +44,11 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
     """Inverse measure rho = d_range - d of a proximity sensor, saturated at both ends (T 3.30, T 4.2.6).
 
     Args:
-        distance: Distances (..., n) in m; inf out of range, NaN for a dead taxel.
+        distance: Distances (..., n) in m.
         sensing_range: Range d_range of the sensors in m, above 0.
 
     Returns:
         Measures (..., n) in m: 0 out of range and for a dead taxel, `sensing_range` at contact (d <= 0), never NaN.
-
-    Raises:
-        InputError: If the distances are not numeric, or the range is not a finite value above 0.
     """
     reach = number(sensing_range, "sensing range", nan=True)
     if not 0.0 < reach < math.inf:
@@ -63,17 +60,15 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
 
 
 def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
-    """Taxels nearer to a surface than a threshold: d < epsilon_p (T 4.2.7 corrected; printed d > epsilon_p).
+    """Mask (..., n) of taxels nearer to a surface than a threshold: d < epsilon_p (T 4.2.7 corrected; printed d >
+    epsilon_p).
 
     Args:
-        distance: Distances (..., n) in m; inf out of range, NaN for a dead taxel.
+        distance: Distances (..., n) in m.
         threshold: Threshold epsilon_p in m.
 
     Returns:
-        Mask (..., n).
-
-    Raises:
-        InputError: If the distances are not numeric, or the threshold is not a number.
+        The mask.
     """
     return np.asarray(numbers(distance, "distances") < number(threshold, "threshold of proximity"))
 
@@ -96,15 +91,15 @@ def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
 
 
 def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float) -> NDArray[np.float64]:
-    """Preemptive support polygon: convex hull of the cells nearer than a threshold (T 4.2.7 corrected).
+    """Preemptive support polygon (k, 2) in the sole frame in m: convex hull of the near cells (T 4.2.7 corrected).
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (n,) in m; inf out of range, NaN for a dead taxel.
+        distance: Distances (n,) in m.
         threshold: Threshold epsilon_p in m.
 
     Returns:
-        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty if none is near.
+        The polygon, counter-clockwise; empty if none is near.
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
@@ -129,20 +124,19 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (n,) in m; inf out of range, NaN for a dead taxel.
+        distance: Distances (n,) in m.
         heights: Thresholds epsilon_p in m, in any order.
 
     Returns:
         A contour a height, lowest first, each including the lower ones; read-only.
 
     Raises:
-        InputError, ReadingError: If an argument is not valid.
+        ReadingError, InputError: If an argument is not valid.
 
     Example:
         >>> from plantar import hex_layout
         >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], clip=False)
-        >>> stack = height_contours(layout, 0.1 * layout.positions[:, 0], [0.005, 0.01, 0.02])
-        >>> [int(contour.taxels.sum()) for contour in stack]
+        >>> [int(c.taxels.sum()) for c in height_contours(layout, 0.1 * layout.positions[:, 0], [0.005, 0.01, 0.02])]
         [5, 11, 20]
     """
     levels = contour_levels(heights)

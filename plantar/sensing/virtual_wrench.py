@@ -39,13 +39,6 @@ def virtual_ground_reaction_wrench(
 
     Raises:
         ReadingError, InputError: If an argument is not valid.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], clip=False)
-        >>> wrench = virtual_ground_reaction_wrench(layout, np.full(len(layout), 0.03), gain=50.0, sensing_range=0.05)
-        >>> bool(abs(wrench[2] - len(layout)) < 1e-9), wrench[:2].tolist()
-        (True, [0.0, 0.0])
     """
     readings = taxel_frames(layout, distance, "distances")
     reach = layout.proximity_range if sensing_range is None else sensing_range

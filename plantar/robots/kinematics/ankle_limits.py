@@ -55,15 +55,11 @@ def ankle_limits(
 
 
 def _knee_strip(places: NDArray[np.float64], reach: float, crouch: float) -> list[float]:
-    """Strip of the sole, across it, in which the knee is within its limit.
+    """Strip of the sole, across it, in which the knee's lever is at most `reach` in m.
 
     With the hip above p and the ankle at a the knee is a share s of the way from a to p, and k ahead of that line, the
-    height of the triangle of thigh and shank. Its lever is |p - (a + s (p - a) + k)| <= r.
-
-    Args:
-        places: Hip, knee and ankle (3, 2), along and above the sole, in m.
-        reach: The lever r in m at which the weight reaches the knee's limit.
-        crouch: How much nearer in m the hip is to the ankle.
+    height of the triangle of thigh and shank: |p - (a + s (p - a) + k)| <= r. `places` (3, 2) are hip, knee and ankle
+    in m.
     """
     (hip, knee, ankle), up = places, places[0] - places[2]
     thigh, shank = float(np.linalg.norm(hip - knee)), float(np.linalg.norm(knee - ankle))

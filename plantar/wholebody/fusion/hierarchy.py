@@ -71,15 +71,14 @@ def fuse(
         robot: Kinematics and dynamics of this instant.
         levels: Demands of the tasks, the highest priority first; None for a task without one.
         support: Rows of the support, above all levels; needed where the base is not driven.
-        external: Known generalized force (n,), such as J^T w of the skin, which joints and support need not produce.
+        external: Known generalized force (n,), such as J^T w of the skin.
         split: How joints and support share the load; `joint_torques` if None.
 
     Returns:
         Torques, acceleration and support force.
 
     Raises:
-        InputError: If a demand has neither force nor acceleration, rows of another length, or the mass matrix is not
-            positive definite.
+        InputError: If a demand is not complete, or the mass matrix not positive definite.
     """
     every = [[d for d in level if d is not None] for level in ([support], *levels)]
     asked = [level for level in every if level]
