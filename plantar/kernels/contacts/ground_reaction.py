@@ -20,9 +20,7 @@ class GroundReaction:
 
     Attributes:
         loads: Vertical force in N on each foot.
-        found: Whether there is a ZMP.
-        x: The ZMP in m; NaN without.
-        y: The same.
+        found: Whether there is a ZMP, at x, y in m.
         margin: Signed distance in m of the ZMP to the support's edge, positive inside; NaN without.
     """
 

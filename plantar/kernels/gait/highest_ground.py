@@ -22,8 +22,7 @@ def highest_plane(x, y, distance, readings, noise, least, used, plane):
     above.
 
     Args:
-        x: Taxels (n,) in the sole frame in m.
-        y: The same.
+        x: Taxels (n,) in the sole frame in m; y likewise.
         distance: Distances (n,) of the ground in m; inf or NaN without.
         readings: Number of readings (n,) behind each, 1 or more.
         noise: Standard deviation of a reading in m.

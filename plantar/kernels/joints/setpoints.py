@@ -12,24 +12,21 @@ _NONE = float("nan")
 class Setpoints:
     """The set-points of k joints, which move on between control ticks without a jump.
 
-    A tick replaces their goal; the written set-points follow it by a critically damped low pass of second order.
-    Without lag they would have to move at 1.2 times a joint's speed limit to catch up.
+    They follow their goal by a critically damped low pass of second order; without lag they would have to move at 1.2
+    times a joint's speed limit to catch up.
 
     Args:
-        controls: Set-points (n,) of all servos, which the simulator reads.
+        controls: Set-points (n,) of all servos, read by the simulator.
         servos: Index (k,) of each joint's servo there.
         stiffness: Position gains (k,) in N m/rad.
         damping: Gains (k,) in N m s/rad of servo and joint.
         per_way: One over the largest change (k,) of a set-point in a control period in 1/rad; empty without limits.
-        period: Control period in s.
-        step: Period in s of `advance`.
+        period: Control period in s; `step` that of `advance`.
         share: Share of its way that each stage of the low pass moves in a step, above 0 to 1.
-        joints: Desired joint angles (k,) in rad, written by the caller.
-        torques: Torques (k,) in N m that hold them, likewise.
+        joints: Desired joint angles (k,) in rad, and the `torques` (k,) in N m that hold them, written by the caller.
 
     Attributes:
-        reference: Desired joint angles (k,) in rad; NaN before the first ones.
-        velocity: Their rates (k,) in rad/s.
+        reference: Desired joint angles (k,) in rad; NaN before the first ones; `velocity` their rates in rad/s.
         goal: Set-points (k,) in rad with which the joints follow the reference.
         setpoint: Written set-points (k,) in rad.
     """

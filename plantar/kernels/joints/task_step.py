@@ -14,17 +14,13 @@ class NewtonStep:
 
     Args:
         columns: Velocities (n,) that a step may use.
-        row_units: Factor (m,) of each row of error and Jacobian.
-        column_units: Factor (nv,) of each column of the Jacobian and velocity.
-        movable: Entries (k,) of a step that move a joint.
-        places: Indices (k,) of these joints in the configuration.
-        middle: Middle of each joint's range (k,).
-        half: Half of that range (k,); inf without one.
+        row_units: Factor (m,) of each row of error and Jacobian; `column_units` (nv,) of each column and velocity.
+        movable: Entries (k,) of a step that move a joint; `places` (k,) their joints in the configuration.
+        middle: Middle of each joint's range (k,); `half` of it, inf without one.
         diagonal: Term on the diagonal.
         least_pivot: Least Cholesky pivot of a valid step.
         given: Jacobian (m, nv) and error (m,) in m and rad, and configuration (nq,), written by the caller.
-        jacobian: Receives the Jacobian (m, n) in units.
-        step: Receives the step (n,) in units.
+        jacobian: Receives the Jacobian (m, n) in units; `step` (n,) the step.
         velocity: Receives the step (nv,) in m and rad.
     """
 

@@ -9,20 +9,16 @@ class JointExtremes:
     """Follows k joints, physics step by physics step.
 
     Args:
-        speeds: Speeds (n,) of all joints in rad/s, updated by the simulator.
-        places: Index of each joint's speed there (k,).
+        speeds: Speeds (n,) of all joints in rad/s, updated by the simulator; `places` (k,) the joints' indices there.
         per_speed: One over each joint's speed limit (k,) in s/rad; 0 for none.
-        torques: Torques (m,) of all servos in N m, updated by the simulator.
-        servos: Index of each joint's torque there (k,).
+        torques: Torques (m,) of all servos in N m, likewise; `servos` (k,) the joints' indices there.
         per_torque: One over each joint's torque limit (k,) in 1/(N m); 0 for none.
 
     Attributes:
         steps: Number of steps.
-        high: Largest speed (k,) in rad/s, 0 at least.
-        low: Least speed (k,) in rad/s, 0 at most.
+        high: Largest speed (k,) in rad/s, 0 at least; `low` the least one, 0 at most.
         longest: Most steps in a row (k,) above the speed limit.
-        held: Steps (k,) at the torque limit.
-        any_held: Steps with any joint at the torque limit.
+        held: Steps (k,) at the torque limit; `any_held` those of any joint.
         stays: Each past stay at the torque limit: joint, first and last step, counted from 1.
     """
 

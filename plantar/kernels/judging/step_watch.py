@@ -23,17 +23,12 @@ class StepWatch:
     """Follows two feet, the trunk, the legs and the joints, in arrays that the simulator updates.
 
     Args:
-        reaction: `GroundReaction` of both feet.
-        stands: `StandWatch` of both feet.
-        joints: `JointExtremes` of the legs.
-        stance: `StanceForce` of both feet.
+        reaction: `GroundReaction` of both feet; `stands`, `joints` and `stance` follow them.
         upright: Rotation (9,) of the torso, row by row.
         center: CoM (3,) in m.
-        places: Origins (3,) of the left and the right sole in m.
-        turns: Rotations (9,) of both soles.
+        places: Origins (3,) of the left and the right sole in m; `turns` their rotations (9,).
         legs: A number (1,), above 0 where the legs touch each other.
-        warnings: The simulator's warning counts.
-        divergence: Indices of the warnings of a diverged state.
+        warnings: The simulator's warning counts; `divergence` the indices of a diverged state.
         least: Vertical ground force in N from which a foot touches the ground.
         windows: Steps in the air before a touch is a landing, after it for its impact, and for its contact area.
         fallen: Cosine of the torso's tilt, and height in m of the CoM above the lower sole, below which it has fallen.

@@ -17,19 +17,15 @@ class SoleRays:
     """The rays of n taxels, cast from the sole's current pose.
 
     Args:
-        starts: Where the rays begin (n, 3) in the sole frame in m.
-        ways: Unit vectors (n, 3) along them.
+        starts: Where the rays begin (n, 3) in the sole frame in m, along unit vectors `ways` (n, 3).
         lift: How far in m a ray begins inside the sole.
         most: Range of the sensors in m.
-        origin: The sole's origin (3,) in the world in m, written by the simulator.
-        rotation: Rotation (3, 3) from the sole to the world, likewise.
+        origin: The sole's origin (3,) in the world in m, and its `rotation` (3, 3), written by the simulator.
         solids: Rows, kinds, sizes and bounds of the solids, as in `cast_rays`.
-        positions: Middles (m, 3) of all solids in the world in m, written by the simulator.
-        frames: Rotations (m, 9) from each solid to the world, likewise.
+        positions: Middles (m, 3) of all solids in the world in m, and their `frames` (m, 9), likewise.
 
     Attributes:
-        starts: Where the last rays began (n, 3) in the world in m.
-        ways: Unit vectors (n, 3) along them in the world.
+        starts: Where the last rays began (n, 3) in the world in m; `ways` (n, 3) along them.
         lengths: Their lengths (n,) in m; below 0 without a hit.
         distances: Distance (n,) from each taxel to the ground in m; inf out of range.
     """
