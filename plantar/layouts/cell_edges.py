@@ -22,8 +22,8 @@ WELD = 1e-6
 def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTable | None:
     """Table of the directed edges of cells that tile a part of the plane.
 
-    Corners of cells that share no vertices are one within WELD of a typical edge; an edge is cut where the corner of
-    another cell is on it.
+    Corners of cells that share no vertices are one within WELD of a typical edge; an edge is cut where another cell's
+    corner is on it.
 
     Args:
         vertices: Corner points (v, 2) in m.

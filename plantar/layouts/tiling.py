@@ -45,15 +45,14 @@ def hex_layout(
         origin: Center of lattice cell (0, 0) in m.
         angle: Rotation of the lattice rows against x in rad.
         clip: Cut cells that cross the outline; False keeps whole cells inside only.
-        minimum_fraction: Least fraction inside of a kept cut cell, 0..1; at least a thousandth. Of a cell cut in
-            several parts, the largest counts.
+        minimum_fraction: Least fraction inside of a kept cut cell, a thousandth to 1; the largest part of one counts.
         cells: Axial coordinates (m, 2) to use instead; kept whole, even across the outline.
 
     Returns:
         The layout; a clipped cell's position is its centroid.
 
     Raises:
-        LayoutError, InputError: If an argument is not valid.
+        LayoutError, InputError: If an argument is not valid, or no cell fits, or more than MOST_TAXELS would.
 
     Example:
         >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)

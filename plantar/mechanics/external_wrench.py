@@ -24,17 +24,16 @@ __all__ = ["external_acceleration", "push_of_dcm", "vrp_offset"]
 
 
 def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0) -> NDArray[np.float64]:
-    """Offset u_w = u_F + u_tau of the VRP by a wrench on the body: u = u_ref - u_w (K 9-11 corrected).
+    """Offset u_w = u_F + u_tau (..., 2) in m of the VRP by a wrench on the body: u = u_ref - u_w (K 9-11 corrected).
 
     Args:
-        wrench: Wrench (..., 6) about the CoM in axes with z up in N and N m, by the world on the robot; NaN or inf give
-            such an offset.
+        wrench: Wrench (..., 6) about the CoM in axes with z up in N and N m, by the world on the robot.
         mass: Mass of the robot in kg, above 0.
         omega: Pendulum frequency sqrt(g / z) in rad/s, above 0.
         virtual_mass: nu of K 10-11: share of the mass that answers a push; a smaller one yields more.
 
     Returns:
-        Offset (..., 2) in m: the ZMP at which the wrench would not accelerate the CoM.
+        The ZMP at which the wrench would not accelerate the CoM.
 
     Raises:
         InputError: If the wrench is not (..., 6) numbers, or another argument not a finite number above 0.

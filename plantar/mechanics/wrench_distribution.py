@@ -7,9 +7,8 @@ the world frame and e = sum J_i w_i - w_d the error of the net wrench, it minimi
 
 with m_i the moment (x, y) about the preferred center of pressure of contact i, s_i its wanted share of the normal
 force, forces in body weights and moments in body weights times 0.1 m. By Lagrange's identity the sum over pairs is
-|s|^2 |fz|^2 - (s . fz)^2: 0 where the normal forces are in the wanted proportion; of two feet the ((1 - r) fz_1 - r
-fz_2)^2 of Caron et al. Each w_i stays in its wrench cone, its normal force at or above a minimum. As cones are in the
-contact frames, results do not depend on where the robot is.
+|s|^2 |fz|^2 - (s . fz)^2; of two feet the ((1 - r) fz_1 - r fz_2)^2 of Caron et al. Each w_i stays in its wrench cone,
+its normal force at or above a minimum. As cones are in the contact frames, results do not depend on the place.
 """
 
 from __future__ import annotations
@@ -239,19 +238,16 @@ class WrenchDistribution:
         point: NDArray[np.float64] | Sequence[float],
         shares: Mapping[str, float] | None = None,
     ) -> Program:
-        """A copy of the program that `solve` solves, to check it with other solvers.
+        """A copy of the program that `solve` solves, with its arguments, to check it with other solvers.
 
         Args:
-            contacts: One or more contacts.
-            wrench: As in `solve`.
-            point: As in `solve`.
-            shares: As in `solve`.
+            contacts: One or more contacts; `wrench`, `point` and `shares` as in `solve`.
 
         Returns:
             Its matrices.
 
         Raises:
-            InputError: If there is no contact, the shares are not theirs, or the request is invalid.
+            InputError: If an argument is not valid.
         """
         if not contacts:
             raise InputError("a wrench distribution without contacts has no program; allowed: one contact or more")

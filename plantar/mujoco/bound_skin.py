@@ -29,15 +29,15 @@ _MOST_DATA = 4096
 
 
 class SkinReading(Reading):
-    """A `Reading` with what only a simulation knows of a contact. All in the sole frame; n taxels.
+    """A `Reading` with what only a simulation knows of a contact, in the sole frame; n taxels.
 
     Attributes:
-        force: Force (n,) along each taxel's axis in N, as in every `Reading`.
-        vectors: Force (n, 3) on each taxel in N; their sum and moment are those of `wrench` where `carried`.
+        force: Force (n,) along each taxel's axis in N.
+        vectors: Force (n, 3) on each taxel in N.
         wrench: Wrench (6,) of MuJoCo's contacts on the body about the sole frame's origin in N and N m.
         depth: Overlap (n,) of the geoms at each taxel in m, 0 elsewhere.
-        carried: Whether the taxels have the whole wrench. False where its center of pressure is beyond the outermost
-            taxels, or the contacts pull: then the forces add up to the load alone.
+        carried: Whether the vectors have the whole wrench. False where its center of pressure is beyond the outermost
+            taxels, or the contacts pull: then they add up to the load alone.
     """
 
     vectors: NDArray[np.float64]

@@ -44,8 +44,8 @@ class Skin:
     Args:
         layout: Layout, or path of a layout file; None fits hexagons to the body's shapes.
         body: Name of the body, for example "left_ankle_roll_link".
-        geoms: Names of the geoms that can touch; every colliding one of the body and of parts fixed to it if None.
-        site: Name of a site that is the sole frame; it is checked against the shapes.
+        geoms: Names of the geoms that can touch; all colliding ones of the body and of parts fixed to it if None.
+        site: Name of a site that is the sole frame; checked against the shapes.
         outward: Direction (3,) of the sole in the body's frame; down in the reference pose if None.
         forward: Forward direction (3,) in the body's frame; the world's x in the reference pose if None.
         cell_area: Area of a fitted cell in m^2; if None 691 mm^2, or a thirtieth of a small sole.

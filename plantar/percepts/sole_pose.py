@@ -138,7 +138,7 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
         Wrench (6,) or (frames, 6) in the world frame in N and N m, by the world on the robot.
 
     Raises:
-        InputError: If there are not as many poses as wrenches, or none, or one is of another shape or class.
+        InputError: If an argument is not valid.
     """
     return np.asarray(sum(_turned(wrenches_in_sole, poses)))
 
@@ -156,21 +156,21 @@ def _turned(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) ->
 def zmp_of_soles(
     wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose], height: float = 0.0, minimum_force: float = 0.0
 ) -> NDArray[np.float64] | None:
-    """Composite ZMP of the soles in a horizontal plane of the world (T 4.7-4.8), also tilted or at different heights.
-
-    A sole that pulls is left out.
+    """Composite ZMP (2,) of the soles in a horizontal plane of the world in m (T 4.7-4.8), also tilted or at different
+    heights.
 
     Args:
-        wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air.
+        wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air; a pull is left
+            out.
         poses: Pose of each sole.
         height: Height of the plane in the world in m.
         minimum_force: Vertical force in N below which there is no ZMP; any load counts by default.
 
     Returns:
-        Position (2,) in the world frame in m, or None without load.
+        The ZMP, or None without load.
 
     Raises:
-        InputError: If the wrenches are not (6,) numbers, one a pose, or height or least force not a number.
+        InputError: If an argument is not valid.
 
     Example:
         >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]
