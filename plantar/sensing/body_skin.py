@@ -20,17 +20,15 @@ __all__ = ["active_cells", "patch_signal", "pseudo_force", "skin_wrench"]
 def active_cells(
     force: ArrayLike, proximity: ArrayLike, force_threshold: float, proximity_threshold: float
 ) -> NDArray[np.bool_]:
-    """Cells with force OR proximity above a threshold (K 2 corrected: with the printed AND, none is active before a
-    touch).
+    """Mask (..., n) of cells with force OR proximity above a threshold (K 2 corrected; printed AND).
 
     Args:
         force: Force signals (..., n), in N or normalised.
         proximity: Proximity signals (..., n), larger when nearer.
-        force_threshold: epsilon_force in the unit of `force`.
-        proximity_threshold: epsilon_prox in the unit of `proximity`.
+        force_threshold: epsilon_force in the unit of `force`; `proximity_threshold` likewise.
 
     Returns:
-        Mask (..., n); a signal that is NaN, inf or beyond `LARGEST` does not count.
+        The mask; a signal that is NaN, inf or beyond `LARGEST` does not count.
 
     Raises:
         ReadingError, InputError: If an argument is not valid.

@@ -30,7 +30,7 @@ class IdentifiedFaults(NamedTuple):
 
     Attributes:
         worn: The taxels' own faults, to apply to other forces; without noise.
-        faults: Their statistics, to draw other soles of the kind (`TaxelFaults.worn`).
+        faults: Their statistics, to draw other soles of the kind.
         gain_error: Standard error (n,) of each gain; NaN for dead taxels.
         residual: Root mean square (n,) in N of each taxel's error after the fit.
     """

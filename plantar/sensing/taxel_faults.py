@@ -100,9 +100,7 @@ class WornFaults:
     Args:
         layout: The sole, n taxels.
         faults: Hysteresis, crosstalk, shear, noise, resolution and delay of all taxels.
-        gains: Gain (..., n) of each taxel.
-        offsets: Zero (..., n) in N.
-        drifts: Final drift (..., n) of the zero in N.
+        gains: Gain (..., n) of each taxel; `offsets` its zero in N, `drifts` the final drift of that.
         dead: Whether each taxel (..., n) is dead.
         rng: Source of the noise; None without noise (else an InputError).
 
@@ -110,8 +108,8 @@ class WornFaults:
         >>> from plantar import hex_layout
         >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
         >>> worn = TaxelFaults(hysteresis=0.2).worn(layout)
-        >>> float(worn.read(0.0, np.full(len(layout), 10.0))[0]), float(worn.read(0.1, np.full(len(layout), 8.0))[0])
-        (8.0, 8.0)
+        >>> [float(worn.read(t, np.full(len(layout), f))[0]) for t, f in ((0.0, 10.0), (0.1, 8.0))]
+        [8.0, 8.0]
     """
 
     def __init__(

@@ -17,7 +17,7 @@ __all__ = ["temperature_footprint", "temperature_measure", "temperature_wrench",
 
 
 def temperature_measure(temperature: ArrayLike, threshold: float, highest: float = math.inf) -> NDArray[np.float64]:
-    """Excess kappa of each taxel over a threshold (T 3.34).
+    """Excess kappa (..., n) in K of each taxel over a threshold (T 3.34): 0 below and for a dead taxel, never NaN.
 
     Args:
         temperature: Temperatures (..., n) in degC; NaN or inf for a dead taxel.
@@ -25,10 +25,10 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
         highest: Upper end of the sensors' range in degC, where readings are cut.
 
     Returns:
-        Excess (..., n) in K: 0 below the threshold and for a dead taxel, never NaN.
+        The excess.
 
     Raises:
-        InputError: If the temperatures are not numeric, the threshold not finite, or the range not a number.
+        InputError: If an argument is not valid.
     """
     readings = numbers(temperature, "temperatures")
     level = number(threshold, "threshold of temperature", finite=True)

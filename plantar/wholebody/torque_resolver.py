@@ -68,7 +68,7 @@ class TorqueResolver:
         self._state: SetPoint | None = None
 
     def step(self, robot: RobotDynamics, torque: NDArray[np.float64], period: float) -> SetPoint:
-        """Move the virtual robot by the torques for one control period; the first call starts from the real robot's
+        """Set-points after the torques have moved the virtual robot for one control period, at first from the real
         state.
 
         Args:
@@ -77,7 +77,7 @@ class TorqueResolver:
             period: Control period in s.
 
         Returns:
-            Set-points of the servos.
+            The set-points.
         """
         s, joints = self.settings, robot.joints
         measured, position = robot.velocity[joints], robot.joint_positions

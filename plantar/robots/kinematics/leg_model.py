@@ -154,15 +154,13 @@ class LegModel:
     ) -> tuple[NDArray[np.float64], float]:
         """Joint angles for CoM, torso orientation and both soles: Newton steps from the last solution.
 
-        The 18 task rows (CoM 3, torso 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped; the 16 of one
-        whose legs have five joints leave the soles' roll to the ground. For limits see
-        `plantar.robots.kinematics.inverse_kinematics`.
+        The 18 task rows (CoM 3, torso 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped; legs of five
+        joints leave the soles' roll to the ground. For limits see `plantar.robots.kinematics.inverse_kinematics`.
 
         Args:
             com: CoM (3,) in the world frame in m.
             rotation_torso: Rotation (3, 3) from the torso to the world frame.
-            positions: Sole frame origin (3,) of each foot in m.
-            rotations: Rotation (3, 3) from each sole to the world frame.
+            positions: Sole frame origin (3,) of each foot in m; `rotations` (3, 3) to the world.
             iterations: Newton steps.
             yielding: Feet that miss their targets first: the unloaded ones.
             largest_step: Largest change of a joint in rad, or of the base in units of length or rad, in a step.

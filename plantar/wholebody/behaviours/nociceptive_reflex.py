@@ -34,8 +34,7 @@ class NociceptiveReflex:
         settings: When it begins and ends.
 
     Attributes:
-        active: Whether the reflex counts.
-        levels: The current levels.
+        active: Whether the reflex counts; `levels` the current ones.
     """
 
     def __init__(

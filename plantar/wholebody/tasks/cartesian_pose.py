@@ -47,8 +47,7 @@ class CartesianPose(Task):
     Attributes:
         target_position: Wanted position (3,) in the world in m; the first one until set.
         target_rotation: Wanted rotation (3, 3) to the world; likewise.
-        target_velocity: Wanted linear velocity (3,) in m/s.
-        target_acceleration: Wanted linear acceleration (3,) in m/s^2.
+        target_velocity: Wanted linear velocity (3,) in m/s; `target_acceleration` in m/s^2.
     """
 
     def __init__(

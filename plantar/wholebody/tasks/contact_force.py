@@ -48,11 +48,9 @@ class ContactForce(Task):
 
     Attributes:
         weight: w of A 6: 0 holds the distance, 1 the force.
-        target_force: f_d in N.
-        target_distance: d_d in m.
+        target_force: f_d in N; `force` f_c of the last demand.
+        target_distance: d_d in m; `distance` the mean of the taxels in range in the last demand, inf without.
         approach_speed: Speed in m/s without contact: the error is bounded to D v / K. Infinite at first.
-        force: f_c of the last demand in N.
-        distance: Mean distance in m of the taxels in range in the last demand; inf without.
     """
 
     def __init__(
