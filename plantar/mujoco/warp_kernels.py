@@ -87,12 +87,8 @@ class Work:
 
 @_kernel
 def gather(sole: Sole, contacts: Contacts, work: Work):
-    """Add each contact of the sole to its world's list, in the sole frame; one thread a contact.
-
-    Args:
-        sole: The sole.
-        contacts: Contacts of all worlds.
-        work: Receives the lists.
+    """Add each of the `contacts` of all worlds to the lists of the `sole` in `work`, in its frame; one thread a
+    contact.
     """
     i = wp.tid()
     if i >= contacts.count[0]:
@@ -413,9 +409,7 @@ def _shear(sole: Sole, work: Work, w: wp.int32, force: wp.vec3d, about_z: wp.flo
 def press(sole: Sole, work: Work):
     """Spread the wrench of each world's contacts over the taxels; one thread a world.
 
-    Args:
-        sole: The sole.
-        work: Lists of `gather`; receives forces, wrench and whether it is carried.
+    `sole` is the sole; `work` has the lists of `gather` and receives forces, wrench and whether it is carried.
     """
     w = wp.tid()
     count = wp.min(work.size[w], work.gap.shape[1])

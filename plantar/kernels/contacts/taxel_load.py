@@ -70,12 +70,9 @@ class TaxelLoad:
         self.edges = np.zeros((2 * room + 2, 3))  # direction and length of each edge of the ring
 
     def press(self, contacts, seen, reach):
-        """Set the attributes from the contacts.
+        """Set the attributes from the sole's `FootContacts`, turned into its frame by `ContactsInSole`.
 
-        Args:
-            contacts: The sole's `FootContacts`.
-            seen: `ContactsInSole`, which turns them into the sole frame.
-            reach: Largest gap in m of a contact without load.
+        A contact without load counts up to a gap of `reach` in m.
         """
         count = self.areas.shape[0]
         for i in range(6):
