@@ -72,7 +72,7 @@ def test_chosen_model_on_other_layouts(layout: SoleLayout) -> None:
 
 
 @pytest.mark.parametrize("candidate", CANDIDATES, ids=lambda c: c.name)
-def test_rig_pushes_as_it_says(candidate: Candidate) -> None:
+def test_rig_pushes_as_wanted(candidate: Candidate) -> None:
     """Every candidate, at rest, shows the pushed wrench in MuJoCo's contacts and the normal force in its taxels."""
     sole = build_sole(candidate, LAYOUT, PLANE)
     rig = Rig(sole, LAYOUT)

@@ -20,7 +20,7 @@ from ...gait.analysis.test_report_in_browser import READABLE
 from ...html_text import addresses_of
 
 
-def test_the_page_is_whole_and_asks_nobody(exported: tuple[ShoeReport, Path]) -> None:
+def test_the_page_is_whole_and_needs_no_network(exported: tuple[ShoeReport, Path]) -> None:
     text = (exported[1] / "assembly.html").read_text()
     addresses = addresses_of(text)
     assert all(a.startswith(("#", "data:")) for a in addresses)

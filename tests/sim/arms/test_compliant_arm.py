@@ -49,7 +49,7 @@ def pressed(worn: WornArm, skin: bool = True, **settings: float) -> tuple[np.nda
     return settled(world, arm, reading, np.concatenate([force, moment]), link), torque
 
 
-def test_it_holds_its_posture_and_says_where_its_links_are(worn: WornArm) -> None:
+def test_it_holds_its_posture_and_returns_its_links(worn: WornArm) -> None:
     world = fixed_world(worn)
     arm = compliant(worn, world)
     turned = settled(world, arm, None, np.zeros(6), worn.links[0])

@@ -36,5 +36,5 @@ def test_time_counts_for_the_room_that_takes_it():
     assert abs(sum(rooms.shares.values()) - 1.0) < 1e-9
 
 
-def test_nobody_looked_is_no_share():
+def test_without_samples_there_is_no_share():
     assert RoomTimes().shares == {}

@@ -54,7 +54,7 @@ def test_physics_alone_is_less_than_the_run(row: SkipRow):
 
 
 @pytest.mark.long
-def test_a_motion_that_differs_is_told(row: SkipRow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_motion_that_differs_is_reported(row: SkipRow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     differs = replace(row, same_motion=False)
     monkeypatch.setattr(skipping, "compare_skipping", lambda scene, *_: {"flat": row, "beam": differs}[scene])
     told: list[float] = []
@@ -72,7 +72,7 @@ def test_a_motion_that_differs_is_told(row: SkipRow, tmp_path: Path, monkeypatch
 WATCHED = ("walk.begin=1", "steps=0", "walk.start=0.2", "walk.end=0.2", "walk.settle=0")
 
 
-def test_the_motion_is_the_same_with_and_without_what_nobody_asked_for():
+def test_the_motion_is_the_same_with_and_without_what_is_not_asked_for():
     runs = [WatchedSimulation(load_scene("flat", (*WATCHED, f"skip={skip}"), "h1"), 1) for skip in ("auto", "none")]
     summaries = [run.run() for run in runs]
     assert runs[0].motion == runs[1].motion

@@ -26,7 +26,7 @@ def scan(**settings):
     return Lidar(model, "base", LidarSettings(**settings), 0).scan(data)
 
 
-def test_nearest_point_of_each_thing_is_told():
+def test_nearest_point_of_each_thing_is_returned():
     points = scan(noise=0.0)
     assert len(points) == 2  # what is above the scan is not seen, nor the ground, nor the base itself
     post, wall = points[np.argsort(-points[:, 0])]

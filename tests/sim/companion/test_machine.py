@@ -87,21 +87,21 @@ def test_foreign_arm_needs_a_toml_alone(tmp_path):
         ("joints = 3", "[model] has an unknown key 'joints'"),
     ],
 )
-def test_bad_files_are_told_in_a_line(tmp_path, text, words):
+def test_bad_files_are_refused_in_a_line(tmp_path, text, words):
     with pytest.raises(RobotError) as error:
         machine(tmp_path, text)
     assert words in str(error.value)
     assert "\n" not in str(error.value)
 
 
-def test_model_that_mujoco_refuses_is_told_in_a_line(tmp_path):
+def test_model_that_mujoco_refuses_is_an_error_of_one_line(tmp_path):
     with pytest.raises(RobotError, match="cannot be read"):
         machine(tmp_path, model="<mujoco><worldbody><bodi/></worldbody></mujoco>")
     with pytest.raises(RobotError, match="ball joint"):
         machine(tmp_path, model=ARM.replace('type="slide" axis="1 0 0"', 'type="ball"'))
 
 
-def test_unknown_machine_is_told_with_those_that_there_are():
+def test_unknown_machine_is_refused_with_the_known_ones():
     with pytest.raises(RobotError, match=r"allowed: .*mobile-arm, planar-arm, table-arm"):
         load_machine("mobile-amr")
 

@@ -95,14 +95,14 @@ def test_settings_reach_every_table(scene):
         ({"control": {"period": 0}}, [], "[control] 'period' is 0"),
     ],
 )
-def test_bad_scenes_are_told_in_a_line(scene, source, settings, words):
+def test_bad_scenes_are_refused_in_a_line(scene, source, settings, words):
     with pytest.raises(SceneError) as error:
         scene(*settings, **source)
     assert words in str(error.value)
     assert "\n" not in str(error.value)
 
 
-def test_unknown_experiment_is_told_with_those_that_there_are():
+def test_unknown_experiment_is_refused_with_the_known_ones():
     with pytest.raises(SceneError, match="unknown experiment 'no-such'"):
         experiments.experiment_class("no-such")
 

@@ -140,7 +140,7 @@ def test_the_margin_is_that_of_the_drawn_polygon(run: Recording, drawn: dict[str
     assert compared > 0.9 * len(drawn["/scene/balance"])
 
 
-def test_footsteps_are_drawn_anew_with_each_change_which_the_log_explains(
+def test_footsteps_are_drawn_again_with_each_change_which_the_log_explains(
     run: Recording, drawn: dict[str, list[tuple[float, Any]]]
 ) -> None:
     _, first = drawn["/scene/footsteps"][0]
@@ -185,7 +185,7 @@ def test_the_layout_for_foxglove_names_what_recordings_hold(
             assert field in run.topics[topic].fields
 
 
-def test_a_change_is_told_with_its_reason_and_what_it_moved() -> None:
+def test_a_change_is_logged_with_its_reason_and_what_it_moved() -> None:
     before = Footstep("left", 0.6, 0.1)
     moved = MovedStep(3, 0.62, 0.095, 0.0, "ground refused", before), MovedStep(4, 0.9, -0.1, 0.0, "more", None)
     change = PlanChange("ground refused", 3, vrp=(0.5, 0.1), longer=-0.04)

@@ -48,7 +48,7 @@ def run() -> Recording:
     return Recording(Path("run.mcap"), layouts=load_robot("h1").layouts, topics=tables)
 
 
-def test_pushes_show_the_felt_force_beside_the_true_one_and_feet_only_while_they_stand(run: Recording) -> None:
+def test_pushes_show_measured_and_true_force_and_feet_only_while_they_stand(run: Recording) -> None:
     figure = draw_pushes(run)
     lines = {line.get_label(): line for line in figure.axes[0].lines}
     assert set(lines) == {"ZMP", "VRP, planned", "DCM", "CoM", "left foot", "right foot"}
@@ -58,7 +58,7 @@ def test_pushes_show_the_felt_force_beside_the_true_one_and_feet_only_while_they
     assert np.asarray(figure.axes[2].lines[0].get_ydata()).max() == 100.0
 
 
-def test_the_swing_figure_marks_when_somebody_pushed(run: Recording) -> None:
+def test_the_swing_figure_marks_pushes(run: Recording) -> None:
     figure = draw_swing(run)
     assert len(figure.axes) == 3
     (span,) = figure.axes[2].patches

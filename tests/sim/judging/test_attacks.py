@@ -176,7 +176,7 @@ def test_saying_so_does_not_make_a_walk_in_place_one_of_three_steps(reason: str)
     assert "steps" in criteria(summary)
 
 
-def test_a_moved_step_is_told_with_its_reason() -> None:
+def test_a_moved_step_is_reported_with_its_reason() -> None:
     summary = run_scene(load_scene("feasibility-2", ["settle=0.3"]))
     assert criteria(summary) == set()
     assert {(m["step"], m["reason"]) for m in summary["moved_steps"]} >= {(4, "foothold refused")}

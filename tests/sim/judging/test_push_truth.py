@@ -59,7 +59,7 @@ def test_small_pushes_keep_the_steps_and_large_ones_change_one(changes: list[flo
 
 
 @pytest.mark.parametrize("above", [-0.2, 0.0, 0.4])
-def test_a_pendulum_with_a_wrench_accelerates_as_the_corrected_sign_says(above: float) -> None:
+def test_a_pendulum_with_a_wrench_accelerates_by_the_corrected_sign(above: float) -> None:
     """Moments about the ZMP of an upright body, integrated here by themselves."""
     mass, height, zmp = 86.0, 0.83, np.array([0.02, -0.01])
     truth, step = PushTruth(mass, LEG), 0.005
@@ -103,7 +103,7 @@ def test_what_the_walk_itself_does_to_the_pendulum_is_taken_off(stride: float) -
     assert told["ratio"] == pytest.approx(1.0 if stride else 1.0 + of_the_walk / impulse, abs=0.01)
 
 
-def test_an_acceleration_that_nothing_explains_is_told() -> None:
+def test_an_unexplained_acceleration_is_reported() -> None:
     truth = PushTruth(86.0, LEG)
     for k in range(100):
         time = 0.005 * k

@@ -135,7 +135,7 @@ def moved_from(steps: tuple[Footstep, ...], first: int, dx: float, dy: float, re
     return [MovedStep(k, s.x + dx, s.y + dy, s.yaw, reason) for k, s in enumerate(steps) if k >= first]
 
 
-def test_a_walk_around_an_obstacle_counts_where_it_was_said_before() -> None:
+def test_a_walk_around_an_obstacle_counts_where_it_was_reported_before() -> None:
     walk = Walk()
     walk.land(STEPS[0])
     walk.land(STEPS[1])
@@ -149,7 +149,7 @@ def test_a_walk_around_an_obstacle_counts_where_it_was_said_before() -> None:
     assert [row["reason"] for row in walk.goal.summary()] == ["foothold refused"] * 4
 
 
-def test_what_is_said_after_the_foot_landed_does_not_count() -> None:
+def test_what_is_reported_after_the_foot_landed_does_not_count() -> None:
     walk = Walk()
     for k, step in enumerate(STEPS):
         walk.land(step, dx=0.1 if k >= 2 else 0.0)

@@ -45,7 +45,7 @@ class Compared(Simulation):
         self.compared += 1
 
 
-def test_a_hull_is_told_from_other_rings() -> None:
+def test_a_hull_is_distinguished_from_other_rings() -> None:
     square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
     assert is_hull(square, [*square, (0.5, 0.5), (0.5, 0.0)])
     assert not is_hull(square, [*square, (0.5, -1e-11)])

@@ -190,7 +190,7 @@ def test_corner_lifted_by_micrometres_still_supports() -> None:
 @pytest.mark.parametrize("cone", ["elliptic", "pyramidal"])
 @pytest.mark.parametrize("condim", [1, 3, 4, 6])
 @pytest.mark.parametrize("first", [False, True])
-def test_contacts_of_two_feet_are_what_mujoco_says_of_each(cone: str, condim: int, first: bool) -> None:
+def test_contacts_of_two_feet_are_mujocos_of_each(cone: str, condim: int, first: bool) -> None:
     model = foot_model(BLOCK, first=first, condim=condim)
     model.opt.cone = getattr(mujoco.mjtCone, f"mjCONE_{cone.upper()}")
     data = settled(model, 0.3, (20.0, 30.0, 0.0, 5.0, 8.0, 2.0))

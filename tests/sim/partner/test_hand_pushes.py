@@ -68,7 +68,7 @@ def test_a_push_away_from_the_last_one_stops_the_body() -> None:
     assert faces_of(hands.pushes) == ("front", "back")
 
 
-def test_taxels_feel_the_true_force_and_only_while_somebody_pushes() -> None:
+def test_taxels_measure_the_true_force_and_only_during_a_push() -> None:
     touch, _ = pushed((20.0, 0.0))
     skin, felt = touch.sensor.skin, []
     data = touch._world.data

@@ -59,7 +59,7 @@ def test_the_defaults_are_those_of_k_on_h1() -> None:
     assert given == pytest.approx((50.0, 60.0, 200.0, 0.1, 15.0), rel=2e-3)
 
 
-def test_it_moves_as_the_closed_form_says() -> None:
+def test_it_moves_by_the_closed_form() -> None:
     law, force, step = Impedance(FOLLOWER), 8.0, 1e-4
     m, d, k = FOLLOWER.virtual_mass, FOLLOWER.virtual_damping, FOLLOWER.virtual_stiffness
     decay, wave = d / (2.0 * m), math.sqrt(k / m - (d / (2.0 * m)) ** 2)

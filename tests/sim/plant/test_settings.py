@@ -38,7 +38,7 @@ def test_one_item_may_be_drawn_alone() -> None:
     assert [name for name in plant.items() if getattr(plant, name) == RANDOM] == ["crosstalk"]
 
 
-def test_a_scene_file_says_it_as_a_word_or_as_a_table(tmp_path: Path) -> None:
+def test_a_scene_file_states_it_as_a_word_or_as_a_table(tmp_path: Path) -> None:
     word, table = tmp_path / "word.toml", tmp_path / "table.toml"
     word.write_text('plant = "random"\n[walk]\nsteps = 2\n')
     table.write_text('[walk]\nsteps = 2\n[plant]\ndraw = "random"\nmass_ratio = 1.1\n')
@@ -71,7 +71,7 @@ def test_a_list_is_in_metres_or_in_shares_of_the_body() -> None:
         ("softness=1", 'a number 0 to 0.2 or "random"'),
     ],
 )
-def test_a_wrong_value_is_refused_in_one_line_that_says_what_is_allowed(setting: str, allowed: str) -> None:
+def test_a_wrong_value_is_refused_in_one_line_with_what_is_allowed(setting: str, allowed: str) -> None:
     with pytest.raises(SceneError) as refused:
         load_scene("flat", [setting])
     message = str(refused.value)

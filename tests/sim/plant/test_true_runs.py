@@ -32,7 +32,7 @@ def test_level_0_leaves_the_motion_as_it_is_to_the_last_bit(short_scene: Scene, 
     assert run_text(short_run[0]).find("true plant") < 0
 
 
-def test_a_plant_that_differs_is_told_and_moves_otherwise(short_run: tuple[Any, Path]) -> None:
+def test_a_plant_that_differs_is_reported_and_moves_otherwise(short_run: tuple[Any, Path]) -> None:
     settings = ["steps=4", "settle=1.0", "mass_ratio=1.05", "com_offset=[0, 0.002, 0]", "encoder_offset=random"]
     summary = run_scene(load_scene("flat", [*settings, "level=1"]), 0)
     assert set(summary["plant"]) == {"mass_ratio", "com_offset_m", "encoder_offsets_deg"}

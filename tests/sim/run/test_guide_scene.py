@@ -65,7 +65,7 @@ def test_an_arm_that_moves_has_its_skin_beside_that_of_the_trunk() -> None:
     assert simulation.touched.guide is None
 
 
-def test_nobody_guides_a_robot_whose_arms_do_not_move() -> None:
+def test_a_robot_whose_arms_do_not_move_is_not_guided() -> None:
     with pytest.raises(SceneError, match=r"way is above 0 and arm.side 'none'; allowed: with an arm that moves"):
         Simulation(load_scene("guide", ["arm.side=none"]))
 

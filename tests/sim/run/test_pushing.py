@@ -40,7 +40,7 @@ def test_a_push_by_a_velocity_goes_with_the_mass(world: World) -> None:
         assert float(np.linalg.norm(shove.impulse)) == pytest.approx(impulse)
 
 
-def test_no_impulse_pushes_nobody(world: World) -> None:
+def test_no_impulse_makes_no_push(world: World) -> None:
     pusher = Pusher(Push(), SCHEDULE, 0)
     world.data.time = 3.0
     pusher.apply(world)

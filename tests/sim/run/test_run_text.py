@@ -23,7 +23,7 @@ def test_a_completed_run_tells_no_fault(summary: dict[str, Any]) -> None:
     assert lines[-1].endswith("us (99 %)")
 
 
-def test_what_went_wrong_is_told(summary: dict[str, Any]) -> None:
+def test_what_went_wrong_is_reported(summary: dict[str, Any]) -> None:
     bad = summary | {
         "completed": False,
         "fell": True,
@@ -52,7 +52,7 @@ def test_what_went_wrong_is_told(summary: dict[str, Any]) -> None:
     assert text.endswith("\n  plots/feet.png")
 
 
-def test_pushes_and_the_ankles_are_told_where_there_are_any(summary: dict[str, Any]) -> None:
+def test_pushes_and_the_ankles_are_listed_where_there_are_any(summary: dict[str, Any]) -> None:
     assert "pushes" not in run_text(summary | {"balance": {}})
     balance = {
         "pushes": [{}, {}],

@@ -12,7 +12,7 @@ from plantar.sim.terrain import Beam
 
 
 @pytest.mark.parametrize("name", builtin_scenes())
-def test_every_built_in_scene_loads_and_says_what_it_is(name: str) -> None:
+def test_every_built_in_scene_loads_with_a_description(name: str) -> None:
     scene = open_scene(name)
     assert scene.name == name
     assert scene.description

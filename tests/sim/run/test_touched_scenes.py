@@ -10,7 +10,7 @@ from plantar.sim.run.runner import Simulation
 from plantar.sim.run.scene import load_scene
 
 
-def test_a_scene_in_which_nobody_touches_the_robot_has_neither_skin_nor_bodies_for_it() -> None:
+def test_a_scene_without_touch_has_neither_skin_nor_bodies_for_it() -> None:
     pushed, alone = Simulation(load_scene("push")), Simulation(load_scene("push-step", ["push.dv=0"]))
     for simulation in (pushed, alone):
         assert simulation.touch is None

@@ -11,7 +11,7 @@ from plantar.sim.run.scene import load_scene
 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
-def test_a_robot_walks_turns_and_stops_as_it_is_told(robot: str) -> None:
+def test_a_robot_walks_turns_and_stops_as_commanded(robot: str) -> None:
     commands = 'commands=[[0.0, 0.1, 0.05, 0.15], [7.2, "stop"]]'
     summary = run_scene(load_scene("stop", [commands, "settle=1.5"], robot))
     assert {r["criterion"] for r in summary["reasons"]} <= {"speed_ratio", "turn_ratio"}  # of so few steps

@@ -50,7 +50,7 @@ def test_flat_round_punch_has_its_pressure_at_the_edge() -> None:
     assert contact.forces[distance > 0.95 * radius].max() > 2.0 * contact.forces[inner].min()
 
 
-def test_a_sphere_meets_the_half_space_as_hertz_says() -> None:
+def test_a_sphere_meets_the_half_space_as_by_hertz() -> None:
     radius, modulus, force, side = 0.5, 1e6, 50.0, 0.002
     points = squares(0.034, side)
     compliance = influence(points, np.full(len(points), side), math.inf)

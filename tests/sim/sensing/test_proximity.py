@@ -95,7 +95,7 @@ def test_noise_bias_and_dead_taxels() -> None:
     assert (device.cast, device.skipped) == (200 * len(LAYOUT), 0)
 
 
-def test_a_sole_that_nobody_asks_about_costs_nothing_and_leaves_the_noise_in_step() -> None:
+def test_a_sole_that_is_not_asked_for_is_free_and_leaves_the_noise_in_step() -> None:
     data, sole = rig(PLANE)
     asked, plain = (ProximitySensor(sole, 2e-3, 0.0, np.random.default_rng(1)) for _ in range(2))
     everything = ProximitySensor(sole, 2e-3, 0.0, np.random.default_rng(1))

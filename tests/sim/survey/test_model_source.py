@@ -43,7 +43,7 @@ def urdf(limit: str, kind: str = "revolute") -> str:
 
 
 @pytest.mark.parametrize("limit", ['<limit effort="5" velocity="1"/>', '<limit lower="0" upper="0" effort="5"/>'])
-def test_a_joint_whose_limits_leave_no_range_is_held_and_told(tmp_path: Path, limit: str) -> None:
+def test_a_joint_whose_limits_leave_no_range_is_held_and_reported(tmp_path: Path, limit: str) -> None:
     file = tmp_path / "robot.urdf"
     file.write_text(urdf(limit))
     source = read_model(file, tmp_path)

@@ -15,7 +15,7 @@ SEEDS = range(60)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_a_biped_that_nobody_has_seen_is_found(seed: int, tmp_path: Path) -> None:
+def test_an_unseen_biped_is_found(seed: int, tmp_path: Path) -> None:
     truth = random_biped(seed, tmp_path)
     found = survey_model(truth.file, tmp_path)
     model = found.source.model

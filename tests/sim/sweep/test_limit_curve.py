@@ -41,7 +41,7 @@ def test_units_and_the_order_of_runs_do_not_matter() -> None:
     assert millimeters.limit == pytest.approx(1e3 * meters.limit, rel=1e-9)
 
 
-def test_no_run_says_nothing_and_equal_ends_put_the_limit_outside() -> None:
+def test_without_runs_the_limit_is_open_and_equal_ends_put_it_outside() -> None:
     nothing = limit_curve([], [], 0.0, 1.0)
     assert nothing.limit == pytest.approx(0.5)
     assert nothing.interval[0] < 0.0

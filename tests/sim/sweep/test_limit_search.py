@@ -117,7 +117,7 @@ def test_a_stopped_search_goes_on_with_the_runs_that_it_would_have_had() -> None
     assert len(wanted) == len(whole) - 17
 
 
-def test_a_limit_outside_of_the_range_is_told_as_none_after_a_few_runs() -> None:
+def test_a_limit_outside_of_the_range_is_none_after_a_few_runs() -> None:
     plan = search()
     rows = finished(plan, lambda run: outcome(run, 1e3, 3.0), 2)
     assert len(rows) < 25
@@ -138,7 +138,7 @@ def test_runs_that_could_not_be_count_for_nothing() -> None:
     assert len(told["errors"]) == sum(seed % 4 == 1 for _, seed in rows)
 
 
-def test_seeds_end_a_search_that_is_not_sure_yet_and_it_says_so() -> None:
+def test_seeds_end_a_search_that_is_not_sure_yet_and_that_is_reported() -> None:
     plan = search(seeds=12)
     rows = finished(plan, lambda run: outcome(run, 30.0, 8.0), 2)
     assert len(rows) == 12

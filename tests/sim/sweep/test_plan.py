@@ -68,6 +68,6 @@ def test_values_are_kept_in_one_form_and_lists_stay_whole() -> None:
     assert "size" in sweep.points()[1][0]
 
 
-def test_seeds_begin_where_they_are_told_to() -> None:
+def test_seeds_begin_at_the_first_seed() -> None:
     sweep = Sweep.from_texts("push", ["impulse=20,30"], 2, first_seed=1000)
     assert list(sweep.runs({})) == [((f"impulse={i}",), seed) for seed in (1000, 1001) for i in (20, 30)]

@@ -90,7 +90,7 @@ def test_rows_that_cannot_be_are_not_dropped_in_silence(
     assert (tmp_path / "results.csv").read_bytes() == data
 
 
-def test_another_sweep_or_results_of_nobody_are_refused(tmp_path: Path) -> None:
+def test_another_sweep_or_results_without_a_sweep_are_refused(tmp_path: Path) -> None:
     data = filled(tmp_path)
     with (
         pytest.raises(InputError, match="another sweep"),

@@ -13,7 +13,7 @@ RESULT = {
 }
 
 
-def test_each_point_says_what_was_completed_and_why_not():
+def test_each_point_lists_what_was_completed_and_why_not():
     assert sweep_text(RESULT, "push").splitlines() == [
         "impulse=20: 3 of 3 completed",
         "impulse=30: 1 of 4 completed; failed by: torque limit 2",
@@ -21,7 +21,7 @@ def test_each_point_says_what_was_completed_and_why_not():
     ]
 
 
-def test_an_error_is_told_once_with_its_count():
+def test_an_error_is_listed_once_with_its_count():
     assert sweep_errors(RESULT, "push") == ["impulse=30: 2 run(s) could not be: x"]
 
 

@@ -12,7 +12,7 @@ from plantar.sim.sweep.task import COLUMNS, Task, criteria_of, failed, run_one, 
 STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")
 
 
-def test_a_row_says_what_the_run_said() -> None:
+def test_a_row_holds_the_summary_of_the_run() -> None:
     row = run_one("flat", None, STANDING, 0)
     assert row["completed"] is True
     assert row["error"] == ""

@@ -47,7 +47,7 @@ def test_tasks_run_beside_one_another_and_no_more_than_there_is_room_for() -> No
     assert processes() == []
 
 
-def test_a_run_that_kills_its_worker_is_tried_again_and_then_a_row_that_says_so() -> None:
+def test_a_run_that_kills_its_worker_is_tried_again_and_then_becomes_a_row() -> None:
     with closing(LocalWorkers(1, os._exit)) as pool:
         pool.submit(7)
         ((task, row),) = answers(pool, 1)

@@ -77,7 +77,7 @@ RESULT: dict[str, Any] = {
 }  # fmt: skip
 
 
-def test_the_page_is_whole_and_asks_nobody() -> None:
+def test_the_page_is_whole_and_needs_no_network() -> None:
     text = bench_page(RESULT)
     addresses = addresses_of(text)
     assert {a for a in addresses if not a.startswith("#")} == {"data:,"}
@@ -85,7 +85,7 @@ def test_the_page_is_whole_and_asks_nobody() -> None:
     assert "@import" not in text
 
 
-def test_what_is_not_good_is_told() -> None:
+def test_what_is_not_good_is_reported() -> None:
     text = bench_page(RESULT)
     for words in (
         "tick &lt;: 50.0 us, wanted at most 40",

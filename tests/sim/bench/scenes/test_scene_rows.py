@@ -64,7 +64,7 @@ def test_verdicts_go_by_noise_and_time(coarse: float, cpu: float, own: float, st
 
 
 @pytest.mark.parametrize(("error", "words"), [(0.5, "no more than noise"), (1.5, "more than noise")])
-def test_what_the_machine_has_is_kept_and_what_finer_would_do_is_told(error: float, words: str) -> None:
+def test_what_the_machine_has_is_kept_and_what_finer_would_do_is_reported(error: float, words: str) -> None:
     fine, slow = "skin rate: 1000 Hz", "skin rate: 50 Hz"
     more = [run(OWN, "traced", 2.0, error, against=fine), run(slow, "traced", 1.0, 0.1, against=fine)]
     verdict = next(v for v in knob_verdicts(scene_rows([*runs(1.2), *more])) if v.knob == "skin rate")

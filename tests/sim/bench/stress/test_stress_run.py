@@ -65,7 +65,7 @@ def test_a_command_that_may_not_be_is_seen(spoil: Any, kind: str, monkeypatch: p
     assert run_scenario(Scenario(0, "flat", "h1"), 0.05).kind == kind
 
 
-def test_what_a_tick_raises_is_told_with_its_place(monkeypatch: pytest.MonkeyPatch):
+def test_what_a_tick_raises_is_reported_with_its_place(monkeypatch: pytest.MonkeyPatch):
     def fail(*_: Any) -> None:
         raise ZeroDivisionError("by nothing")
 

@@ -21,7 +21,7 @@ SCENES = [f"force-tracking-{i}" for i in (1, 2, 3, 4)]
         ("forse=1", "nearest: experiment.force"),
     ],
 )
-def test_bad_settings_are_told_in_a_line(setting, words):
+def test_bad_settings_are_refused_in_a_line(setting, words):
     with pytest.raises(SceneError) as error:
         open_scene(SCENES[0], [setting])
     assert words in str(error.value)

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 
-def test_nobody_presses_and_it_stands_still(run_scene: Callable[..., Any]) -> None:
+def test_without_pressure_it_stands_still(run_scene: Callable[..., Any]) -> None:
     summary, companion = run_scene("multi-contact", seconds=0.6)
     assert not summary["fell"]
     assert companion.experiment.com_off_max < 1e-3

@@ -38,7 +38,7 @@ def test_the_bow_on_the_way_is_closed_to_the_tip():
             assert 0.0 < gap < 0.07
 
 
-def test_a_seed_says_the_layout():
+def test_a_seed_determines_the_layout():
     one, other = (random_layout(np.random.default_rng(3), "beside", TIP, REACH, (2.0, 5.0)) for _ in range(2))
     assert np.array_equal(one.goal, other.goal)
     assert [p.friction for p in one.posts] == [p.friction for p in other.posts]
