@@ -166,7 +166,7 @@ def _pages(lines: Iterable[str], facts: dict[str, str]) -> list[_Page]:
             if begun > _MOST_EMPTY + 2 * len(pages):
                 raise FormatError(f"{begun - len(pages)} of {begun} pages hold no table; the file is damaged")
             continue
-        if _NO_FRAME.search(text):  # a new page; a summary's table is nobody's frame
+        if _NO_FRAME.search(text):  # a new page; a summary's table is no frame
             finish()
             page = None
             continue

@@ -16,7 +16,7 @@ from plantar.formats.stated_events import read_events
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.options import AnalysisOptions
 from plantar.gait.analysis.parameters import analyse_feet
-from plantar.gait.analysis.prints.platform import told_apart
+from plantar.gait.analysis.prints.platform import separated_feet
 from plantar.gait.analysis.results import Analysis, write_analysis
 from plantar.gait.analysis.steps.baseline import without_baselines
 from plantar.gait.analysis.steps.gaps import without_gaps
@@ -52,7 +52,7 @@ def analyse_one(
     known = options or ReadOptions()
     if subject is not None and known.mass_kg is None:
         known = dataclasses.replace(known, mass_kg=subject.mass_kg)
-    recording, prints = told_apart(recording_of(given, format, known))
+    recording, prints = separated_feet(recording_of(given, format, known))
     chosen = choices or AnalysisOptions()
     if chosen.events_file is not None:
         recording = dataclasses.replace(recording, events=read_events(chosen.events_file))

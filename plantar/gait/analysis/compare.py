@@ -77,7 +77,7 @@ def compare_recordings(
         FormatError: If a file is not a recording that can be read.
         InputError: If it is a footprint image, the events are those of a file, or the folder cannot be written to.
     """
-    tell = progress or (lambda fraction, text: None)
+    report = progress or (lambda fraction, text: None)
     (choices or AnalysisOptions()).of_several("--compare takes")
     known = with_layout(options, layout)
     for path in (a, b):
@@ -86,17 +86,17 @@ def compare_recordings(
     analyses: dict[str, Analysis] = {}
     with output_folder(out, (a, b, layout)) as folder:
         for i, (key, path) in enumerate((("a", a), ("b", b))):
-            tell(0.4 * i, f"reading {key}")
+            report(0.4 * i, f"reading {key}")
             analyses[key] = analyse_one(path, format, known, choices=choices, subject=subject)
             (folder / key).mkdir()
-            write_analysis(analyses[key], folder / key, _later(tell, 0.4 * i + 0.1, 0.3))
+            write_analysis(analyses[key], folder / key, _later(report, 0.4 * i + 0.1, 0.3))
         if analyses["a"].recording.raw != analyses["b"].recording.raw:
             raise InputError(
                 "one recording is calibrated and the other is of raw counts: their values cannot be compared"
             )
         metrics = _write_comparison(analyses, folder, (Path(a).name, Path(b).name))
         written = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
-    tell(1.0, "done")
+    report(1.0, "done")
     return {**metrics, "files": [str(Path(out) / name) for name in written]}
 
 
@@ -111,8 +111,8 @@ def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tup
     return metrics
 
 
-def _later(tell: Callable[[float, str], None], begin: float, share: float) -> Callable[[float, str], None]:
-    return lambda fraction, text: tell(begin + share * fraction, text)
+def _later(report: Callable[[float, str], None], begin: float, share: float) -> Callable[[float, str], None]:
+    return lambda fraction, text: report(begin + share * fraction, text)
 
 
 def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:

@@ -37,7 +37,7 @@ _MANY = 0.08
 _MISSING = 0.01  # Share of the force that silent cells lack from which it is reported
 # Steps, change of a step's mean force from first to last, and standard errors of it, from which gain creeps.
 _FEWEST, _CREEP, _CLEAR = 8, 0.08, 5.0
-# Difference of the feet's strides, relative to their mean, which nobody walks with; strides that show it.
+# Difference of the feet's strides, relative to their mean, which no walk has; strides that show it.
 _UNEQUAL, _STRIDES = 0.05, 4
 
 

@@ -11,7 +11,7 @@ import pytest
 from plantar.formats.recorded_layouts import grid_cells
 from plantar.gait.analysis.parameters import analyse_feet
 from plantar.gait.analysis.prints.footprint import Footprint, footprint_of_pixels
-from plantar.gait.analysis.prints.platform import told_apart
+from plantar.gait.analysis.prints.platform import separated_feet
 from plantar.gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
 from plantar.gait.analysis.steps.foot_gait import FootGait
 from plantar.gait.analysis.steps.step_measures import force_measures
@@ -55,7 +55,7 @@ def rolling_ellipse(
 
 
 def gait_of(recording: PressureRecording) -> FootGait:
-    recording, prints = told_apart(recording)
+    recording, prints = separated_feet(recording)
     (gait,) = analyse_feet(recording, prints).values()
     return gait
 

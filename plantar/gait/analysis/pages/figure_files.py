@@ -30,14 +30,14 @@ def write_figures(
     Returns:
         The PNG files with their captions.
     """
-    tell = progress or (lambda fraction, text: None)
+    report = progress or (lambda fraction, text: None)
     written: list[tuple[Path, str]] = []
     for i, (name, figure, caption) in enumerate(figures):
         if figure is not None:
             written.append((save_figure(figure, folder / f"{name}.png"), caption))
             figure.set_layout_engine("none")  # the axes stay where they are: placing them takes as long as drawing
             save_figure(figure, folder / f"{name}.svg")
-        tell((i + 1) / (len(figures) + 2), "drawing")
+        report((i + 1) / (len(figures) + 2), "drawing")
     return written
 
 

@@ -238,13 +238,13 @@ def _device(device: Mapping[str, Any]) -> str:
 
 def _size(feet: Mapping[str, Mapping[str, Any]]) -> str:
     """Extent, cells and layout of each foot's sole; listed once where both are the same."""
-    said = {
+    sizes = {
         side: f"{1e3 * foot['length_m']:.0f} x {1e3 * foot['width_m']:.0f} mm, {foot['cells']} cells ({foot['layout']})"
         for side, foot in feet.items()
     }
-    if len(set(said.values())) <= 1:
-        return next(iter(said.values()), "")
-    return "; ".join(f"{side}: {text}" for side, text in said.items())
+    if len(set(sizes.values())) <= 1:
+        return next(iter(sizes.values()), "")
+    return "; ".join(f"{side}: {text}" for side, text in sizes.items())
 
 
 def analysis_text(metrics: Mapping[str, Any], name: str = "") -> str:

@@ -20,7 +20,7 @@ __all__ = ["Footprint", "footprint_of_cells", "footprint_of_pixels"]
 
 # Shares of the length, toes included, in which the foot's axis halves the widths of heel and forefoot.
 _HEEL, _FOREFOOT = (0.0, 0.25), (0.55, 0.80)
-_ROUNDS = 4  # How often the axis is found anew, in bands that turn with it
+_ROUNDS = 4  # How often the axis is found again, in bands that turn with it
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,7 +25,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, Side
 
-__all__ = ["PlatformPrint", "told_apart"]
+__all__ = ["PlatformPrint", "separated_feet"]
 
 _TRIGGER = 0.25  # Share of the peak up to which load in the first and last frame is the beginning and end of a contact
 
@@ -49,7 +49,7 @@ class PlatformPrint:
     forward: NDArray[np.float64]
 
 
-def told_apart(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
+def separated_feet(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
     """A platform's recording with the footprints of each foot under its side, and the footprints; others as they are.
 
     The frame is turned so that the first pass walks along x. Ends that carry little get frames without load before or
@@ -68,14 +68,14 @@ def told_apart(recording: PressureRecording) -> tuple[PressureRecording, tuple[P
         return replace(recording, time=time, feet={whole.side: replace(whole, force=force)}), ()
     prints, notes = _prints(load, cells, cast(Side | None, recording.metadata.get("side")))
     turn = _rotation(prints[0].forward)
-    told = replace(
+    separated = replace(
         recording,
         time=time,
         feet=_feet(force, _turned(whole.layout, prints[0].forward), prints),
         warnings=tuple(dict.fromkeys([*warnings, *notes])),
         metadata={**recording.metadata, "frames": len(recording.time)},
     )
-    return told, tuple(replace(p, forward=turn @ p.forward) for p in prints)
+    return separated, tuple(replace(p, forward=turn @ p.forward) for p in prints)
 
 
 def _feet(force: NDArray[np.float64], layout: SoleLayout, prints: Sequence[PlatformPrint]) -> dict[Side, FootRecording]:

@@ -21,7 +21,7 @@ from plantar.recordings.pressure_recording import FootRecording, PressureRecordi
 __all__ = ["RestingLevel", "resting_level", "without_baselines"]
 
 OFFSET = 0.10  # A level in swing of more than so much of the walk's range of force is an offset; shoes press less
-_TOLD = 0.03  # A level in swing of more than so much of the range is told, though it is not taken off
+_REPORTED = 0.03  # A level in swing of more than so much of the range is reported, though it is not taken off
 # A level in swing of so much of the range below zero is an offset, too: no shoe pulls, and cells below zero take the
 # centre of pressure out of the sole.
 _PULL = 0.01
@@ -170,7 +170,7 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
                 "off as its baseline (--baseline keep leaves it)"
             )
         else:
-            if np.abs(rest.level).max() > _TOLD * rest.span:
+            if np.abs(rest.level).max() > _REPORTED * rest.span:
                 notes.append(
                     f"the {side} foot's sensor reads {offset:.3g} {'counts' if recording.raw else 'N'} in swing, "
                     f"{100.0 * offset / rest.span:.0f} % of its range: it stays in the forces, as a shoe may press so"

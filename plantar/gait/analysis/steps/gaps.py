@@ -15,7 +15,7 @@ __all__ = ["LONGEST_GAP", "filled", "without_gaps"]
 LONGEST_GAP = 0.1
 """Longest gap in s that is filled."""
 
-_TOLD = 0.01  # Share of missing values of the cells that measure from which a warning is given
+_REPORTED = 0.01  # Share of missing values of the cells that measure from which a warning is given
 
 
 def without_gaps(recording: PressureRecording) -> PressureRecording:
@@ -38,7 +38,7 @@ def without_gaps(recording: PressureRecording) -> PressureRecording:
                 f"{int(dead.sum())} of {len(dead)} cells of the {side} foot never measure: its forces, areas and CoP "
                 "are those of the others"
             )
-        if rest > _TOLD:
+        if rest > _REPORTED:
             notes.append(
                 f"{100.0 * rest:.2g} % of the {side} foot's values are missing: gaps of up to {LONGEST_GAP:g} s are "
                 "filled cell by cell"

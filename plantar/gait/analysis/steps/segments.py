@@ -136,8 +136,8 @@ def segments_of(feet: Mapping[Side, FootGait]) -> tuple[Segment, ...]:
         for group in groups
         if len(group) >= min(_SHORTEST, len(rows))
     ]
-    stands = [c for g in feet.values() for c in g.contacts if c.standing]
-    for begin, end in _common([(cast(float, c.heel_strike), cast(float, c.toe_off)) for c in stands]):
+    standing = [c for g in feet.values() for c in g.contacts if c.standing]
+    for begin, end in _common([(cast(float, c.heel_strike), cast(float, c.toe_off)) for c in standing]):
         out.append(Segment("standing", begin, end, {}))
     return tuple(sorted(out, key=lambda s: s.begin))
 

@@ -210,7 +210,7 @@ def _swings(
         found.append((a + edge, b - edge))
         inner += not (at_start or at_end)
     levels = np.array([_middle(course[a:b]) for a, b in found])
-    kept = [run for run, stands in zip(found, _stand_out(levels, _OUTLIER * span), strict=True) if not stands]
+    kept = [run for run, odd in zip(found, _stand_out(levels, _OUTLIER * span), strict=True) if not odd]
     share = inner / max(1, steps - 1)
     return (kept, share) if inner >= _FEWEST and share >= _OFTEN else ([], 0.0)
 

@@ -114,8 +114,8 @@ def key_of(
         layout_to_dict(given.layout) if given.layout else "",
         digest_of(folder / who.layout) if who.layout else "",
     )
-    told = [__version__, digest, asdict(who), asdict(choices), known, layouts]
-    return hashlib.sha256(json.dumps(told).encode()).hexdigest()
+    decisive = [__version__, digest, asdict(who), asdict(choices), known, layouts]
+    return hashlib.sha256(json.dumps(decisive).encode()).hexdigest()
 
 
 def measure_recording(

@@ -127,7 +127,7 @@ def run_study(
         InputError: If the folder holds no recording, a value in the table is not possible, or the events are a file's.
         FormatError: If the table cannot be read.
     """
-    tell = progress or (lambda fraction, text: None)
+    report = progress or (lambda fraction, text: None)
     root, target, chosen = Path(folder), Path(out), choices or AnalysisOptions()
     chosen.of_several("a study has")
     listed = [_as_named(root, who) for who in read_participants(participants)] if participants is not None else []
@@ -140,12 +140,12 @@ def run_study(
     cache.mkdir(parents=True, exist_ok=True)
     results = []
     for i, who in enumerate(everything):
-        tell(0.9 * i / len(everything), f"{i + 1} of {len(everything)}: {who.file}")
+        report(0.9 * i / len(everything), f"{i + 1} of {len(everything)}: {who.file}")
         results.append(_result(root, cache, who, chosen, options))
-    tell(0.9, "comparing")
+    report(0.9, "comparing")
     study = Study(results, compare_conditions(results), chosen)
     files = _write(study, target, root)
-    tell(1.0, "done")
+    report(1.0, "done")
     return Study(study.results, study.comparisons, chosen, files)
 
 

@@ -14,7 +14,7 @@ from plantar.gait.analysis.exports import export_analysis
 from plantar.gait.analysis.metrics import metrics_of
 from plantar.gait.analysis.pages.player import player_data
 from plantar.gait.analysis.parameters import analyse_feet
-from plantar.gait.analysis.prints.platform import told_apart
+from plantar.gait.analysis.prints.platform import separated_feet
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
@@ -80,7 +80,7 @@ def walkway(
 )
 def test_a_walkway(options: dict[str, object]) -> None:
     recording, truth = walkway(**options)  # type: ignore[arg-type]
-    told, prints = told_apart(recording)
+    told, prints = separated_feet(recording)
     assert [(p.side, round(float(told.time[p.begin]), 1)) for p in prints] == [(s, round(t, 1)) for s, t in truth]
     feet = analyse_feet(told, prints)
     for side, gait in feet.items():
@@ -109,7 +109,7 @@ def test_a_walkway(options: dict[str, object]) -> None:
 @pytest.mark.parametrize("reverse", [False, True])
 def test_a_single_footprint_tells_its_side_by_its_shape(first: Side, reverse: bool) -> None:
     recording, _ = walkway(1, first, reverse)
-    told, prints = told_apart(recording)
+    told, prints = separated_feet(recording)
     assert [p.side for p in prints] == [first]
     assert any(f"taken as the {first} one from the footprint's shape" in w for w in told.warnings)
     data = player_data(told, analyse_feet(told, prints))
@@ -123,7 +123,7 @@ def test_a_platform_that_records_from_the_first_load_has_a_whole_step() -> None:
     part = slice(loaded[0], loaded[-1] + 1)
     foot = FootRecording("left", recording.feet["left"].force[part], recording.feet["left"].layout)
     short = PressureRecording(Path("x"), "x", 100.0, recording.time[part], {"left": foot}, kind="platform")
-    told, prints = told_apart(short)
+    told, prints = separated_feet(short)
     (gait,) = analyse_feet(told, prints).values()
     assert len(gait.steps) == 1
     assert any("unloaded just before and after" in w for w in told.warnings)
@@ -132,7 +132,7 @@ def test_a_platform_that_records_from_the_first_load_has_a_whole_step() -> None:
 @pytest.mark.parametrize("steps", [1, 2])
 def test_a_platform_that_was_exported_is_a_platform_again(tmp_path: Path, steps: int) -> None:
     recording, _ = walkway(steps)
-    told, prints = told_apart(recording)
+    told, prints = separated_feet(recording)
     feet = analyse_feet(told, prints)
     export_analysis(Analysis(told, feet, metrics_of(told, feet)), tmp_path / "way.npz")
     again = analyse(tmp_path / "way.npz")
@@ -149,8 +149,8 @@ def test_an_empty_platform_and_a_sole() -> None:
     recording, _ = walkway(1)
     empty = FootRecording("left", 0 * recording.feet["left"].force, recording.feet["left"].layout)
     nobody = PressureRecording(Path("x"), "x", 100.0, recording.time, {"left": empty}, kind="platform")
-    told, prints = told_apart(nobody)
+    told, prints = separated_feet(nobody)
     assert prints == ()
     assert analyse_feet(told, prints)["left"].steps == ()
     sole = PressureRecording(Path("x"), "x", 100.0, recording.time, {"left": empty})
-    assert told_apart(sole) == (sole, ())
+    assert separated_feet(sole) == (sole, ())
