@@ -95,6 +95,7 @@ QUICK = {
 }
 
 LONG = {
+    "walk_by_torque": Example(r"servo: took 4 of 4 steps.*torque: took 4 of 4 steps"),
     "walk_push": Example(r"feedback=true: took 4 of 4.*feedback=false: fell"),
     "walk_guided": Example(
         r"yields gave way by (\d+) mm under at most (\d+) N, and the feet followed by (\d+) mm in 8 steps"
