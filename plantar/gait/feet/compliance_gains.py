@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from plantar.settings.part import Part
-from plantar.settings.schema import fixed, number, share
+from plantar.settings.schema import choice, fixed, number, share
 
 __all__ = ["ComplianceGains", "TouchdownGains"]
 
@@ -14,6 +14,9 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
     """How a swing foot comes down on the ground that its taxels see.
 
     Attributes:
+        law: "plane" comes down by the distance of the plane fitted to what is seen; "wrench" is damped by the virtual
+            force, turned by the virtual moment and stopped where that force exceeds `stop` (T 4.30-4.31).
+        stop: epsilon_stop of T 4.31, as a share of the virtual force of a sole that touches with all its taxels.
         damping: Smallest time constant in s of the approach: speed = touch_speed + distance / time constant.
         touch_speed: Speed in m/s at touchdown.
         margin: Distance in m from the ground at which it is down to that speed.
@@ -26,6 +29,8 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
         turn_rate: Largest rate of that in rad/s, less close to the ground (`SwingCompliance.turn_rate`).
     """
 
+    law: str = choice("plane", "wrench")
+    stop: float = number(0.95, "1", 0.05, 1)
     damping: float = share(0.243, "beat", 0.001, 1)
     touch_speed: float = share(0.000824, "leg/beat", 0.0001, 0.1)
     margin: float = share(1 / 3000, "leg", 0, 0.01)

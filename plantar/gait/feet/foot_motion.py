@@ -391,7 +391,12 @@ class FootMotion:
             if time_left <= 0.0:
                 falling = self._landing.speed
             remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
-            drop = compliance.descent(view, falling, remaining, time_left, period)
+            if compliance.by_wrench:
+                drop = compliance.damped(falling, time_left, period)
+                if compliance.stopped:
+                    planned = position
+            else:
+                drop = compliance.descent(view, falling, remaining, time_left, period)
             if view is not None and remaining < _NEARLY_THERE * self._leg:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
             if view is not None and remaining < _CLOSE_BY * self._leg:

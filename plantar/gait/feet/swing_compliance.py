@@ -1,7 +1,7 @@
 """Preemptive foot compliance: a swing that sees the ground before it touches it (T 4.4.1, Fig. 49).
 
-Speed in proportion to the remaining distance is the virtual force f_p = n k_p (range - distance) of T 4.26; the swing
-ends at a crawl instead of stopping (T 4.31), and with load the virtual part ends (T 4.30, corrected).
+Law "wrench" damps the swing by the force of w_sole (T 4.30, corrected), turns the sole by its moment and stops at
+epsilon_stop (T 4.31). Law "plane" slows down with the distance of a fitted plane and ends at a crawl.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from plantar.gait.contact.ground_map import GroundMap, GroundMapSettings, Ground
 from plantar.gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.rotation import rotation_from_vector
-from plantar.sensing.virtual_wrench import SoleWrenchSwitch
+from plantar.percepts.percept_options import PROXIMITY_GAIN
+from plantar.sensing.virtual_wrench import SoleWrenchSwitch, early_stop, virtual_ground_reaction_wrench
 
 __all__ = ["SwingCompliance", "turned_to_ground"]
 
@@ -35,6 +36,8 @@ class SwingCompliance:
     Attributes:
         ground: What the sole sees of the ground.
         force: Vertical force in N on the sole, filtered.
+        by_wrench: Whether its law is "wrench".
+        stopped: Whether the virtual force has stopped the swing (T 4.31).
 
     Args:
         layout: The sole.
@@ -56,6 +59,10 @@ class SwingCompliance:
         self._arm = 0.5 * float(np.linalg.norm(np.ptp(layout.outline, axis=0)))  # m from the middle to an edge
         self._speed = self._drift = 0.0
         self._aim: float | None = None
+        self.by_wrench = gains.law == "wrench"
+        self.stopped = False
+        self._whole = len(layout) * PROXIMITY_GAIN * ground.sensing_range  # N of a sole that touches everywhere
+        self._wrench = np.zeros(6)
 
     def begin(self) -> None:
         """A swing begins."""
@@ -64,13 +71,43 @@ class SwingCompliance:
         self._aim = None
         self.switch.reset()
         self.force = 0.0
+        self._wrench, self.stopped = np.zeros(6), False
 
     def update_load(self, load: float) -> bool:
         """Touchdown detection: whether the foot has landed (T 4.30 corrected), by `load` in N, less its tare."""
         self.force += 0.5 * (load - self.force)
         up = np.array([0.0, 0.0, self.force, 0.0, 0.0, 0.0])
-        self.switch.update(up, np.zeros(6))
+        if self.by_wrench:
+            reach = self.ground.settings.sensing_range
+            virtual = virtual_ground_reaction_wrench(self.layout, self.ground.distance, PROXIMITY_GAIN, reach)
+            self._wrench = self.switch.update(up, virtual)
+        else:
+            self.switch.update(up, np.zeros(6))
         return self.switch.landed
+
+    def damped(self, planned: float, time_left: float, period: float) -> float:
+        """Distance in m that the foot goes down in one control tick: its plan, damped by the virtual force (T 4.4.1).
+
+        Once that force has stopped the swing (T 4.31), the foot goes down by what it lacks of a sole that touches.
+
+        Args:
+            planned: Speed downwards in m/s of the swing's own plan.
+            time_left: Time in s until the plan puts weight on the foot.
+            period: Control period in s.
+
+        Returns:
+            The distance.
+        """
+        g, force = self.gains, float(self._wrench[2])
+        self.stopped = self.stopped or bool(early_stop(self._wrench, g.stop * self._whole))
+        gap = max(0.0, 1.0 - force / self._whole) * self.ground.settings.sensing_range
+        late = time_left < g.crawl_time
+        wanted = max(0.0, 1.0 - force / (g.stop * self._whole)) * planned
+        if self.stopped or late:
+            wanted = max(wanted, gap / g.damping)
+        wanted += g.touch_speed * (g.late_speed_ratio if late else 1.0)
+        self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
+        return self._speed * period
 
     def descent(
         self, view: GroundView | None, planned: float, remaining: float, time_left: float, period: float

@@ -131,3 +131,40 @@ def test_turning_goes_to_the_slope_at_a_limited_rate() -> None:
         rotation = turned
     up = rotation[:, 2] / rotation[2, 2]
     assert up[:2] == pytest.approx([-0.1, 0.05], abs=1e-3)
+
+
+def by_wrench(compliance: SwingCompliance, height: float, plan: float, left: float) -> tuple[float, float, float]:
+    """Height in m at which the virtual force stops a swing, speed in m/s when it touches, and the time in s of that."""
+    stopped, time, reach = 0.0, 0.0, compliance.ground.settings.sensing_range
+    while height > 0.0:
+        compliance.ground._distance[:] = height if height < reach else np.inf
+        assert not compliance.update_load(0.0)
+        drop = compliance.damped(plan, left - time, PERIOD)
+        stopped = height if compliance.stopped and not stopped else stopped
+        height, time = height - drop, time + PERIOD
+    return stopped, drop / PERIOD, time
+
+
+def test_the_virtual_force_damps_and_stops_a_swing() -> None:
+    gains = ComplianceGains(law="wrench", stop=0.9)
+    compliance = swing(gains)
+    compliance.begin()
+    stopped, speed, time = by_wrench(compliance, 0.06, 0.2, 0.6)
+    reach = compliance.ground.settings.sensing_range
+    assert stopped == pytest.approx((1.0 - gains.stop) * reach, abs=2e-3)  # T 4.31
+    assert speed < 0.05
+    assert time < 0.6  # before the plan puts weight on it
+    assert swing(ComplianceGains(law="wrench")).stopped is False
+
+
+def test_the_virtual_force_ends_with_load() -> None:
+    compliance = swing(ComplianceGains(law="wrench"))
+    compliance.begin()
+    compliance.ground._distance[:] = 0.01
+    assert not compliance.update_load(0.0)
+    in_the_air = compliance.damped(0.2, 1.0, PERIOD)
+    for _ in range(5):
+        landed = compliance.update_load(100.0)
+    assert landed
+    assert compliance._wrench.tolist()[:3] == pytest.approx([0.0, 0.0, compliance.force])  # T 4.30 (corrected)
+    assert in_the_air < 0.2 * PERIOD
