@@ -35,6 +35,7 @@ class FeasibilityRules(
 
     Attributes:
         rule: "skin" or "force_torque".
+        at: "probe" presses on the foothold before it decides; "impact" decides by what the touch shows (T Table 3).
         area_ratio: epsilon_A: footholds that support no larger share of the sole are refused; above 1 all are.
         surprise: Height in m above the expected ground from which ground is checked.
         hold: Time in s by which the single support is extended for that.
@@ -53,12 +54,14 @@ class FeasibilityRules(
     """
 
     rule: str = choice("skin", "force_torque")
+    at: str = choice("probe", "impact")
     area_ratio: float = number(0.8, "1", 0, 2)
     # epsilon_t in N m: a foothold that makes this moment at the ankle is refused
     ankle_moment: float = fixed(0.0411, "weight sole")
     surprise: float = share(1 / 30, "leg", 0.001, 0.1)
     hold: float = share(2.83, "beat", 0.01, 10)
     probe_force: float = share(0.154, "weight", 1, 10000)
+    impact_force: float = fixed(0.083, "weight")  # Force in N that is an impact: 70 N on a robot of 86 kg (T 4.4.5)
     probe_time: float = fixed(0.485, "beat")  # For how long in s it is probed, once it is there
     probe_limit: float = fixed(1.01, "beat")  # For how long in s it may take to come
     reserve: float = share(2.02, "beat", 0, 5)

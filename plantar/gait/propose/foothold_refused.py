@@ -67,6 +67,9 @@ class StepGuard:
 
     def __init__(self, rules: FeasibilityRules, layouts: Mapping[Side, SoleLayout]) -> None:
         self.rules = rules
+        self._probes = rules.at == "probe"
+        self._force = rules.probe_force if self._probes else rules.impact_force
+        self._time = rules.probe_time if self._probes else 0.0
         self.checked: list[CheckedStep] = []
         self.stopped = False
         self.press: float | None = None
@@ -120,7 +123,7 @@ class StepGuard:
         if self._state is not _State.PROBING or self._probe is None:
             return None
         self._read(side, tick)
-        if tick.time < self._since + 1.5 * self.rules.probe_time:
+        if tick.time < self._since + 1.5 * self._time:
             return None
         self.press = None
         return self._judge(phase, side, tick)
@@ -139,23 +142,24 @@ class StepGuard:
         rules = self.rules
         self._state = _State.PROBING
         self._began, self._since, self._reading_time = tick.time, math.inf, -1.0
-        self.press = rules.probe_force
+        self.press = self._force
         self._probe = FootholdProbe(self._layouts[side], rules)
         if tick.feet.distance is not None:
             self._probe.update_view(tick.feet.distance)
         # The DCM has to be back over the stance foot, and to stay there, until the rule has decided.
-        missing = tick.time + rules.probe_limit + 1.5 * rules.probe_time + rules.reserve - phase.end
-        return _waiting(phase, missing) if missing > 0.0 else None
+        missing = tick.time + rules.probe_limit + 1.5 * self._time + rules.reserve - phase.end
+        return _waiting(phase, missing) if self._probes and missing > 0.0 else None
 
     def _read(self, side: Side, tick: Tick) -> None:
         assert self._probe is not None
         rules, reading, load, time = self.rules, tick.readings[side], tick.loads[side], tick.time
         # The rule reads a foot that has its load; where that does not come, what there is after the time for it.
-        if self._since == math.inf and (load > 0.7 * rules.probe_force or time > self._began + rules.probe_limit):
+        if self._since == math.inf and (load > 0.7 * self._force or time > self._began + rules.probe_limit):
             self._since = time
-        if time > self._since + 0.5 * rules.probe_time and reading.time > self._reading_time:
+        due = time > self._since + 0.5 * self._time if self._probes else time >= self._since
+        if due and reading.time > self._reading_time:
             self._reading_time = reading.time
-            pressing = load > 0.5 * rules.probe_force
+            pressing = load > 0.5 * self._force
             self._probe.update_load(reading.force, tick.moments.get(side) if pressing else None)
 
     def _judge(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:

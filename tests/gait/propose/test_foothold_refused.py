@@ -128,3 +128,19 @@ def test_a_probe_presses_as_the_rule_says_from_touchdown_to_verdict(
         pressed.append(guard.press)
     assert set(pressed) == {None, RULES.probe_force}
     assert pressed[-1] is None
+
+
+def test_at_the_impact_a_foothold_is_judged_by_the_touch_alone(
+    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    rules = replace(RULES, at="impact", sideways_cost=0.01)
+    guard, plan = guarding(rules), plan_of()
+    start = next(p.start for p in plan.schedule.phases if p.step == 2 and p.swing is not None)
+    changes = walked(guard, plan, FRONT, tick_at)
+    assert changes[-1].reason == "foothold refused"
+    # Touched at 0.8 s: no probe, and the cheapest way around is a sidestep (T Fig. 45).
+    assert plan.record[-1].time <= start + 0.8 + 4 * PERIOD
+    shift = guard.checked[0].shift
+    assert shift is not None
+    assert shift[0] == 0.0
+    assert abs(shift[1]) > 0.05
