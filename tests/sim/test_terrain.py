@@ -188,6 +188,16 @@ def test_a_sliding_block_comes_during_the_swing() -> None:
     assert solid.at(foot.touchdown - 0.1) == pytest.approx(solid.at(foot.touchdown))
 
 
+def test_a_slope_of_the_seeds_rises_one_way_each() -> None:
+    planned, ways = feet(), set()
+    for seed in range(30):
+        ground = Block(step=2, slope=5.0).ground(planned, np.random.default_rng(seed))
+        up = ground.solids[0].rotation[:, 2]
+        assert math.degrees(math.acos(up[2])) == pytest.approx(5.0)
+        ways.add((round(float(up[0]), 2), round(float(up[1]), 2)))
+    assert len(ways) == 4
+
+
 def test_a_course_is_spelled_out() -> None:
     solid = {"shape": "box", "size": [0.1, 0.2, 0.05], "position": [1.0, 0.0, 0.0], "angles": [0, 0, 90]}
     height = height_of(Course(solid=(solid,)), feet())

@@ -13,6 +13,8 @@ from plantar.sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, S
 
 __all__ = ["Block"]
 
+_WAYS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
+
 
 class Block(Terrain):
     """A slab, wedge, small block or pebbles under one step.
@@ -26,6 +28,7 @@ class Block(Terrain):
         across: The same, outward.
         pitch: Slope in degrees along the foot; positive falls to the front.
         roll: Slope in degrees across the foot; positive rises to the left.
+        slope: Slope in degrees that the seed adds forward, backward, inward or outward.
         shape: "box", or "spheres": three in a triangle of that length and width.
         at: Origin of `along` and `across`: the sole's "center" or the "ankle".
         clear: Distance in m that a box keeps from the same foot's neighbouring footholds by being shorter; 0: not
@@ -42,6 +45,7 @@ class Block(Terrain):
     across: float = number(0.0, "m", -1, 1)
     pitch: float = number(0.0, "deg", -30, 30)
     roll: float = number(0.0, "deg", -30, 30)
+    slope: float = number(0.0, "deg", 0, 30)
     shape: str = choice("box", "spheres")
     at: str = choice("center", "ankle")
     clear: float = number(0.0, "m", 0, 1)
@@ -53,9 +57,17 @@ class Block(Terrain):
             raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
         foot = feet.steps[self.step]
         top = max(0.001, self.top + float(rng.uniform(-1.0, 1.0)) * self.height_range)
-        box = self.shape == "box"
-        solids = (self._box(foot, top, self._room(foot, feet)),) if box else self._spheres(foot, top)
-        return Ground(solids, self.height, self.friction, {"block_top_m": round(top, 5)})
+        box, pitch, roll = self.shape == "box", self.pitch, self.roll
+        if self.slope > 0.0:
+            way = _WAYS[int(rng.integers(len(_WAYS)))]
+            pitch, roll = pitch + way[0] * self.slope, roll + way[1] * self.slope
+        solids = (self._box(foot, top, self._room(foot, feet), pitch, roll),) if box else self._spheres(foot, top)
+        return Ground(
+            solids,
+            self.height,
+            self.friction,
+            {"block_top_m": round(top, 5), "block_pitch_deg": pitch, "block_roll_deg": roll},
+        )
 
     def _middle(self, foot: Footprint) -> np.ndarray:
         outward = 1.0 if foot.side == "left" else -1.0
@@ -71,8 +83,8 @@ class Block(Terrain):
         gaps = [abs(float((f.center - middle) @ forward)) - f.half[0] - self.clear for f in others]
         return min([self.length, *(2.0 * gap for gap in gaps if gap > 0.0)])  # those at its own place have none
 
-    def _box(self, foot: Footprint, top: float, length: float) -> Solid:
-        rotation = rotation_from_angles(foot.yaw, math.radians(self.pitch), math.radians(self.roll))
+    def _box(self, foot: Footprint, top: float, length: float, pitch: float, roll: float) -> Solid:
+        rotation = rotation_from_angles(foot.yaw, math.radians(pitch), math.radians(roll))
         # Thick enough to reach the floor at its lowest corner, whatever the slope.
         half = 0.5 * (top + 0.5 * length * abs(rotation[2, 0]) + 0.5 * self.width * abs(rotation[2, 1])) + 0.01
         upper = np.array([*self._middle(foot), self.height + top])
