@@ -1,4 +1,4 @@
-"""Walks over stones that each carry a part of the sole: `python benchmarks/outcomes.py MINUTES stones`.
+"""Walks over stones and mixed courses: `python benchmarks/outcomes.py MINUTES stones`.
 
 Each ablation changes one thing, on the first ten of the seeds.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 from resumable import Benchmark, Case, shown
 
 SEEDS, FEW = 60, 10
+ROBOTS = ("h1", "hrp2kai")
 VARIANTS: dict[str, tuple[str, ...]] = {
     "as it is": (),
     "steps keep their times": ("control.step_timing=false",),
@@ -25,8 +26,9 @@ BENCHMARK = Benchmark(
     [
         Case(name, "stones", robot, settings, FEW if settings else SEEDS, bool(settings))
         for name, settings in VARIANTS.items()
-        for robot in ("h1", "hrp2kai")
-    ],
+        for robot in ROBOTS
+    ]
+    + [Case("mixed course", "mixed", robot, (), 20) for robot in ROBOTS],
     {
         "time with a joint at its torque limit, median and most [%]": shown(
             "at_torque_limit", "{median:.1f}, {most:.1f}", 100.0, completed=True

@@ -38,7 +38,7 @@ def test_a_foot_that_comes_as_it_does_stays_on_the_edge_that_it_met() -> None:
 BEAM = ("footholds=force", "sensing.taxels=elastic", "terrain.width=0.34 sole", "offset_range=0.174 sole")
 
 
-@pytest.mark.xfail(strict=True, reason="0.25 missed: a foot that gives way and rises looks for less of the beam")
+@pytest.mark.xfail(strict=True, reason="step 4 is on the platform's edge, and probing is for feet without pfc alone")
 def test_a_foot_looks_for_the_rest_of_a_beam_that_it_met_the_edge_of() -> None:
     """Before the weight comes; a foot that does not takes a part of what carries it for all of it."""
     missed = []
