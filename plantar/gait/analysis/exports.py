@@ -85,7 +85,7 @@ def write_mot(analysis: Analysis, path: Path) -> None:
         for name, three in parts.items():
             names += [f"ground_{name.format(side)}{axis}" for axis in "xyz"]
             columns += three
-    head = f"{path.stem}\nversion=1\nnRows={len(columns[0])}\nnColumns={len(names)}\ninDegrees=no\nendheader\n"
+    head = f"ground forces\nversion=1\nnRows={len(columns[0])}\nnColumns={len(names)}\ninDegrees=no\nendheader\n"
     with path.open("w", encoding="utf-8") as stream:
         stream.write(head + "\t".join(names) + "\n")
         for row in np.column_stack(columns).tolist():

@@ -113,6 +113,7 @@ def test_forces_are_read_back_as_plates(tmp_path: Path, analysis: Analysis, suff
     if suffix == ".c3d":
         pytest.importorskip("ezc3d", reason="ezc3d is not installed")
     path = export_analysis(analysis, tmp_path / f"walk{suffix}")[0]
+    assert export_analysis(analysis, tmp_path / f"same{suffix}")[0].read_bytes() == path.read_bytes()
     again = analyse(path, options=ReadOptions(plates=("left", "right") if suffix == ".c3d" else ())).recording
     assert again.kind == "plate"
     for side, gait in analysis.feet.items():
