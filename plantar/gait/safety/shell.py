@@ -30,6 +30,7 @@ _SILENT = 0.06  # s for which a reading that cannot be taken is bridged by the l
 _LATE = 0.15  # s of times that cannot be taken, until the state is "late"
 _UNLOADED, _WEIGHTLESS = 0.3, 0.04  # weight on both soles below which one must be silent, and for how long in s
 _ROLLED = 0.06  # rad: a sole that stands turns by 0.01 in a walk, by 0.05 in the worst of drawn plants
+_FLAT = 0.5  # spread of the load of a flat sole, of that of an even one; a row of taxels has less than 0.3
 _FALLEN = 0.5  # cosine of the trunk's tilt, and share of its height, below which a robot has fallen
 
 Readings = Mapping[Side, Reading]
@@ -74,6 +75,7 @@ class SafetyShell:
         self._weight = mass * GRAVITY
         self._height = com_height
         self._counts = {side: len(layouts[side]) for side in layouts}
+        self._positions = {side: layouts[side].positions for side in layouts}
         self._clock = TickClock(period)
         self._limits = TargetLimits(period, leg, math.sqrt(leg / GRAVITY), self._weight)
         self._joints = joints
@@ -135,23 +137,30 @@ class SafetyShell:
         if not self._begun:
             self._begun = True
             return command
-        if self._is_rolling(command):
+        if self._is_contradicted(command, sensors.readings):
             self.state = "blind"
             return self._held()
         return self._limits.limited(self._last, command)
 
-    def _is_rolling(self, command: Command) -> bool:
-        """Whether the standing sole turns by its leg's encoders and not by the IMU: an encoder is stuck or drifts."""
+    def _is_contradicted(self, command: Command, readings: Readings) -> bool:
+        """Whether the standing sole turns by its leg's encoders and IMU while it presses as a flat one: an encoder is
+        stuck or drifts. A sole that rolls over an edge presses with a row of taxels.
+        """
         stance = command.phase.stance
-        if stance is not None:
-            rotation = command.state.rotations_sole[stance]
-            x, y = rotation.item(2), rotation.item(5)
-            if stance != self._stance:
-                self._landed = (x, y)
-            self._stance = stance
-            return math.hypot(x - self._landed[0], y - self._landed[1]) > _ROLLED
-        self._stance = None
-        return False
+        if stance is None:
+            self._stance = None
+            return False
+        rotation = command.state.rotations_sole[stance]
+        x, y = rotation.item(2), rotation.item(5)
+        if stance != self._stance:
+            self._stance, self._landed = stance, (x, y)
+        x, y = x - self._landed[0], y - self._landed[1]
+        if math.hypot(x, y) <= _ROLLED:
+            return False
+        along = self._positions[stance] @ (rotation.T @ np.array([x, y, 0.0]))
+        load = np.maximum(np.nan_to_num(readings[stance].force), 0.0)
+        spread = float(load @ (along - load @ along / max(load.sum(), 1e-9)) ** 2) / max(float(load.sum()), 1e-9)
+        return spread > (_FLAT * float(along.std())) ** 2
 
     def _bridge(self, time: float) -> Command:
         """A tick without a usable reading: on with the last one for a moment, then blind."""
