@@ -64,7 +64,7 @@ area: str = percept.contact_area  # assignment
 radius = percept.inscribed_circle_in_sole.radius  # union-attr
 omega = pendulum_frequency("0.8")  # arg-type
 scene: int = load_scene("flat")  # assignment
-length = to_m("250")  # call-overload
+length = to_m("250")  # type-var
 
 
 class Spring(Settings):
