@@ -29,7 +29,8 @@ def torque_steps(scene: str, robot: str, settings: tuple[str, ...] = (), seed: i
         physics()
         torques.append(data.actuator_force[world.servos].copy())
         address = data.contact.efc_address[: data.ncon]  # -1 for points that only come near
-        pressed = (address >= 0) & (data.efc_force[address] > CARRIES)
+        pressed = address >= 0
+        pressed[pressed] = data.efc_force[address[pressed]] > CARRIES
         points.append(sorted(map(tuple, data.contact.geom[: data.ncon][pressed].tolist())))
 
     run.step_physics = step  # type: ignore[method-assign]
