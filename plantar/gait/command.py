@@ -1,4 +1,4 @@
-"""What goes into a walking controller at a tick, and what comes out."""
+"""A walking controller's input and output at a tick."""
 
 from __future__ import annotations
 
@@ -29,15 +29,14 @@ class Sensors(Record, frozen=True):
 
     Attributes:
         time: Time in s.
-        joint_positions: Encoder readings (k,) in rad.
-        gyro: Angular velocity (3,) of the base in its own frame in rad/s.
-        accelerometer: Specific force (3,) of the base in its own frame in m/s^2.
-        readings: Latest reading of each sole.
-        ankles: Wrench (6,) that each foot exerts on its leg, in the frame of its force-torque sensor in N and N m;
-            empty without such sensors.
-        skin: Latest reading of the skin on the upper body (`ControllerSettings.skin`), or None.
-        links: Origin (3,) in m and rotation (3, 3) in the base frame of each link with skin that moves against the
-            base.
+        joint_positions: Encoders (k,) in rad.
+        gyro: Angular velocity (3,) of the base, base frame, in rad/s.
+        accelerometer: Specific force (3,) of the base, base frame, in m/s^2.
+        readings: Latest of each sole.
+        ankles: Wrench (6,) of each foot on its leg, frame of its force-torque sensor, in N and N m; empty without such
+            sensors.
+        skin: Latest reading of the upper body's skin (`ControllerSettings.skin`), or None.
+        links: Origin (3,) in m and rotation (3, 3), base frame, of each moving link with skin.
     """
 
     time: float
@@ -54,10 +53,10 @@ class FootTarget(Record, frozen=True):
     """Desired pose and load of a sole.
 
     Attributes:
-        position: Sole frame origin (3,) in the world frame in m.
-        rotation: Rotation (3, 3) from the sole to the world frame.
-        force: Force (3,) in N that the ground should exert on it.
-        center_of_pressure: Point (2,) in the world frame in m at which it acts.
+        position: Sole origin (3,), world frame, in m.
+        rotation: Sole to world (3, 3).
+        force: Force (3,) in N by the ground.
+        center_of_pressure: Its point (2,), world frame, in m.
     """
 
     position: NDArray[np.float64]
@@ -67,14 +66,14 @@ class FootTarget(Record, frozen=True):
 
 
 class JointTargets(NamedTuple):
-    """Targets of leg joints: a drive exerts stiffness (angles - q) + damping (velocities - v) + torques.
+    """Joint targets: a drive exerts stiffness (angles - q) + damping (velocities - v) + torques.
 
     Attributes:
-        angles: Joint angles (k,) in rad.
-        torques: Torques (k,) in N m that the expected load takes.
-        velocities: Rates (k,) of the angles in rad/s; None for at rest.
-        stiffness: Gains (k,) in N m/rad; None leaves both gains to the drive.
-        damping: Gains (k,) in N m s/rad.
+        angles: (k,) in rad.
+        torques: Expected load's (k,) in N m.
+        velocities: (k,) in rad/s; None for at rest.
+        stiffness: (k,) in N m/rad; None leaves both gains to the drive.
+        damping: (k,) in N m s/rad.
     """
 
     angles: NDArray[np.float64]
@@ -85,25 +84,24 @@ class JointTargets(NamedTuple):
 
 
 class Command(Record, frozen=True):
-    """What the controller asks of the body, for inverse kinematics and servos.
+    """Controller's targets for inverse kinematics and servos.
 
     Attributes:
-        com: CoM reference (3,) in m in the frame of the commanded footholds, which joints are solved in: desired CoM
-            of the model.
-        rotation_torso: Rotation (3, 3) from the torso to the same frame.
-        feet: Target of each sole, same frame.
-        phase: Phase of the walk.
+        com: Desired CoM (3,) of the model in m, in the frame of the commanded footholds, which joints are solved in.
+        rotation_torso: Torso to that frame (3, 3).
+        feet: Each sole's target, same frame.
+        phase: The walk's phase.
         reference: The plan now.
-        zmp_desired: Desired ZMP (2,) in m.
+        zmp_desired: (2,) in m.
         state: Estimated state.
-        dcm: Estimated DCM (2,) in m.
-        percepts: What each sole senses.
-        ankle_loads: Load of each sole by its ankle's force-torque sensor; empty without such sensors.
-        footholds: What feet have been found to stand on at this tick.
-        moved_steps: Footsteps that were moved at this tick.
-        joint_offsets: What joint set-points have to be higher by (k,) in rad, as encoders err; None for zero.
-        stiffness: Share of the joints' stiffness and load that servos should keep; 1, but of a robot that has fallen.
-        joints: Targets of the joints with torques and gains (`control.drives`); None where servos solve for them.
+        dcm: Estimate (2,) in m.
+        percepts: Of each sole.
+        ankle_loads: Of each sole by its ankle's sensor; empty without.
+        footholds: Found at this tick.
+        moved_steps: Moved at this tick.
+        joint_offsets: Added to joint set-points (k,) in rad for encoder errors; None for zero.
+        stiffness: Share of joint stiffness and load that servos keep; 1 unless fallen.
+        joints: With torques and gains (`control.drives`); None where servos solve for them.
     """
 
     com: NDArray[np.float64]
@@ -124,7 +122,7 @@ class Command(Record, frozen=True):
 
 
 class Motors(Protocol):
-    """What turns a command into targets of the joints."""
+    """Turns a command into joint targets."""
 
     def targets(self, command: Command, sensors: Sensors) -> JointTargets:
         """Returns targets for the `command` that answers the `sensors`; never raises."""

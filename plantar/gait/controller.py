@@ -1,8 +1,8 @@
-"""Walking controller: the one file that wires the rooms into a control tick.
+"""Walking controller: wires the rooms into a control tick.
 
     sense -> estimate -> swing -> propose -> decide -> apply -> balance -> feet
 
-The swing foot is advanced before proposers are asked, since most of what is proposed follows from its touchdown.
+The swing foot comes first, since most proposals follow from its touchdown.
 """
 
 from __future__ import annotations
@@ -47,13 +47,13 @@ _BRIDGED = 0.2  # beats without encoders or IMU: a DCM that is not followed is a
 
 @dataclass(frozen=True)
 class Start:
-    """How a walk begins.
+    """Start of a walk.
 
     Attributes:
-        feet: Where the feet stand.
-        steps: The footsteps that are known, in order; others may come later.
-        time: Time in s at which it begins.
-        commands: Proposers of the caller that may change the plan while it is walked, such as a velocity command.
+        feet: Initial feet.
+        steps: Known footsteps, in order; others can come later.
+        time: Start in s.
+        commands: The caller's proposers, such as a velocity command.
     """
 
     feet: Mapping[Side, Footstep]
@@ -67,18 +67,18 @@ class WalkingController:
 
     Args:
         settings: Settings.
-        start: How the walk begins.
-        layouts: Sole layout of each side.
-        kinematics: Forward kinematics of the robot.
-        motors: Solves each command for the joints; None leaves that to position servos.
+        start: Start of the walk.
+        layouts: Of each side.
+        kinematics: The robot's forward kinematics.
+        motors: Solves commands for joints; None leaves that to position servos.
 
     Attributes:
-        plan: The plan of the walk.
-        estimation: Follows the state of the body.
-        footing: Where the feet are commanded, and what they stand on.
-        balance: The balance law.
+        plan: The walk's plan.
+        estimation: State of the body.
+        footing: Commanded feet, and what they stand on.
+        balance: Balance law.
         shell: Guards the tick (docs/safety.md); None runs without.
-        replans: How often the plan was changed, other than by steps that come one by one.
+        replans: Plan changes, without steps that come one by one.
     """
 
     def __init__(
@@ -116,26 +116,26 @@ class WalkingController:
 
     @property
     def schedule(self) -> WalkSchedule:
-        """The phases of the walk as planned now."""
+        """Phases of the present plan."""
         return self.plan.schedule
 
     @property
     def end(self) -> float:
-        """Time in s at which the walk is over and the robot has settled."""
+        """Time in s at which the walk is over and settled."""
         return self.schedule.end
 
     @property
     def stopped(self) -> bool:
-        """Whether it has stopped the walk for good, in its `safe_state`."""
+        """Whether it stopped for good, in its `safe_state`."""
         return self.safe_state is not None
 
     @property
     def safe_state(self) -> str | None:
-        """The state in which it stays because it cannot go on, None while it walks (docs/safety.md).
+        """State that it stays in, None while it walks (docs/safety.md).
 
-        "no way on": no footstep is left that may be stepped on, and it stands; "blind": encoders, IMU or soles cannot
-        be used, and "lost": the CoM would have to be farther from the feet than it is high: it sits down; "late":
-        times are not numbers: it holds its last command; "fallen": it goes limp.
+        "no way on": no footstep is left, it stands; "blind" (encoders, IMU or soles unusable) and "lost" (CoM farther
+        from the feet than high): it sits down; "late" (times are no numbers): it holds its last command; "fallen": it
+        goes limp.
         """
         if self.shell is not None and self.shell.state is not None:
             return self.shell.state
@@ -147,20 +147,20 @@ class WalkingController:
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
-        """Feet whose proximity it needs at the next tick."""
+        """Feet whose proximity the next tick needs."""
         return self.footing.proximity_sides
 
     def identified(self) -> dict[str, object]:
-        """What was identified of the robot's differences from its model, for a run's summary."""
+        """The robot's identified differences from its model."""
         return self.estimation.summary()
 
     def step(self, sensors: Sensors) -> Command:
-        """One control tick: sensors in, command out; it never raises while its `shell` guards it."""
+        """One control tick, sensors to command; never raises under its `shell`."""
         command = self._bridged(sensors) if self.shell is None else self.shell.step(sensors)
         return command if self._motors is None else command.changed(joints=self._motors.targets(command, sensors))
 
     def _bridged(self, sensors: Sensors) -> Command:
-        """A tick that bridges a moment without encoders or IMU; one that is blind or lost commands what it did last."""
+        """A tick without encoders or IMU; if blind or lost, the last command."""
         measured = (sensors.joint_positions, sensors.gyro, sensors.accelerometer)
         bridged = self._gaps.heard(measured)
         if bridged is None or self._lost:
@@ -176,20 +176,20 @@ class WalkingController:
         return command
 
     def _held(self) -> Command:
-        """What a robot commands that is blind or lost."""
+        """Command of a blind or lost robot."""
         assert self._last is not None
         self._last = self._stop.after(self._last, self.safe_state)
         return self._last
 
     def _is_lost(self, command: Command) -> bool:
-        """Whether the CoM is to be farther from the feet than it is high: no leg holds that."""
+        """Whether the CoM is farther from the feet than high."""
         left, right = command.feet["left"].position, command.feet["right"].position
         (x, y, _), (lx, ly, _), (rx, ry, _) = command.com.tolist(), left.tolist(), right.tolist()
         away = math.hypot(x - 0.5 * (lx + rx), y - 0.5 * (ly + ry))
         return away > self.settings.com_height
 
     def _tick(self, sensors: Sensors) -> Command:
-        """A tick whose encoders and IMU are there."""
+        """A tick with encoders and IMU."""
         time, footing, body = sensors.time, self.footing, self.estimation.body
         sensed = self.estimation.sense(sensors, self.schedule.at(time))
         state = self.estimation.update(sensors, sensed, self.plan.at(time).com_acceleration)

@@ -1,4 +1,4 @@
-"""The settings of a walking controller's parts in one value."""
+"""Settings of a walking controller's parts."""
 
 from __future__ import annotations
 
@@ -45,34 +45,34 @@ __all__ = ["ControllerSettings"]
 
 
 class ControllerSettings(Settings):
-    """Settings of a walk: its numbers, and the parts of the controller under the names of their tables.
+    """Settings of a walk: numbers, and parts under their tables' names.
 
-    A part that is None does not run. What a part's table is called, and which switches it needs, its class declares
-    (`plantar.settings.part.Part`); `plantar.gait.controller_tables` derives all lists from the types of these fields.
+    A part that is None does not run. Its class declares its table's name and switches (`plantar.settings.part.Part`);
+    `plantar.gait.controller_tables` derives all lists from the field types.
 
     Attributes:
-        com_height: CoM height above the soles in m.
-        partial_rise: How much higher in m the CoM is over a foothold that carries a part of the sole.
-        mass: Robot mass in kg.
+        com_height: CoM over the soles in m.
+        partial_rise: CoM rise in m over a partial foothold.
+        mass: In kg.
         period: Control period in s.
-        timing: Durations of the phases.
-        swing_height: Clearance of the swing foot in m.
-        swing: Kind of path of the swing foot.
-        ankle_reach: How far in m from its frame's origin, which is below the ankle, along the sole, an ankle bears the
-            robot; nothing farther off is loaded.
-        trunk_lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet.
-        lean_reach: Distance in m from which on the torso leans no further.
-        alignment_time: Time constant in s with which the command frame follows the real footholds.
-        balance: Gains of the balance law; their class decides which.
-        feedback: False walks the plan in open loop, for comparison.
-        zmp_source: What measures the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
-        ankles: Force-torque sensor of each ankle, where the robot has them.
-        ankle_limits: Strips (m, 4) of each sole in which the robot's weight may act on that foot alone without a joint
-            of its ankle beyond its torque limit (`plantar.gait.contact.ankle_limits`); empty for joints without limits.
-        footholds: What shows what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
-            "force" uses the taxels' forces, "skin" also what they see before they touch.
-        skin: Skin on its upper body, whose readings are `Sensors.skin`: on the base, in the base frame, and on links
-            whose poses `Sensors.links` has; None for a robot without.
+        timing: Phase durations.
+        swing_height: Swing foot clearance in m.
+        swing: Swing path.
+        ankle_reach: Distance in m along the sole from its origin, below the ankle, at which an ankle bears the robot;
+            none farther is loaded.
+        trunk_lean: Torso roll in rad per metre of the CoM from the feet's middle.
+        lean_reach: Distance in m beyond which the lean stays.
+        alignment_time: Time constant in s of the command frame following real footholds.
+        balance: Gains; their class decides the law.
+        feedback: False walks in open loop, for comparison.
+        zmp_source: Source of loads and ZMP: "skin", or "force_torque" at the ankles.
+        ankles: Their force-torque sensors, if any.
+        ankle_limits: Strips (m, 4) of each sole where the weight can act on that foot alone within its ankle's torques
+            (`plantar.gait.contact.ankle_limits`); empty without limits.
+        footholds: How footholds are found: "off" assumes whole soles, for comparison; "force" uses forces, "skin" also
+            proximity.
+        skin: Upper body skin (`Sensors.skin`): on the base, base frame, and on links posed by `Sensors.links`; None for
+            none.
     """
 
     com_height: float

@@ -1,4 +1,4 @@
-"""The controller's settings by their dotted names, such as `estimator.gravity`: tables of a robot file or a scene."""
+"""Controller settings by dotted names, such as `estimator.gravity`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = [
 
 
 def _parts() -> tuple[dict[str, tuple[type[Part], ...]], frozenset[str]]:
-    """Classes of each table, and which of them may be None, by the types of the fields of `ControllerSettings`."""
+    """Classes of each table, and which can be None, by `ControllerSettings` field types."""
     found: dict[str, tuple[type[Part], ...]] = {}
     optional = set()
     for hint in get_type_hints(ControllerSettings).values():
@@ -46,10 +46,10 @@ OPTIONAL_PARTS: frozenset[str] = _PARTS[1]
 
 
 def controller_keys(table: str) -> tuple[str, ...]:
-    """Names of the settings that a table may hold, without those that a scene gives elsewhere.
+    """Settings that a table can hold, without those that scenes give.
 
     Args:
-        table: A name of `CONTROLLER_TABLES`.
+        table: One of `CONTROLLER_TABLES`.
 
     Example:
         >>> controller_keys("landing")[:6]
@@ -60,11 +60,11 @@ def controller_keys(table: str) -> tuple[str, ...]:
 
 
 def controller_settings_described(table: str, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
-    """Returns the settings of a table; where two classes share a name, that of the first.
+    """Returns a table's settings; of two classes with one name, the first's.
 
     Args:
-        table: A name of `CONTROLLER_TABLES`.
-        body: The body for which defaults that are shares of one are given in SI.
+        table: One of `CONTROLLER_TABLES`.
+        body: Scales defaults that are shares into SI.
     """
     found: dict[str, Setting] = {}
     for kind in CONTROLLER_TABLES[table]:
@@ -74,19 +74,19 @@ def controller_settings_described(table: str, body: BodyScale = REFERENCE_BODY) 
 
 
 def check_controller_table(name: str, table: Any, where: str, error: type[PlantarError] = InputError) -> dict[str, Any]:
-    """Check a table of settings before it is known what is run with it.
+    """Check a table whatever runs with it.
 
     Args:
-        name: A name of `CONTROLLER_TABLES`.
+        name: One of `CONTROLLER_TABLES`.
         table: Values by name.
-        where: Name of the table, for messages.
-        error: What is raised.
+        where: Table's name, for messages.
+        error: Error class.
 
     Returns:
         A copy of the table.
 
     Raises:
-        PlantarError: Of the class `error`: a key is unknown or a value not allowed; the message names it.
+        PlantarError: As `error`: unknown key, disallowed value.
     """
     if not isinstance(table, Mapping):
         raise error(f"{where} is not a table")

@@ -1,1 +1,1 @@
-"""How to keep balance: DCM feedback, CoM admittance, wrench distribution, foot admittance."""
+"""Balance: DCM feedback, CoM admittance, wrench distribution, foot admittance."""

@@ -1,7 +1,7 @@
-"""Ankle strategy in closed form: the VRP that brings the DCM to the start of the next phase (K 17-27).
+"""Closed-form ankle strategy: VRP that brings the DCM to the next phase's start (K 17-27).
 
-With the offset u_w of a push, xi' = w (xi - u_ref + u_w); the reference VRP is u_i in single support and moves to u_e
-in double support (K 17). Times are at least `SHORTEST_TIME`, and growth at most e^`MOST_GROWTH`.
+With a push's offset u_w, xi' = w (xi - u_ref + u_w); the reference VRP moves from u_i (single support) to u_e in double
+support (K 17). Times are at least `SHORTEST_TIME`, growth at most e^`MOST_GROWTH`.
 """
 
 from __future__ import annotations
@@ -46,14 +46,14 @@ _NODES, _WEIGHTS = (x.tolist() for x in np.polynomial.legendre.leggauss(10))
 
 
 class AnkleRules(Part, table="ankle_strategy", needs={"control.step_adjustment": (True,)}):
-    """How the ankles keep the balance, and with which share of the support polygon before a step is changed (K 27).
+    """How ankles balance, and their polygon share before steps change (K 27).
 
     Attributes:
-        law: "tracking" feeds back the DCM's distance from the plan (T 4.28); "regulation" applies the VRP that brings
-            it to its goal by the end of the phase, and changes steps only where that leaves the share (K 25-27).
+        law: "tracking" feeds back the DCM error (T 4.28); "regulation" applies the VRP that reaches the goal by the
+            phase's end, and changes steps only beyond the share (K 25-27).
         forward: Share beta_x of the polygon along the sole (K Table 1).
-        sideways: Share beta_y of it across the sole.
-        confident: Whether confidence enlarges the shares, up to the whole polygon; K leaves them constant.
+        sideways: Share beta_y across it.
+        confident: Whether confidence enlarges the shares, up to the whole polygon; constant in K.
     """
 
     law: str = choice("tracking", "regulation")
@@ -63,7 +63,7 @@ class AnkleRules(Part, table="ankle_strategy", needs={"control.step_adjustment":
 
 
 class Saturation(StrEnum):
-    """What a VRP was cut by."""
+    """What limited a VRP."""
 
     NONE = "none"
     TIME = "shortest time"
@@ -71,12 +71,12 @@ class Saturation(StrEnum):
 
 
 class AnkleVrp(NamedTuple):
-    """A VRP of the ankle strategy.
+    """VRP of the ankle strategy.
 
     Attributes:
-        vrp: Desired u_ref (2,) in m.
-        gain: Its derivative by the DCM, the same on both axes; above 1.
-        saturated: What limited it.
+        vrp: u_ref (2,) in m.
+        gain: Derivative by the DCM, on both axes; above 1.
+        saturated: Its limit.
     """
 
     vrp: NDArray[np.float64]
@@ -88,9 +88,9 @@ class TargetDcms(NamedTuple):
     """Desired DCM at the ends of the phases (K 21-24).
 
     Attributes:
-        double_end: xi_d (2,) at the end of the double support in m.
-        single_end: xi_s (2,) at the end of the single support in m.
-        slope: d xi_s / d u_e, the same on both axes.
+        double_end: xi_d (2,) in m.
+        single_end: xi_s (2,) in m.
+        slope: d xi_s / d u_e, on both axes.
     """
 
     double_end: NDArray[np.float64]
@@ -107,24 +107,24 @@ def target_dcms(
     offset: ArrayLike,
     omega: float,
 ) -> TargetDcms:
-    """DCM at the end of a step with which the step after it comes to rest over its foot (K 21-24).
+    """DCM at a step's end from which the next rests over its foot (K 21-24).
 
-    K 22 ends the second step at u_n - u_w, not at u_n as the text states: only that gives b_e in K 20 (corrected).
+    K 22 ends the second step at u_n - u_w, not u_n as in the text: only that gives b_e in K 20 (corrected).
 
     Args:
-        place: u_e (2,), where the swing foot lands, in m.
-        stance: u_i (2,), the place of the stance foot, in m.
-        next_stride: s_n (2,) from `place` to the footstep after it in m.
-        next_duration: T_n of that step's single support in s, 0 or more.
-        double_support: T_d in s, 0 or more; 0 transfers the weight at once.
-        offset: u_w (2,) of the push in m.
-        omega: Pendulum frequency in rad/s.
+        place: u_e (2,), touchdown, in m.
+        stance: u_i (2,) in m.
+        next_stride: s_n (2,) from `place` to the next footstep in m.
+        next_duration: T_n of its single support in s, 0 or more.
+        double_support: T_d in s, 0 or more; 0 transfers at once.
+        offset: Push's u_w (2,) in m.
+        omega: Pendulum's in rad/s.
 
     Returns:
         The targets.
 
     Raises:
-        InputError: If a place is not two finite numbers.
+        InputError: Non-finite or misshaped place.
 
     Example:
         >>> targets = target_dcms([0.2, -0.1], [0, 0.1], [0.2, 0.2], 0.5, 0.1, [0, 0], 3.5)
@@ -149,10 +149,10 @@ def target_dcms(
 
 
 def sway_share(omega: float, double_support: float) -> float:
-    """Share -1..0 of u_e - u_i that K 24 adds as the VRP moves gradually, e^(-w T_d) (1 - C_d w) - (1 - C_d w_d).
+    """Share -1..0 of u_e - u_i for gradual VRPs (K 24), e^(-w T_d) (1 - C_d w) - (1 - C_d w_d).
 
     Args:
-        omega: Pendulum frequency in rad/s.
+        omega: Pendulum's in rad/s.
         double_support: T_d in s, 0 or more.
 
     Returns:
@@ -169,21 +169,20 @@ def sway_share(omega: float, double_support: float) -> float:
 
 
 def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: ArrayLike, omega: float) -> AnkleVrp:
-    """VRP that brings the DCM to a target at the end of a single support (K 25), not yet limited (see
-    `within_support`).
+    """VRP for a target DCM at single support's end (K 25), unlimited (see `within_support`).
 
     Args:
-        dcm: DCM (2,) now in m.
+        dcm: (2,) in m.
         target: xi_s (2,) in m.
-        left: Time left in s, at least `SHORTEST_TIME`.
-        offset: u_w (2,) of the push in m.
-        omega: Pendulum frequency in rad/s.
+        left: In s, at least `SHORTEST_TIME`.
+        offset: Push's u_w (2,) in m.
+        omega: Pendulum's in rad/s.
 
     Returns:
         The VRP.
 
     Raises:
-        InputError: If a place is not two finite numbers.
+        InputError: Non-finite or misshaped place.
 
     Example:
         >>> found = single_support_vrp([0.01, 0.0], [0.04, 0.0], 0.4, [0.0, 0.0], 3.5)
@@ -210,22 +209,22 @@ def double_support_vrp(
     offset: ArrayLike,
     omega: float,
 ) -> AnkleVrp:
-    """VRP now that brings the DCM to a target at the end of a double support (K 25-26), along K 17; not yet limited.
+    """VRP now for a target DCM at double support's end (K 25-26), along K 17; unlimited.
 
     Args:
-        dcm: DCM (2,) now in m.
+        dcm: (2,) in m.
         target: xi_d (2,) in m.
-        end: u_e (2,), the middle of the foot that is going to carry, in m.
+        end: u_e (2,), middle of the next carrying foot, in m.
         duration: T_d in s.
-        begun: Time T_c since the double support began in s; at least `SHORTEST_TIME` before its end.
-        offset: u_w (2,) of the push in m.
-        omega: Pendulum frequency in rad/s.
+        begun: T_c since its begin in s; at least `SHORTEST_TIME` before its end.
+        offset: Push's u_w (2,) in m.
+        omega: Pendulum's in rad/s.
 
     Returns:
         The VRP.
 
     Raises:
-        InputError: If a place is not two finite numbers.
+        InputError: Non-finite or misshaped place.
 
     Example:
         >>> double_support_vrp([0.05, 0.0], [-0.016, 0.0], [0.2, 0], 0.2, 0.0, [0, 0], 3.5).vrp.round(3).tolist()
@@ -243,18 +242,17 @@ def double_support_vrp(
 
 
 def double_support_pull(omega: float, duration: float, left: float) -> float:
-    """Displacement of the DCM in m, times e^(-w left), by a VRP 1 m before u_e that follows K 17 there.
+    """DCM displacement in m, times e^(-w left), by a VRP 1 m before u_e along K 17.
 
-    The integral of w e^(-w s) q(s), with q from 1 now to 0 at the end as 1 - sin(w_d t); unlike the denominator of K 25
-    it has no 0 / 0.
+    Integral of w e^(-w s) q(s), q from 1 to 0 as 1 - sin(w_d t); no 0 / 0 as in K 25.
 
     Args:
-        omega: Pendulum frequency in rad/s.
+        omega: Pendulum's in rad/s.
         duration: T_d in s.
-        left: Time until its end in s, above 0.
+        left: Time to its end in s, above 0.
 
     Returns:
-        The displacement at the end.
+        The displacement.
 
     Example:
         >>> round(double_support_pull(3.5, 0.2, 0.2), 4)
@@ -277,20 +275,19 @@ def double_support_pull(omega: float, duration: float, left: float) -> float:
 def shrunk_support(
     polygon: NDArray[np.float64], rules: AnkleRules, middle: ArrayLike, yaw: float = 0.0
 ) -> NDArray[np.float64]:
-    """The polygon (k, 2) in m that the ankle strategy uses of a support polygon, f(c) S with f(c) = (beta_x, beta_y) (K
-    27).
+    """Ankle strategy's part (k, 2) in m of a support polygon, f(c) S, f(c) = (beta_x, beta_y) (K 27).
 
     Args:
-        polygon: Support polygon S (k, 2) in the world in m.
+        polygon: S (k, 2), world, in m.
         rules: Shares along and across the sole.
-        middle: Middle (2,) of the stance foot in m, about which it shrinks.
-        yaw: Heading of the sole in rad.
+        middle: Stance foot's (2,) in m, about which it shrinks.
+        yaw: Sole's heading in rad.
 
     Returns:
         The smaller polygon.
 
     Raises:
-        InputError: If the middle is not two finite numbers.
+        InputError: Non-finite or misshaped middle.
 
     Example:
         >>> square = np.array([[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]])
@@ -306,18 +303,17 @@ def shrunk_support(
 
 
 def within_support(wanted: AnkleVrp, support: ArrayLike) -> AnkleVrp:
-    """A VRP, or the closest one in the support polygon with `Saturation.SUPPORT`: then only a step reaches the target
-    (K 27).
+    """A VRP, or the closest in the support polygon (`Saturation.SUPPORT`: only a step reaches the target, K 27).
 
     Args:
-        wanted: VRP of the ankle strategy.
-        support: Convex polygon (k, 2) in m, already shrunk; empty does not limit it.
+        wanted: Ankle strategy's VRP.
+        support: Convex, shrunk (k, 2) in m; empty for no limit.
 
     Returns:
         The VRP.
 
     Raises:
-        InputError: If the polygon is not (k, 2) finite numbers.
+        InputError: Non-finite or misshaped polygon.
 
     Example:
         >>> square = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]]

@@ -1,4 +1,4 @@
-"""Balance laws by the name in a robot's file; a law's modules are loaded at first use."""
+"""Balance laws by name; their modules load at first use."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ LAWS = ("com_admittance", "wrench_distribution")
 
 
 def balance_gains(table: Mapping[str, Any]) -> LawGains:
-    """Gains of the law that a robot's `[balance]` table names; their class is that of the law.
+    """Gains of the law that a `[balance]` table names.
 
     Args:
-        table: The table: `law` and its gains.
+        table: `law` and its gains.
 
     Raises:
-        InputError: If the law or one of its gains is unknown, or a gain not allowed.
+        InputError: Unknown or disallowed setting.
 
     Example:
         >>> balance_gains({"law": "com_admittance", "dcm_gain": 3.0}).dcm_gain
@@ -46,13 +46,13 @@ def balance_gains(table: Mapping[str, Any]) -> LawGains:
 
 
 def balance_law(gains: LawGains, omega: float, mass: float, period: float) -> BalanceLaw:
-    """The law that the gains belong to.
+    """The law of these gains.
 
     Args:
         gains: Gains of a law.
-        omega: Pendulum frequency in rad/s.
-        mass: Mass of the robot in kg.
-        period: Control period in s.
+        omega: Pendulum's in rad/s.
+        mass: Robot's in kg.
+        period: Of control in s.
 
     Returns:
         A new law.

@@ -1,4 +1,4 @@
-"""CoM admittance: the CoM reference yields to the error of the ZMP (T 4.29)."""
+"""CoM admittance: the CoM reference yields to ZMP error (T 4.29)."""
 
 from __future__ import annotations
 

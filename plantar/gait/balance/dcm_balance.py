@@ -29,9 +29,9 @@ class BalanceGains(Part, table="balance"):
 
     Attributes:
         dcm_gain: k_xi of T 4.28 in 1/s.
-        zmp_gain: k_f of T 4.29 in 1/s: how fast the CoM reference yields to a ZMP error.
-        com_gain: k_x of T 4.29 in 1/s: how fast the CoM reference returns to the plan.
-        zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
+        zmp_gain: k_f of T 4.29 in 1/s: the CoM reference yields to ZMP error.
+        com_gain: k_x of T 4.29 in 1/s: the CoM reference returns to the plan.
+        zmp_filter: Low-pass time constant in s of the ZMP error.
     """
 
     dcm_gain: float = share(0.371, "1/beat", 0, 50)
@@ -46,10 +46,10 @@ class DcmBalance:
     """DCM feedback with CoM admittance.
 
     Args:
-        gains: The gains.
-        omega: Pendulum frequency in rad/s.
-        mass: Robot mass in kg.
-        period: Control period in s.
+        gains: Gains.
+        omega: Pendulum's in rad/s.
+        mass: Robot's in kg.
+        period: Of control in s.
     """
 
     wants_contacts = False
@@ -74,12 +74,12 @@ class DcmBalance:
         """Desired ZMP (2,) in m, p_d = p_r - (1 + k_xi / w) (xi_r - xi) (T 4.28), kept in a region (T Algorithm 1).
 
         Args:
-            reference: The plan now.
-            dcm: Measured DCM (2,) in m.
-            region: Convex polygon (k, 2) in the world frame in m, counter-clockwise, for p_d; empty leaves it free.
+            reference: Plan now.
+            dcm: Measured (2,) in m.
+            region: Convex (k, 2), world, in m, counter-clockwise; empty for no limit.
 
         Returns:
-            The ZMP.
+            p_d.
         """
         zmp: NDArray[np.float64] = self._feedback.desired(reference.vrp, reference.dcm, dcm, region)
         return zmp
@@ -91,13 +91,13 @@ class DcmBalance:
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
     ) -> BalanceState:
-        """The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
+        """Desired ZMP and the CoM reference that tracks it (T 4.29).
 
         Args:
-            reference: The plan now.
-            dcm: Measured DCM (2,) in m.
-            zmp: Measured ZMP (2,) in m, or None where no foot carries load.
-            region: As of `desired_zmp`.
+            reference: Plan now.
+            dcm: Measured (2,) in m.
+            zmp: Measured (2,) in m; None if no foot is loaded.
+            region: As in `desired_zmp`.
 
         Returns:
             The decision.
@@ -106,15 +106,14 @@ class DcmBalance:
         return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Load transfer by the plan; at rest, feet yield to what they press against each other and to a share of the
-        ZMP error.
+        """Load transfer by the plan; at rest, feet yield to mutual pressure and part of the ZMP error.
 
         Args:
-            balanced: Result of `update`.
-            feet: The feet.
+            balanced: From `update`.
+            feet: Both.
 
         Returns:
-            Action of each foot.
+            For each foot.
         """
         actions = transferred(balanced, self.mass, feet)
         wanted, measured = {}, {}
@@ -132,7 +131,7 @@ class DcmBalance:
 
 
 def _wrench_in_sole(action: FootAction, foot: FootState) -> NDArray[np.float64]:
-    """Wrench (6,) of a foot's desired force about the origin of a sole, level to first order."""
+    """Wrench (6,) of a foot's desired force about a sole's origin, level to first order."""
     force = action.force
     place = foot.rotation[:2, :2].T @ (action.center_of_pressure - foot.position[:2])
     return np.array([0.0, 0.0, force[2], place[1] * force[2], -place[0] * force[2], 0.0])

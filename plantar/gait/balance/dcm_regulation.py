@@ -1,7 +1,7 @@
-"""DCM regulation: only where the DCM is when a phase ends is controlled, not the way there (K 21-27).
+"""DCM regulation: controls only the DCM at the end of a phase (K 21-27).
 
-Tracking feeds back the DCM's distance from the plan at every instant (T 4.28). Regulation applies the VRP that brings
-the DCM to its goal by the end of the phase, so a footstep that has moved changes no trajectory at once (K 3.3).
+Tracking feeds back the DCM error at every instant (T 4.28); here a moved footstep changes no trajectory at once (K
+3.3).
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ __all__ = ["phase_goal", "regulated_vrp"]
 
 
 def phase_goal(plan: PlanView, phase: Phase, offset: NDArray[np.float64], omega: float) -> NDArray[np.float64] | None:
-    """DCM (2,) in m at the end of a phase from which the walk could come to rest over its next step (K 21-24).
+    """DCM (2,) in m at a phase's end that lets the walk rest over its next step (K 21-24).
 
     Args:
         plan: The plan.
-        phase: The phase now.
-        offset: u_w (2,) in m by which a push is expected to move the VRP.
-        omega: Pendulum frequency in rad/s.
+        phase: Present phase.
+        offset: u_w (2,) in m by a push.
+        omega: Pendulum's in rad/s.
 
     Returns:
-        The goal; None in the first and the last phases of a walk, whose goal is the plan's.
+        The goal; None in a walk's first and last phases, whose goal is the plan's.
     """
     step, schedule = phase.step, plan.schedule
     if phase.kind == PhaseKind.SINGLE_SUPPORT and step + 1 < plan.count:
@@ -49,19 +49,19 @@ def regulated_vrp(
     offset: NDArray[np.float64],
     omega: float,
 ) -> AnkleVrp | None:
-    """VRP u* that brings the DCM to its goal at the end of the phase (K 25-26), not yet limited (K 27).
+    """VRP u* that brings the DCM to its goal by the phase's end (K 25-26), unlimited (K 27).
 
     Args:
         plan: The plan.
-        phase: The phase now.
-        time: Time in s.
-        dcm: DCM (2,) in m.
-        goal: Its goal (2,) in m (`phase_goal`).
+        phase: Present phase.
+        time: In s.
+        dcm: (2,) in m.
+        goal: (2,) in m (`phase_goal`).
         offset: u_w (2,) in m.
-        omega: Pendulum frequency in rad/s.
+        omega: Pendulum's in rad/s.
 
     Returns:
-        The VRP; None in the first and the last phases of a walk.
+        u*; None in a walk's first and last phases.
     """
     if phase.kind == PhaseKind.SINGLE_SUPPORT:
         return single_support_vrp(dcm, goal, phase.end - time, offset, omega)

@@ -1,6 +1,6 @@
 """Foot damping and foot force difference control (Kajita et al. 2010, Caron et al. 2019).
 
-A sole turns with the moment error; of two feet the more loaded one goes up, the other one down.
+Soles turn with the moment error; the more loaded foot goes up, the other down.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ class AdmittanceGains(Settings):
     """Gains of the feet's admittance.
 
     Attributes:
-        foot_turn_gain: Turning rate of a sole in rad/s per N m of moment error.
-        foot_lift_gain: Rate of the feet's height difference in m/s per N of force difference error.
-        foot_return: Rate in 1/s at which corrections return to zero while the foot stands.
-        foot_filter: Time constant in s of the low-pass on the measured wrench.
-        largest_turn: Largest turn of a sole about an axis in rad.
-        largest_lift: Largest shift of a sole in m.
+        foot_turn_gain: Sole's rate in rad/s per N m of moment error.
+        foot_lift_gain: Height difference's rate in m/s per N of force difference error.
+        foot_return: Decay in 1/s of a standing foot's corrections.
+        foot_filter: Low-pass time constant in s of the measured wrench.
+        largest_turn: About an axis in rad.
+        largest_lift: In m.
     """
 
     foot_turn_gain: float = share(0.0481, "rad/beat/weight/sole", 0, 1)
@@ -42,11 +42,11 @@ class FootAdmittance:
     """Admittance of both feet.
 
     Attributes:
-        corrections: Correction of each commanded sole: `roll` and `pitch` in rad about its axes, `shift` in m upwards.
+        corrections: Of each commanded sole: `roll`, `pitch` in rad about its axes, `shift` in m upwards.
 
     Args:
         gains: The gains.
-        period: Control period in s.
+        period: Of control in s.
     """
 
     def __init__(self, gains: AdmittanceGains, period: float) -> None:
@@ -65,12 +65,12 @@ class FootAdmittance:
         measured: Mapping[Side, NDArray[np.float64]],
         rests: bool = False,
     ) -> Mapping[Side, SoleAdmittance]:
-        """`corrections` after one more control tick; that of a foot in the air fades.
+        """`corrections` after a control tick; those of a foot in the air fade.
 
         Args:
-            wanted: Desired wrench (6,) on each standing foot in its sole frame, by the world on the robot.
-            measured: Measured wrench (6,) of the same feet.
-            rests: Whether the robot stands: corrections then do not return, so that no wrench error is left.
+            wanted: Desired wrench (6,), by the world, on each standing foot in its sole frame.
+            measured: Same feet's measured wrench (6,).
+            rests: Whether the robot stands: corrections do not decay, so no wrench error remains.
 
         Returns:
             The corrections.

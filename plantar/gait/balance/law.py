@@ -1,4 +1,4 @@
-"""Interface of balance laws: each tick calls `update` (CoM and ZMP), then `act` (load and yielding of each foot)."""
+"""Balance laws: `update` (CoM, ZMP), then `act` (each foot), each tick."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ __all__ = ["BalanceLaw", "BalanceState", "Feet", "FootAction", "FootState"]
 
 
 class BalanceState(Record, frozen=True):
-    """Decision of a balance law at one tick, world frame.
+    """A balance law's decision, world frame.
 
     Attributes:
-        zmp_desired: Desired ZMP p_d (2,) in m, inside the support polygon.
-        com: CoM reference (2,) in m after admittance.
+        zmp_desired: p_d (2,) in m, in the support polygon.
+        com: Reference (2,) in m after admittance.
         com_velocity: Its rate (2,) in m/s.
-        com_acceleration: Acceleration (2,) in m/s^2 for the desired ZMP.
+        com_acceleration: For the desired ZMP (2,) in m/s^2.
     """
 
     zmp_desired: NDArray[np.float64]
@@ -35,17 +35,17 @@ class BalanceState(Record, frozen=True):
 
 
 class FootState(Record, frozen=True):
-    """Input of a balance law for a foot, command frame.
+    """A foot as balance laws see it, command frame.
 
     Attributes:
-        position: Commanded position (3,) of the sole frame's origin in m.
-        level: Commanded rotation (3, 3) of the sole before foot damping.
+        position: Commanded sole origin (3,) in m.
+        level: Sole's commanded rotation (3, 3) before foot damping.
         rotation: The same after foot damping.
-        center: Point (2,) of the sole frame in m at which the foot should be loaded.
-        contact: Its sole frame in the world, loadable part and desired centre of pressure; None in the air, or for a
-            law without `wants_contacts`.
-        wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot; None in the air, and
-            for such a law while the robot walks.
+        center: Point (2,) of the sole in m to load.
+        contact: Sole frame in the world, loadable part, desired center of pressure; None in the air or without
+            `wants_contacts`.
+        wrench: Measured (6,), sole frame, about its origin, by the world; None in the air, and for such a law while
+            walking.
     """
 
     position: NDArray[np.float64]
@@ -61,8 +61,8 @@ class Feet(Record, frozen=True):
 
     Attributes:
         states: Each foot.
-        stance: The only carrying foot in single support, else None.
-        frame: The frame that they are commanded in.
+        stance: Single support's carrying foot, else None.
+        frame: Command frame.
         rests: Whether the robot stands after a walk.
     """
 
@@ -73,14 +73,14 @@ class Feet(Record, frozen=True):
 
 
 class FootAction(Record, frozen=True):
-    """Desired wrench of the ground on a foot, and how the foot yields.
+    """Ground's desired wrench on a foot, and its yielding.
 
     Attributes:
-        force: Force (3,) in N, command frame.
-        center_of_pressure: Point (2,) of the command frame in m at which it acts, without a horizontal moment.
-        roll: Turn in rad of the commanded sole about its x axis.
-        pitch: Turn in rad about its y axis.
-        shift: Shift in m of the commanded sole upwards.
+        force: (3,) in N, command frame.
+        center_of_pressure: (2,), command frame, in m, without a horizontal moment.
+        roll: Sole's turn in rad about its x axis.
+        pitch: About its y axis in rad.
+        shift: Sole's in m upwards.
     """
 
     force: NDArray[np.float64]
@@ -94,8 +94,8 @@ class BalanceLaw(Protocol):
     """Protocol of a balance law.
 
     Attributes:
-        wants_contacts: Whether it needs contacts and measured wrenches of the feet.
-        states: Counts of its named end states, for the run's summary; empty for a law without states.
+        wants_contacts: Whether it needs the feet's contacts and measured wrenches.
+        states: Counts of its named end states; empty without states.
     """
 
     wants_contacts: bool
@@ -111,10 +111,10 @@ class BalanceLaw(Protocol):
         """Decide on CoM and ZMP.
 
         Args:
-            reference: The plan now.
-            dcm: Measured DCM (2,) in m.
-            zmp: Measured ZMP (2,) in m, or None where no foot is loaded.
-            region: Convex polygon (k, 2) in the world in m for the desired ZMP; empty does not limit it.
+            reference: Plan now.
+            dcm: Measured (2,) in m.
+            zmp: Measured (2,) in m; None if no foot is loaded.
+            region: For the desired ZMP: convex (k, 2), world, in m; empty for no limit.
 
         Returns:
             The decision.
@@ -125,10 +125,10 @@ class BalanceLaw(Protocol):
         """Share the ground's wrench between the feet.
 
         Args:
-            balanced: Result of `update` at this tick.
-            feet: The feet.
+            balanced: From `update`, this tick.
+            feet: Both.
 
         Returns:
-            Action of each foot.
+            For each foot.
         """
         ...

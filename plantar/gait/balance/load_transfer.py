@@ -1,4 +1,4 @@
-"""Load transfer by the plan: the pendulum's force, shared between the feet by the desired ZMP."""
+"""Load transfer: the desired ZMP shares the pendulum's force between the feet."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ __all__ = ["transferred"]
 
 
 def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, FootAction]:
-    """Share the force of the pendulum, m (a_x, a_y, g), between the feet.
+    """Share the pendulum's force, m (a_x, a_y, g), between the feet.
 
-    In double support the desired ZMP on the line between the feet's centres gives the shares; its distance from that
-    line moves each foot's centre of pressure.
+    In double support the ZMP along the line of the feet's centers gives the shares; its distance from it moves each
+    center of pressure.
 
     Args:
         balanced: Desired ZMP and CoM acceleration.
-        mass: Robot mass in kg.
-        feet: The feet.
+        mass: Robot's in kg.
+        feet: Both.
 
     Returns:
-        Action of each foot.
+        For each foot.
     """
     left, right, zmp = feet.states["left"], feet.states["right"], feet.frame.to_command(balanced.zmp_desired)
     stance = 0 if feet.stance is None else 1 if feet.stance == "left" else 2

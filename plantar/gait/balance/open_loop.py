@@ -1,4 +1,4 @@
-"""No feedback: the plan as it is, for open-loop walks and for ticks before the estimate has settled."""
+"""No feedback, for open-loop walks and before the estimate settles."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ __all__ = ["OpenLoop"]
 
 
 class OpenLoop:
-    """Follows the plan (see `plantar.gait.balance.law.BalanceLaw`).
+    """Follows the plan (`plantar.gait.balance.law.BalanceLaw`).
 
     Args:
-        mass: Robot mass in kg.
+        mass: Robot's in kg.
     """
 
     wants_contacts = False
@@ -36,13 +36,13 @@ class OpenLoop:
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
     ) -> BalanceState:
-        """The plan, with its VRP as desired ZMP.
+        """The plan; its VRP is the desired ZMP.
 
         Args:
-            reference: The plan now.
-            dcm: Not used.
-            zmp: Not used.
-            region: Not used.
+            reference: Plan now.
+            dcm: Unused.
+            zmp: Unused.
+            region: Unused.
 
         Returns:
             The decision.
@@ -53,10 +53,10 @@ class OpenLoop:
         """Load transfer by the plan.
 
         Args:
-            balanced: Result of `update`.
-            feet: The feet.
+            balanced: From `update`.
+            feet: Both.
 
         Returns:
-            Action of each foot.
+            For each foot.
         """
         return transferred(balanced, self.mass, feet)

@@ -1,7 +1,7 @@
-"""Balance by distributing the ground's wrench over the feet (Caron et al. 2019, T 4.4.4).
+"""Balance by wrench distribution over the feet (Caron et al. 2019, T 4.4.4).
 
-The DCM error, proportional and integral, gives a net wrench; a quadratic program shares it within the feet's wrench
-cones; ankles and legs yield until the soles measure their shares.
+The DCM error, proportional and integral, gives a net wrench; a quadratic program shares it within wrench cones; ankles
+and legs yield until soles measure their shares.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ class WrenchBalanceGains(Part, table="balance"):
 
     Attributes:
         dcm_gain: k_xi of T 4.18 in 1/s.
-        dcm_integral: Gain in 1/s of the integral of the DCM error on the desired ZMP.
-        dcm_forgetting: Rate in 1/s at which that integral decays.
-        largest_integral: Largest contribution in m of the integral to the desired ZMP.
-        zmp_gain: Rate in 1/s at which the CoM reference yields to a ZMP error (T 4.29).
-        com_gain: Rate in 1/s at which it returns to the plan (T 4.29).
-        zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
-        minimum_force: Least normal force in N of a standing foot.
-        feet: Gains of the feet's admittance.
+        dcm_integral: In 1/s, of the DCM error's integral on the desired ZMP.
+        dcm_forgetting: Integral's decay in 1/s.
+        largest_integral: Its largest share of the desired ZMP in m.
+        zmp_gain: CoM reference's yield to ZMP error in 1/s (T 4.29).
+        com_gain: Its return to the plan in 1/s (T 4.29).
+        zmp_filter: Low-pass time constant in s of the ZMP error.
+        minimum_force: Standing foot's, normal, in N.
+        feet: Admittance of the feet.
     """
 
     dcm_gain: float = share(0.742, "1/beat", 0, 50)
@@ -65,13 +65,13 @@ class WrenchBalanceGains(Part, table="balance"):
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Gains of the law and of the feet's admittance from one table.
+        """Gains of the law and the feet from one table.
 
         Args:
-            table: Values by name, of either class.
-            where: Name of the table, for messages.
-            error: Error class to raise.
-            note: What decides on the allowed keys, for messages.
+            table: Of either class, by name.
+            where: Table's name, for messages.
+            error: Error class.
+            note: What decides on allowed keys, for messages.
 
         Returns:
             The gains.
@@ -83,12 +83,12 @@ class WrenchBalanceGains(Part, table="balance"):
 
     @classmethod
     def names(cls) -> tuple[str, ...]:
-        """Allowed keys of a table."""
+        """A table's allowed keys."""
         return (*super().names(), *AdmittanceGains.names())
 
     @classmethod
     def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
-        """Descriptions of all settings, for a body."""
+        """All settings for a body, described."""
         return (*super().described(body), *AdmittanceGains.described(body))
 
 
@@ -99,11 +99,11 @@ class WrenchBalance:
         states: Counts of the distribution's end states.
 
     Args:
-        gains: Gains of the law.
-        omega: Pendulum frequency in rad/s.
-        mass: Mass of the robot in kg.
-        period: Control period in s.
-        weights: Weights of the distribution.
+        gains: The law's.
+        omega: Pendulum's in rad/s.
+        mass: Robot's in kg.
+        period: Of control in s.
+        weights: For the distribution.
     """
 
     wants_contacts = True
@@ -140,10 +140,10 @@ class WrenchBalance:
         """Desired ZMP and CoM reference.
 
         Args:
-            reference: The plan now.
-            dcm: Measured DCM (2,) in m.
-            zmp: Measured ZMP (2,) in m, or None where no foot is loaded.
-            region: Convex polygon (k, 2) in the world in m for the desired ZMP; empty does not limit it.
+            reference: Plan now.
+            dcm: Measured (2,) in m.
+            zmp: Measured (2,) in m; None if no foot is loaded.
+            region: For the desired ZMP: convex (k, 2), world, in m; empty for no limit.
 
         Returns:
             The decision.
@@ -152,14 +152,14 @@ class WrenchBalance:
         return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
-        """Share the pendulum's wrench between the standing feet, and let them yield.
+        """Share the pendulum's wrench between standing feet, which yield.
 
         Args:
-            balanced: Result of `update`.
-            feet: The feet.
+            balanced: From `update`.
+            feet: Both.
 
         Returns:
-            Action of each foot.
+            For each foot.
         """
         states, wanted = feet.states, self.distributed(balanced, feet)
         measured = {side: foot.wrench for side, foot in states.items() if foot.wrench is not None}
@@ -170,12 +170,11 @@ class WrenchBalance:
         }
 
     def distributed(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, NDArray[np.float64]]:
-        """Wrench (6,) by the world on each standing foot in its sole frame about its origin, which sum to the
-        pendulum's.
+        """World's wrench (6,) on each standing foot about its sole frame's origin; their sum is the pendulum's.
 
         Args:
-            balanced: Result of `update`.
-            feet: The feet.
+            balanced: From `update`.
+            feet: Both.
 
         Returns:
             The wrenches.
@@ -208,7 +207,7 @@ def _action(wrench: NDArray[np.float64], foot: FootState, correction: SoleAdmitt
 
 
 def _share(x: float, y: float, first: tuple[float, ...], second: tuple[float, ...]) -> float:
-    """Share of the first of two points in a ZMP (x, y) between them, 0 to 1."""
+    """First point's share in a ZMP (x, y) between two, 0 to 1."""
     dx, dy = first[0] - second[0], first[1] - second[1]
     length = dx * dx + dy * dy
     if length == 0.0:

@@ -1,1 +1,1 @@
-"""What the feet stand on, and what the ground ahead of them is."""
+"""What feet stand on, and the ground ahead."""

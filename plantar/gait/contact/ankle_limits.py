@@ -1,7 +1,6 @@
-"""The part of a foothold on which a foot can carry the body alone, within the torque limits of its ankle.
+"""Part of a foothold that can carry alone within its ankle's torques.
 
-With weight W and ZMP p a joint with axis a through c has the torque a . ((p - c) x W e_z). `ankle_reach` is a choice of
-the robot's file; this limits the balance law of any robot.
+With weight W and ZMP p a joint with axis a through c has the torque a . ((p - c) x W e_z).
 """
 
 from __future__ import annotations
@@ -18,12 +17,11 @@ _SHARE = 0.95
 
 
 class AnkleLimits:
-    """Where one foot can carry the body.
+    """Where one foot alone carries the body.
 
     Args:
-        strips: Strips (m, 4) in the sole frame in which the ankle is within its limits, one for each joint: unit normal
-            (x, y), middle and half width along it in m.
-        margin: Distance in m of the desired ZMP from the edge of a support polygon.
+        strips: (m, 4), sole frame, one a joint, within its torque: unit normal (x, y), middle and half width in m.
+        margin: Desired ZMP from a support polygon's edge in m.
     """
 
     def __init__(self, strips: NDArray[np.float64], margin: float) -> None:
@@ -34,24 +32,22 @@ class AnkleLimits:
         self._margin = margin
 
     def within(self, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The part (j, 2) of a support polygon (k, 2) that, moved inwards by the margin, ends at the ankle's reach;
-        else all.
+        """Part (j, 2) of a support polygon (k, 2), moved in by the margin, within the ankle's reach; else all.
 
-        Polygons are in the sole frame in m, counter-clockwise.
+        Polygons: sole frame, m, counter-clockwise.
         """
         left = self._cut(polygon, self._margin)
         return left if area(left) > 0.0 else polygon
 
     def center(self, polygon: NDArray[np.float64], center: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Returns the best place (2,) in m to load a foot that carries alone.
+        """Returns the best place (2,) in m to load a foot alone.
 
-        It is `center` where the ankle reaches all of the polygon, else the centroid of the ZMP's region, or the nearest
-        place to the ankle's reach that keeps the margin: over an edge the robot falls, with a joint at its limit it
-        only sinks.
+        `center` if the ankle reaches all of the polygon, else the centroid of the ZMP's region, or the nearest place
+        with the margin: over an edge the robot falls, at a joint's limit it only sinks.
 
         Args:
-            polygon: Support polygon (k, 2) in the sole frame in m, counter-clockwise.
-            center: Best place (2,) in m for a strong ankle: the centroid.
+            polygon: Support (k, 2), sole frame, in m, counter-clockwise.
+            center: Best (2,) in m for a strong ankle: the centroid.
         """
         reached = self._cut(polygon)
         if area(reached) >= area(polygon) * (1.0 - 1e-9):
@@ -66,7 +62,7 @@ class AnkleLimits:
         return center if found is None else found
 
     def _cut(self, polygon: NDArray[np.float64], margin: float = 0.0) -> NDArray[np.float64]:
-        """The part of a polygon (k, 2) within the limits, or up to a margin in m outside of them."""
+        """Part of a polygon (k, 2) within the limits plus a margin in m."""
         for x, y, h in self._lines:
             polygon = part_inside(polygon, x, y, h + margin)
         return polygon

@@ -1,4 +1,4 @@
-"""Where on its ground an ankle bears the robot: a centre of pressure x ahead of the ankle takes the torque m g x."""
+"""Where an ankle bears the robot: a center of pressure at x takes torque m g x."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ _HALF = 0.5  # of an ankle's torque, which the other half is to balance with
 
 
 def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """Returns the part (k, 2) of a foothold on which the ankle bears the robot, or the point (1, 2) nearest to it.
+    """Returns a foothold's part (k, 2) that the ankle bears, or the nearest point (1, 2).
 
     Args:
-        polygon: Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
-        reach: Distance in m from the ankle, along the sole, at which it bears the robot.
+        polygon: Convex (k, 2), sole frame, in m, counter-clockwise.
+        reach: From the ankle along the sole in m.
 
     Example:
         >>> borne_part(np.array([[-0.1, -0.04], [0.2, -0.04], [0.2, 0.04], [-0.1, 0.04]]), 0.08)[:, 0].round(3).tolist()
@@ -34,13 +34,13 @@ def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64
 
 
 def loaded_middle(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """Returns the best place (2,) in the sole frame in m to load a foothold.
+    """Returns the best place (2,), sole frame, in m to load a foothold.
 
-    The centroid, or as near to it as leaves the ankle half its torque, or the nearest that it bears.
+    The centroid, or nearest place at half the ankle's torque, or the nearest that it bears.
 
     Args:
-        polygon: Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
-        reach: Distance in m from the ankle, along the sole, at which it bears the robot.
+        polygon: Convex (k, 2), sole frame, in m, counter-clockwise.
+        reach: From the ankle along the sole in m.
     """
     middle = centroid(polygon)
     assert middle is not None  # a foothold has an area

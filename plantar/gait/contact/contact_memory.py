@@ -1,9 +1,8 @@
-"""Which cells of a standing sole touch the ground: those that carry, and those that did until the sole's turn lifted
-them.
+"""Touching cells of a standing sole: carrying, or carrying until its turn lifted them.
 
     rise_i = (s - s_i) . (r_i - p)
 
-with s the rise of the sole along its axes now, s_i when the cell carried last, and p the centre of pressure.
+with s the sole's rise along its axes now, s_i when the cell last carried, p the center of pressure.
 """
 
 from __future__ import annotations
@@ -19,14 +18,14 @@ __all__ = ["ContactMemory"]
 
 
 class ContactMemory:
-    """Contacts of one foot over its stance.
+    """A foot's contacts over its stance.
 
     Args:
-        layout: The sole.
-        least_force: Running mean in N from which a cell carries.
-        gap: Rise in m from which a cell has lifted off.
-        least_share: Least share of the foot's load of a cell that carries.
-        smoothing: Weight of a new reading in the running mean.
+        layout: Of the sole.
+        least_force: Running mean in N of a carrying cell.
+        gap: Rise in m of a lifted cell.
+        least_share: Of the foot's load on a carrying cell.
+        smoothing: New reading's weight in the running mean.
     """
 
     def __init__(
@@ -45,7 +44,7 @@ class ContactMemory:
         self.lift()
 
     def lift(self) -> None:
-        """The foot is in the air: clear the contacts."""
+        """Clear the contacts of a foot in the air."""
         count = len(self._places)
         self._mean = np.zeros(count)
         self._touches = np.zeros(count, dtype=bool)
@@ -53,12 +52,12 @@ class ContactMemory:
         self._time = -np.inf
 
     def update(self, reading: Reading, rotation: NDArray[np.float64], center_of_pressure: NDArray[np.float64]) -> None:
-        """Add the latest reading.
+        """Add a reading.
 
         Args:
-            reading: The sole's latest reading; dead taxels count as unloaded.
-            rotation: Estimated rotation (3, 3) from the sole to the world.
-            center_of_pressure: Centre of pressure (2,) in the sole frame in m.
+            reading: Sole's; dead taxels count as unloaded.
+            rotation: Sole to world (3, 3), estimated.
+            center_of_pressure: (2,), sole frame, in m.
         """
         slope = rotation[2, :2]
         if reading.time > self._time:
@@ -75,13 +74,11 @@ class ContactMemory:
 
     @property
     def polygon(self) -> NDArray[np.float64]:
-        """Hull (k, 2) of the touching cells' centres in the sole frame in m, counter-clockwise; empty for fewer than
-        three.
-        """
+        """Hull (k, 2) of touching cells' centers, sole frame, in m, counter-clockwise; empty below three."""
         touching = self._places[self._touches]
         return convex_hull(touching) if len(touching) >= 3 else np.empty((0, 2))
 
     def encloses(self, point: NDArray[np.float64]) -> bool:
-        """Whether a point (2,) in the sole frame in m lies between the contacts."""
+        """Whether a point (2,), sole frame, in m, lies between the contacts."""
         polygon = self.polygon
         return len(polygon) >= 3 and signed_margin(polygon, point) >= 0.0

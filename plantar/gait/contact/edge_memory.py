@@ -1,9 +1,9 @@
-"""Edges of the ground that continue from foothold to foothold, such as those of a beam.
+"""Edges of the ground across footholds, such as a beam's.
 
-The line of the foothold before is presumed under the sole that lands now, until the taxels contradict. With s along the
-line found last and d across it, an edge is
+A landing sole presumes the last foothold's line until taxels contradict. With s along the last line and d across, an
+edge is
 
-    d = h + m s,    least squares of (d_i - h - m s_i) / spread and (m - m_i) / turn over the footholds i.
+    d = h + m s, least squares of (d_i - h - m s_i) / spread and (m - m_i) / turn over the footholds i.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _AGREEMENT = 0.1  # of a sole's length from each other, at which they are not
 
 
 class _Edge(NamedTuple):
-    """An edge under one foothold, in the world: a point (2,) in m and the outward normal (2,)."""
+    """Edge under one foothold, world frame: point (2,) in m, outward normal (2,)."""
 
     point: NDArray[np.float64]
     normal: NDArray[np.float64]
@@ -35,18 +35,18 @@ class _Edge(NamedTuple):
 
 @dataclass
 class _Foothold:
-    """Edges that one step's foot was found to stand between."""
+    """Edges found under one step's foot."""
 
     step: int
     edges: list[_Edge]
 
 
 class EdgeMemory:
-    """Edges under the footholds of the last steps.
+    """Edges under the last footholds.
 
     Args:
-        body: Dimensions of the robot.
-        memory: Number of footholds that count.
+        body: Robot's dimensions.
+        memory: Footholds that count.
     """
 
     def __init__(self, body: BodyScale = REFERENCE_BODY, memory: int = 5) -> None:
@@ -62,14 +62,14 @@ class EdgeMemory:
         position: NDArray[np.float64],
         rotation: NDArray[np.float64],
     ) -> None:
-        """Store the edges of a foothold; none where it is whole.
+        """Store a foothold's edges; none if whole.
 
         Args:
-            step: Its step; one that is stored already is replaced.
-            lines: Edges (m, 3) n . x <= h in the sole frame.
-            middle: Middle (2,) of what carries in the sole frame in m.
-            position: Sole frame's origin (3,) in the world in m.
-            rotation: Rotation (3, 3) from the sole to the world.
+            step: Its step; replaces a stored one.
+            lines: (m, 3) n . x <= h, sole frame.
+            middle: Of what carries (2,), sole frame, in m.
+            position: Sole origin (3,), world frame, in m.
+            rotation: Sole to world (3, 3).
         """
         if self._footholds and self._footholds[-1].step >= step:
             self._footholds.pop()
@@ -84,12 +84,12 @@ class EdgeMemory:
         self._footholds.append(_Foothold(step, edges))
 
     def expected(self, step: int, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Returns edges (m, 3) n . x <= h of the foothold before in the frame of a sole that lands.
+        """Returns the last foothold's edges (m, 3) n . x <= h in a landing sole's frame.
 
         Args:
             step: Its step.
-            position: Sole frame's origin (3,) in the world in m.
-            rotation: Rotation (3, 3) from it to the world.
+            position: Sole origin (3,), world frame, in m.
+            rotation: Sole to world (3, 3).
         """
         if not self._footholds or self._footholds[-1].step != step - 1:
             return np.empty((0, 3))
@@ -102,7 +102,7 @@ class EdgeMemory:
         return np.array(lines).reshape(-1, 3)
 
     def _fitted(self, last: _Edge) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Point (2,) and normal (2,) of the edge found last, by all consecutive footholds that have it."""
+        """The last edge's point (2,) and normal (2,) by all consecutive footholds with it."""
         along = np.array([-last.normal[1], last.normal[0]])
         rows = [(0.0, 0.0, 0.0)]
         for foothold in reversed(list(self._footholds)[:-1]):
@@ -120,7 +120,7 @@ class EdgeMemory:
         return point, np.asarray(normal / math.hypot(*normal.tolist()))
 
     def _same(self, last: _Edge, along: NDArray[np.float64], edges: list[_Edge]) -> tuple[float, float, float] | None:
-        """Place along and across a line, and slope against it, of the edge that continues it; None without one."""
+        """Place along and across a line, and slope, of the continuing edge, or None."""
         for edge in edges:
             away, c = edge.point - last.point, float(edge.normal @ last.normal)
             slope = -float(edge.normal @ along) / c if c > math.cos(_PARALLEL) else math.inf

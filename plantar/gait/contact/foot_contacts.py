@@ -1,4 +1,4 @@
-"""What both feet stand on, and what a foot that comes down will stand on: found by their soles (T 4.4.2-4.4.3)."""
+"""What feet stand on, or will when they land, by their soles (T 4.4.2-4.4.3)."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ _FORGETS = 4  # steps after which a foothold that carried a part of the sole is 
 
 
 def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
-    """Place (2,) of the VRP over a whole foothold, in the sole frame in m (`plantar.gait.contact.ankle_reach`).
+    """VRP place (2,) over a whole foothold, sole frame, in m (`plantar.gait.contact.ankle_reach`).
 
     Args:
-        layout: The sole.
-        reach: Distance in m from the sole frame's origin, along the sole, at which the ankle bears the robot.
+        layout: Of the sole.
+        reach: Distance in m along the sole, from its origin, at which the ankle bears the robot.
 
     Returns:
         The place.
@@ -45,18 +45,18 @@ def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.fl
 
 @dataclass(frozen=True)
 class FootholdFound:
-    """What a foot was found to stand on.
+    """Foothold as found.
 
     Attributes:
-        step: The step that put it down.
+        step: Its step.
         side: Which foot.
-        polygon: Support polygon (k, 2) in the world in m, counter-clockwise.
-        area_ratio: Its share of the sole's cells.
-        vrp: VRP (2,) over it in the world in m.
-        middle: Its centroid (2,) in the world in m: the VRP unless the ankle bears the robot on a part of it.
-        whole: Whether it carries the whole sole.
-        as_planned: Whether it is whole, and no other was found before.
-        seen: Whether the sole saw it before it touched; what loads alone show may change.
+        polygon: Support (k, 2), world frame, in m, counter-clockwise.
+        area_ratio: Share of the sole's cells.
+        vrp: (2,), world frame, in m.
+        middle: Centroid (2,), world frame, in m: the VRP unless the ankle bears only a part.
+        whole: Whether the whole sole carries.
+        as_planned: Whether whole, and none other was found before.
+        seen: Whether seen before touchdown; what loads alone show can change.
     """
 
     step: int
@@ -72,12 +72,12 @@ class FootholdFound:
 
 @dataclass(frozen=True)
 class FootholdSeen:
-    """What a foot that comes down was seen to stand on soon, where that is not the whole sole.
+    """Partial foothold that a descending foot sees.
 
     Attributes:
-        step: The step that puts it down.
+        step: Its step.
         side: Which foot.
-        vrp: VRP (2,) over it in the world in m.
+        vrp: VRP (2,), world frame, in m.
     """
 
     step: int
@@ -87,7 +87,7 @@ class FootholdSeen:
 
 @dataclass
 class _Foot:
-    """One foot: its taxels' view, its load point (2,), the parts (k, 2) of its foothold that carry, and its step."""
+    """A foot: taxels' view, load point (2,), carrying parts (k, 2) of its foothold, step."""
 
     contact: StanceContact
     center: NDArray[np.float64]
@@ -102,11 +102,11 @@ class FootContacts:
     """Contacts of both feet.
 
     Args:
-        settings: How the contact polygon is found.
-        layouts: Sole layout of each side.
-        reach: Distance in m from the sole frame's origin, along the sole, at which an ankle bears the robot.
-        limits: Torque limits of each ankle; None for no limit.
-        sensing_range: Range of the proximity sensors in m.
+        settings: Contact polygon's.
+        layouts: Of each side.
+        reach: Distance in m along the sole, from its origin, at which an ankle bears the robot.
+        limits: Each ankle's torque limits, or None.
+        sensing_range: Of proximity, in m.
     """
 
     def __init__(
@@ -134,29 +134,27 @@ class FootContacts:
         self._region = np.empty((0, 2))
 
     def center(self, side: Side) -> NDArray[np.float64]:
-        """Best place (2,) to load a foot in its sole frame in m; of the whole sole while its foothold is not known."""
+        """Best place (2,) to load a foot, sole frame, in m; of the whole sole while unknown."""
         return self._feet[side].center
 
     def polygon(self, side: Side) -> NDArray[np.float64]:
-        """The part (k, 2) of a foothold on which its ankle bears the robot, in its sole frame in m."""
+        """Part (k, 2) of a foothold that its ankle bears, sole frame, in m."""
         return self._feet[side].borne
 
     def partial(self, side: Side) -> bool:
-        """Whether a foot is known to stand on a part of its sole."""
+        """Whether a foot is known to stand partially."""
         return not self._feet[side].contact.whole or self._feet[side].seen_partial
 
     def firm(self, step: int) -> bool:
-        """Whether the footholds of the last few steps before one were found, and seen ahead, to carry the whole
-        sole.
-        """
+        """Whether the last footholds before a step were found, and seen ahead, whole."""
         return step > self._part + _FORGETS
 
     def lift_off(self, side: Side, step: int) -> None:
-        """A swing begins: clear the foot's foothold.
+        """Clear a swinging foot's foothold.
 
         Args:
             side: Which foot.
-            step: The step that it takes.
+            step: Its step.
         """
         foot = self._feet[side]
         foot.contact.lift()
@@ -167,7 +165,7 @@ class FootContacts:
             self._foreseen = -1
 
     def touchdown(self, side: Side) -> None:
-        """A foot has landed: until loads show more, it stands on the part of its sole under which it saw ground."""
+        """Landed: the foot stands on what it saw until loads show more."""
         foot = self._feet[side]
         ground = foot.contact.foresee(np.zeros(2))
         if ground is not None:
@@ -175,24 +173,24 @@ class FootContacts:
         foot.seen_partial = ground is not None
 
     def bear_inside(self, side: Side, distance: float) -> None:
-        """Let a foot that has just landed carry nearer to the robot's middle.
+        """Load a foot that just landed nearer to the robot's middle.
 
         Args:
             side: Which foot.
-            distance: Distance along the sole's y axis in m.
+            distance: Along the sole's y axis in m.
         """
         self._feet[side].center = self._feet[side].center + np.array([0.0, distance])
 
     def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
-        """Sides, left first, of feet that take the weight over, or have landed and wait for it.
+        """Feet, left first, that take weight over, or landed and wait for it.
 
         Args:
-            phase: Phase of the walk.
-            time: Time in s.
-            feet: Commanded feet.
+            phase: The walk's.
+            time: In s.
+            feet: Commanded.
 
         Returns:
-            The sides.
+            Their sides.
         """
         early = phase.kind == PhaseKind.SINGLE_SUPPORT and time < phase.start + self._settings.watch
         sides: list[Side] = []
@@ -206,14 +204,14 @@ class FootContacts:
     def find_ahead(
         self, phase: Phase, time: float, feet: FeetView, state: BaseState, soles: Mapping[Side, Percept]
     ) -> FootholdSeen | None:
-        """Returns what the swing foot will stand on, once for each step, where it is seen and not whole.
+        """Returns the swing foot's coming foothold, once a step, if seen and not whole.
 
         Args:
-            phase: Phase of the walk.
-            time: Time in s.
-            feet: Commanded feet.
-            state: Estimated state.
-            soles: What each sole sees.
+            phase: The walk's.
+            time: In s.
+            feet: Commanded.
+            state: Estimate.
+            soles: View of each sole.
         """
         side = phase.swing
         if side is None or feet.landed:
@@ -241,15 +239,15 @@ class FootContacts:
         soles: Mapping[Side, Percept],
         slope: SoleSlope | None = None,
     ) -> tuple[FootholdFound, ...]:
-        """Returns what the feet that come to carry stand on, when it is found and when it changes.
+        """Returns footholds of feet that come to carry, when found or changed.
 
         Args:
-            phase: Phase of the walk.
-            time: Time in s.
-            feet: Commanded feet.
-            state: Estimated state.
-            soles: What each sole senses.
-            slope: Turn of each sole against the ground, where that is followed.
+            phase: The walk's.
+            time: In s.
+            feet: Commanded.
+            state: Estimate.
+            soles: Percept of each sole.
+            slope: Of each sole against the ground, where followed.
         """
         found = []
         for side in self.coming_to_carry(phase, time, feet):
@@ -261,7 +259,7 @@ class FootContacts:
         return tuple(found)
 
     def _remember(self, side: Side, state: BaseState) -> None:
-        """Let a foot that lands presume the edges of the foothold before."""
+        """Let a landing foot presume the last foothold's edges."""
         foot = self._feet[side]
         if foot.step is not None and not foot.contact.settled:
             place, turn = state.positions_sole[side], state.rotations_sole[side]
@@ -301,15 +299,15 @@ class FootContacts:
     def zmp_region(
         self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float
     ) -> NDArray[np.float64]:
-        """Returns the region of the desired ZMP: the support polygon (k, 2) in the world in m, moved inwards.
+        """Returns the desired ZMP's region: support polygon (k, 2), world frame, in m, moved in.
 
-        A foot whose support is unknown counts with its whole sole; a single one within its ankle's torque limits.
+        Unknown support counts as the whole sole; a single foot within its ankle's torques.
 
         Args:
-            phase: Phase of the walk.
-            feet: Commanded feet.
-            frame_offset: Offset (3,) of the commanded feet's frame in the world in m.
-            margin: Distance in m of the desired ZMP from the edge.
+            phase: The walk's.
+            feet: Commanded.
+            frame_offset: Of the command frame in the world (3,) in m.
+            margin: From the edge in m.
         """
         standing = [s for s in SIDES if feet.landed or phase.swing != s]
         alone = len(standing) == 1

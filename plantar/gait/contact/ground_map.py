@@ -1,7 +1,6 @@
-"""What a swinging sole sees of the ground: a map of distances that moves with the sole, and the plane of its highest
-part.
+"""Ground under a swinging sole: a distance map, and its highest part's plane.
 
-The sensors' bias shows at lift-off, when the ground is as far away as the sole rose.
+The sensors' bias shows at lift-off, when the distance is the sole's rise.
 """
 
 from __future__ import annotations
@@ -39,15 +38,14 @@ _REMEMBERED = 12  # control ticks for which poses are kept, for readings that ar
 class GroundMapSettings(
     Part, table="ground_map", needs={"control.pfc": (True,)}, given_by={"sensing_range": "sensing.proximity_range"}
 ):
-    """How the map of the ground under a swing foot is kept, and read as a plane.
+    """Ground map of a swing foot, and its plane.
 
     Attributes:
-        orientation: "plane" turns the sole by the plane fitted to the distances, "moment" by the virtual moment.
-        sensing_range: Range of the proximity sensors in m.
-        readings: Number of readings that the map of distances averages over while the sole stands still.
+        orientation: How the sole turns: "plane" fitted to the distances, or virtual "moment".
+        sensing_range: Of proximity, in m.
+        readings: Number averaged while the sole stands still.
         still: Move in m a control tick that halves it.
-        jump: Difference from the map, in standard deviations of the readings, by which one of them shows that the
-            ground has moved.
+        jump: Difference from the map, in standard deviations, that shows moved ground.
     """
 
     orientation: str = choice("plane", "moment")
@@ -66,10 +64,10 @@ class GroundView:
     """The ground under a swinging sole.
 
     Attributes:
-        distance: Distance down in m to the first contact.
-        middle: Distance down in m under the middle of the sole; the same where it is no plane.
-        slope: Rise of the ground along the sole's x and y (tangents) to turn by; None where too little is seen.
-        even: Whether nearly all that is seen lies on one plane.
+        distance: Down to the first contact in m.
+        middle: Down under the sole's middle in m; the same without a plane.
+        slope: Of the ground along the sole's x, y (tangents) to turn by; None if too little is seen.
+        even: Whether nearly all lies on one plane.
     """
 
     distance: float
@@ -79,13 +77,13 @@ class GroundView:
 
 
 class GroundMap:
-    """The ground under one sole as its taxels have seen it since lift-off.
+    """Ground under one sole since lift-off.
 
     Attributes:
-        bias: Known excess in m of the measured distances.
+        bias: Distances' known excess in m.
 
     Args:
-        layout: The sole.
+        layout: Of the sole.
         settings: Settings.
     """
 
@@ -113,11 +111,11 @@ class GroundMap:
 
     @property
     def distance(self) -> NDArray[np.float64]:
-        """Distance (n,) of each taxel from the ground in m, less the bias; inf or NaN where nothing is seen."""
+        """Each taxel's distance (n,) from the ground in m, less the bias; inf or NaN if unseen."""
         return self._distance - self.bias
 
     def begin(self) -> None:
-        """A swing begins: the map is empty."""
+        """Empty the map for a swing."""
         self._distance[:] = np.inf
         self._readings[:] = 0.0
         self._read = -math.inf
@@ -127,24 +125,24 @@ class GroundMap:
         self._stood = None
 
     def stand(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> None:
-        """The sole carries load here, its height before lift-off.
+        """Store the loaded sole's height before lift-off.
 
         Args:
-            position: Estimated sole position (3,) in the world in m.
-            rotation: Estimated rotation (3, 3) from the sole to the world.
+            position: Sole's estimated (3,), world frame, in m.
+            rotation: Sole to world (3, 3), estimated.
         """
         self._stood = (position, rotation)
 
     def update(
         self, percept: Percept, position: NDArray[np.float64], rotation: NDArray[np.float64], time: float
     ) -> GroundView | None:
-        """Returns the ground with what the sole senses now, or None where it sees none.
+        """Returns the ground with the new percept, or None if unseen.
 
         Args:
-            percept: What the sole senses.
-            position: Estimated sole position (3,) in the world in m.
-            rotation: Estimated rotation (3, 3) from the sole to the world.
-            time: Now in s.
+            percept: Of the sole.
+            position: Sole's estimated (3,), world frame, in m.
+            rotation: Sole to world (3, 3), estimated.
+            time: In s.
         """
         if self._poses:
             _, before, turned = self._poses[-1]
@@ -163,7 +161,7 @@ class GroundMap:
         return self._lifted_off(view, self._height(position, rotation))
 
     def touched(self) -> None:
-        """The sole has met the ground: what the map still shows as distance is the sensors' bias."""
+        """At touchdown the map's remaining distance is the bias."""
         view = self._view()
         if view is not None and abs(view.distance) < _NEAR_TOUCH * self._leg:
             largest = _LARGEST_BIAS_STEP * self._leg
@@ -173,7 +171,7 @@ class GroundMap:
         return float(position[2] + rotation[2, :2].dot(self._centre[:2]))
 
     def _lifted_off(self, view: GroundView | None, height: float) -> GroundView | None:
-        """Take the bias from a sole that has just risen to a height in m."""
+        """Bias from a sole just risen to a height in m."""
         if self._liftoff is None:
             self._liftoff = height
         risen = height - self._liftoff
@@ -192,13 +190,13 @@ class GroundMap:
         position: NDArray[np.float64],
         rotation: NDArray[np.float64],
     ) -> NDArray[np.float64]:
-        """Rise (n,) of each taxel in m from one pose of the sole to another."""
+        """Taxels' rise (n,) in m between two sole poses."""
         up = rotation.T.dot(position - before)
         turn = turned.T.dot(rotation)
         return np.asarray(up[2] + turn[2, 0] * self._x + turn[2, 1] * self._y)
 
     def _risen_since(self, time: float) -> NDArray[np.float64]:
-        """Rise (n,) of each taxel in m since a time, the age of a reading."""
+        """Taxels' rise (n,) in m over a reading's age."""
         _, position, rotation = self._poses[-1]
         later: tuple[float, NDArray[np.float64]] = (self._poses[-1][0], np.zeros(len(self._x)))
         for k, (then, before, turned) in enumerate(reversed(self._poses)):
@@ -211,7 +209,7 @@ class GroundMap:
         return later[1]
 
     def _mix(self, reading: NDArray[np.float64]) -> None:
-        """Average a reading (n,) in m into the map, which restarts where the ground has moved."""
+        """Average a reading (n,) in m into the map, which restarts on moved ground."""
         s = self.settings
         known = np.isfinite(reading) & np.isfinite(self._distance)
         news = np.subtract(reading, self._distance, out=np.zeros(len(known)), where=known)
@@ -249,7 +247,7 @@ class GroundMap:
         return GroundView(nearest, middle, slope, count > _EVEN * seen)
 
     def _slope_of_moment(self, count: int) -> tuple[float, float]:
-        """Slope that a level sole would see for the virtual moment about its middle (T 4.26)."""
+        """Slope for a level sole by the virtual moment about its middle (T 4.26)."""
         distance = self._distance - self.bias
         wrench = virtual_ground_reaction_wrench(self.layout, distance, PROXIMITY_GAIN, self.settings.sensing_range)
         moment_x = wrench[3] - self._centre[1] * wrench[2]

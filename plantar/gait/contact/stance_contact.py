@@ -1,6 +1,6 @@
-"""What a stance foot stands on: the support polygon that its taxels show, from touchdown to lift-off (T 4.4.2-4.4.3).
+"""A stance foot's support polygon by its taxels, from touchdown to lift-off (T 4.4.2-4.4.3).
 
-A taxel that has carried belongs to the contact polygon until lift-off, as cells go dark when the ZMP moves away.
+A taxel that carried counts until lift-off: cells go dark as the ZMP moves away.
 """
 
 from __future__ import annotations
@@ -28,20 +28,20 @@ _BESIDE = 0.3  # of a taxel's size from where the load is, towards the side that
 
 
 class ContactSettings(Part, table="contact", needs={"control.footholds": ("force", "skin")}):
-    """How the contact polygon of a foot is found from the taxels.
+    """Finding a foot's contact polygon by taxels.
 
     Attributes:
-        minimum_load: Vertical force in N from which a foot's taxels count.
-        deep: Depth in m that counts for all that is deeper or out of range.
-        level: Slope in rad of the sole against the ground above its noise: from there on silent taxels on the side that
-            rises show nothing.
-        least_force: Running mean in N from which a taxel has carried.
-        least_beside: Share of the strongest neighbour's force up to which a taxel may be pulled along by its cover;
-            a crosstalk of 10 % makes a twentieth at a straight edge.
-        model_error: Allowed difference of a taxel's force from the fit, as a share of the largest force.
-        subcell: Whether edges are found finer than a cell; else the polygon of cell corners counts (T 4.24).
-        remember: Whether a foot that does not see the ground presumes the edges of the foothold before.
-        watch: Time in s into the single support until which a contact polygon is refined.
+        minimum_load: Vertical force in N from which taxels count.
+        deep: Depth in m for all deeper or out of range.
+        level: Slope in rad of the sole against the ground above noise: then silent taxels on the rising side show
+            nothing.
+        least_force: Running mean in N of a taxel that carried.
+        least_beside: Share of the strongest neighbor's force that its cover can cause; 10 % crosstalk makes a twentieth
+            at a straight edge.
+        model_error: Allowed force misfit, as a share of the largest force.
+        subcell: Whether edges are finer than a cell; else cell corners count (T 4.24).
+        remember: Whether a foot without sight presumes the last foothold's edges.
+        watch: Time in s into single support until which it is refined.
     """
 
     minimum_load: float = share(0.107, "weight", 0, 10000)
@@ -81,12 +81,12 @@ class ContactSettings(Part, table="contact", needs={"control.footholds": ("force
 
 
 class StanceContact:
-    """Support of one foot over its stance.
+    """A foot's support over its stance.
 
     Args:
-        layout: Its sole, n taxels.
+        layout: Of the sole, n taxels.
         settings: Settings.
-        sensing_range: Range of the taxels' proximity sensors in m.
+        sensing_range: Of proximity, in m.
     """
 
     def __init__(self, layout: SoleLayout, settings: ContactSettings, sensing_range: float = math.inf) -> None:
@@ -103,7 +103,7 @@ class StanceContact:
         self.lift()
 
     def lift(self) -> None:
-        """The foot leaves the ground: clear its contact."""
+        """Clear a leaving foot's contact."""
         n = len(self.layout)
         self.settled = False
         self.polygon_in_sole: NDArray[np.float64] = self.layout.outline
@@ -127,28 +127,28 @@ class StanceContact:
 
     @property
     def whole(self) -> bool:
-        """Whether, as far as known, the whole sole is supported."""
+        """Whether, as known, the whole sole is supported."""
         return self.polygon_in_sole is self.layout.outline
 
     @property
     def seen(self) -> bool:
-        """Whether the taxels saw the ground before they touched it; found by loads alone, it may still shrink."""
+        """Whether the ground was seen before touchdown; found by loads alone, it can shrink."""
         return self._depth is not None
 
     @property
     def center_in_sole(self) -> NDArray[np.float64]:
-        """Centroid (2,) of the support polygon in the sole frame in m."""
+        """Support polygon's centroid (2,), sole frame, in m."""
         found = centroid(self.polygon_in_sole)
         assert found is not None
         return found
 
     def update(self, reading: Reading, load: float, slope: NDArray[np.float64] | None = None) -> bool:
-        """Returns whether a reading settles or changes the contact polygon.
+        """Returns whether a reading settles or changes the polygon.
 
         Args:
-            reading: The sole's latest reading.
-            load: Vertical force on the foot in N.
-            slope: Rise (2,) of the sole along its x and y axes against the ground in m/m; level where None.
+            reading: Sole's latest.
+            load: Vertical in N.
+            slope: Sole's rise (2,) along x, y against the ground in m/m; None for level.
         """
         s = self.settings
         if reading.time <= self._time or load < s.minimum_load:
@@ -170,7 +170,7 @@ class StanceContact:
         return self._find()
 
     def expect(self, lines: NDArray[np.float64]) -> None:
-        """Presume edges (m, 3) n . x <= h of the foothold before, in the sole frame, until loads contradict."""
+        """Presume the last foothold's edges (m, 3) n . x <= h, sole frame, until loads contradict."""
         least = (1.0 - self.settings.full_ratio) * self._whole_area
         cut = [line for line in lines if area(self._fit.polygon(line[None])) < self._whole_area - least]
         kept = np.array(cut).reshape(-1, 3)
@@ -179,7 +179,7 @@ class StanceContact:
             self._remembered = kept
 
     def update_view(self, reading: Reading) -> None:
-        """Add what the taxels see of the ground while the foot comes down; a `reading` without proximity is ignored."""
+        """Add a descending foot's view; ignored without proximity."""
         distance = reading.proximity
         if distance is None or reading.time <= self._seen_time:
             return
@@ -201,10 +201,9 @@ class StanceContact:
         self._depth = np.where(sound, before + share * (depth - before), np.nan)
 
     def foresee(self, ahead: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """The part (k, 2) of a descending sole in m that the ground will carry; None where too little is seen, or for
-        all of it.
+        """Part (k, 2) of a descending sole in m that will carry; None for all, or too little seen.
 
-        `ahead` (2,) in m is how far the sole still moves in its own plane before it lands.
+        `ahead` (2,) in m: the sole's remaining move in its own plane.
         """
         if self._looks < self.settings.foresee_readings:
             return None
@@ -220,7 +219,7 @@ class StanceContact:
         return polygon
 
     def _from_sight(self) -> NDArray[np.float64] | None:
-        """Edges (m, 3) of the ground as seen before touchdown, or None."""
+        """Edges (m, 3) as seen before touchdown, or None."""
         if self._depth is None:
             return None
         idle = self._depth > self.settings.step_down
@@ -259,7 +258,7 @@ class StanceContact:
         return first or polygon is not before
 
     def _from_loads(self, mean: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Edges (m, 3) of the ground as remembered, unless the loads contradict; else by the loads."""
+        """Edges (m, 3) as remembered unless loads contradict; else by loads."""
         if self._remembered is not None and self._beyond(self._remembered, mean):
             self._forget()
         silent = self._silent(mean)
@@ -274,23 +273,22 @@ class StanceContact:
         return self._fit.between(self._carried, self._idle)
 
     def _forget(self) -> None:
-        """Drop the remembered edges."""
         self._remembered = None
         self._fit.reset()
 
     def _beyond(self, lines: NDArray[np.float64], mean: NDArray[np.float64]) -> bool:
-        """Whether taxels (n,) beyond lines carry more of the load than neighbours on the ground would give them."""
+        """Whether taxels (n,) beyond lines carry more than neighbors on the ground give them."""
         carried = np.where(mean > self.settings.taxel_noise, mean, 0.0)
         return float(carried[~self._over(lines)].sum()) > self.settings.least_wrong * float(carried.sum())
 
     def _over(self, lines: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Taxels (n,) of which lines leave a part."""
+        """Taxels (n,) partly within lines."""
         # Half the width of a hexagonal cell, which is 1.07 to 1.24 sqrt(A) for an area A.
         reach = 0.6 * math.sqrt(self.layout.cell_area)
         return np.asarray((self.layout.positions[:, :2] @ lines[:, :2].T < lines[:, 2] + reach).all(axis=1))
 
     def _silent(self, mean: NDArray[np.float64]) -> NDArray[np.bool_] | None:
-        """Taxels (n,) that should carry on the believed ground, and do not; None without any."""
+        """Silent taxels (n,) that should carry on the believed ground, or None."""
         s = self.settings
         mean = np.where(mean > s.taxel_noise, mean, 0.0)  # noise that cannot be negative adds up
         load = float(mean.sum())
@@ -315,7 +313,7 @@ class StanceContact:
         return silent if wrong else None
 
     def _risen(self, cop: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Taxels (n,) lifted by a turned sole that rests on an edge at a point (2,)."""
+        """Taxels (n,) lifted by a turned sole resting on an edge at a point (2,)."""
         s, places, cell = self.settings, self.layout.positions[:, :2], math.sqrt(self.layout.cell_area)
         steep = float(np.hypot(self._slope[0], self._slope[1]))
         if steep <= s.level:

@@ -1,4 +1,4 @@
-"""Where the ground continues: a strip along successive partial footholds of both feet, such as a beam."""
+"""Strip of ground along successive partial footholds, such as a beam."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ _SPREAD, _AGREEMENT = 0.026, 0.173  # of a sole's length: 6 and 40 mm of one of 
 
 @dataclass
 class SupportStrip:
-    """Middle line of the ground, from the centroids of partial footholds.
+    """Ground's middle line by centroids of partial footholds.
 
     Attributes:
-        origin: A point (2,) of the walk's line in m.
+        origin: Point (2,) on the walk's line in m.
         along: Its unit direction (2,).
-        spread: Standard deviation in m of a foothold's centroid.
-        slope: Prior standard deviation of the strip's slope against the walk.
-        agreement: Distance in m across the walk within which two footholds lie on the same strip.
-        memory: Number of footholds that count.
+        spread: Standard deviation of a foothold's centroid in m.
+        slope: Standard deviation of the strip's slope to the walk.
+        agreement: Largest distance in m across the walk of footholds on one strip.
+        memory: Footholds that count.
     """
 
     origin: NDArray[np.float64]
@@ -38,41 +38,41 @@ class SupportStrip:
 
     @classmethod
     def for_body(cls, body: BodyScale, origin: NDArray[np.float64], along: NDArray[np.float64]) -> SupportStrip:
-        """Returns the strip of a robot's walk, with distances that are shares of its soles.
+        """Returns a robot's strip, with distances as shares of its soles.
 
         Args:
-            body: Dimensions of the robot.
-            origin: A point (2,) of the walk's line in m.
+            body: Robot's dimensions.
+            origin: Point (2,) on the walk's line in m.
             along: Its unit direction (2,).
         """
         return cls(origin, along, spread=_SPREAD * body.sole, agreement=_AGREEMENT * body.sole)
 
     @property
     def across(self) -> NDArray[np.float64]:
-        """Unit vector (2,) across the walk, to its left."""
+        """Unit vector (2,) to the walk's left."""
         return np.array([-self.along[1], self.along[0]])
 
     @property
     def known(self) -> bool:
-        """Whether footholds of both feet lie on a strip."""
+        """Whether both feet's footholds lie on a strip."""
         return len(self._footholds) >= 2
 
     def coordinates(self, point: NDArray[np.float64]) -> tuple[float, float]:
-        """Distances in m of a `point` (2,) of the world along the walk and to its left."""
+        """A `point` (2,) of the world along the walk and to its left in m."""
         offset = point - self.origin
         return float(offset @ self.along), float(offset @ self.across)
 
     def clear(self) -> None:
-        """Clear the strip: the ground is whole again, or not known."""
+        """Clear the strip: whole or unknown ground."""
         self._footholds.clear()
 
     def update(self, step: int, side: Side, centroid: NDArray[np.float64]) -> None:
         """Add a partial foothold.
 
         Args:
-            step: The step that put the foot down; a step that is there already is replaced.
+            step: Its step; replaces a stored one.
             side: Which foot.
-            centroid: Centroid (2,) of what carries, in the world in m.
+            centroid: Of what carries (2,), world frame, in m.
         """
         place, lateral = self.coordinates(centroid)
         if self._footholds and self._footholds[-1][0] == step:
@@ -88,7 +88,7 @@ class SupportStrip:
         del self._footholds[: -self.memory]
 
     def lateral(self, place: float) -> float:
-        """Distance in m of the strip's middle to the left of the walk's line, at a `place` in m along it."""
+        """Strip's middle in m left of the walk's line, at a `place` in m along it."""
         places = np.array([f[2] for f in self._footholds])
         laterals = np.array([f[3] for f in self._footholds])
         middle = float(places.mean())

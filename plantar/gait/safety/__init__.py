@@ -1,1 +1,1 @@
-"""Whether what a controller is given can be, and what it commands may be followed."""
+"""Plausible inputs, and followable commands."""

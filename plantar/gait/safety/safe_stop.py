@@ -1,4 +1,4 @@
-"""What a robot does that cannot go on: hold, sit down, or go limp, each by a ramp."""
+"""How a robot stops: hold, sit down, or go limp, by ramps."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _LIMP = 0.5  # s in which forces and stiffness of a fallen robot go to zero
 class SafeStop:
     """Commands after a state that stays.
 
-    "sit" puts a foot in the air down level with the other one, brings the CoM over the middle of both and lowers it;
-    "limp" lets go of the joints.
+    "sit" levels a foot in the air with the other, brings the CoM over their middle and lowers it; "limp" releases the
+    joints.
 
     Args:
-        period: Control period in s.
-        leg: Length of a leg in m.
-        beat: Time unit of the body in s.
-        weight: Weight in N.
+        period: Of control in s.
+        leg: Leg length in m.
+        beat: Body's time unit in s.
+        weight: In N.
     """
 
     def __init__(self, period: float, leg: float, beat: float, weight: float) -> None:
@@ -40,7 +40,7 @@ class SafeStop:
         self._height: float | None = None
 
     def after(self, last: Command, state: str | None) -> Command:
-        """Returns the command after `last` in a state: "fallen" goes limp, "blind" and "lost" sit, others hold."""
+        """Returns the command after `last`: "fallen" goes limp, "blind" and "lost" sit, others hold."""
         last = last.changed(footholds=(), moved_steps=())
         if state == "fallen":
             return self._limped(last)

@@ -1,6 +1,6 @@
-"""The safety shell around a controller's tick: a command at every tick, from sensors and times of any kind.
+"""Safety shell: a command at every tick, for sensors and times of any kind.
 
-With sound input and targets without jumps it does not change the controller's command (docs/safety.md).
+Sound input and targets without jumps leave the command unchanged (docs/safety.md).
 """
 
 from __future__ import annotations
@@ -37,23 +37,22 @@ Readings = Mapping[Side, Reading]
 
 
 class SafetyShell:
-    """Guards the tick of a controller.
+    """Guards a controller's tick.
 
     Args:
-        tick: The controller's own tick.
-        start: Command until the first sound reading.
-        layouts: Sole layout of each side.
-        joints: Number of joint angles.
-        period: Control period in s.
-        mass: Mass of the robot in kg.
-        leg: Length of a leg in m.
-        com_height: Height in m of the CoM over the soles.
-        stop: What is commanded in a state that stays.
+        tick: Controller's own.
+        start: Command before the first sound reading.
+        layouts: Of each side.
+        joints: Number of angles.
+        period: Of control in s.
+        mass: Robot's in kg.
+        leg: Leg length in m.
+        com_height: CoM over the soles in m.
+        stop: Commands in a state that stays.
 
     Attributes:
-        state: "fallen", "blind" or "late", None while none holds; "fallen" and "blind" stay, "late" ends with the first
-            time that can be taken.
-        errors: Exceptions of the tick that it caught.
+        state: "fallen", "blind" (both stay), "late" (ends with the first usable time), or None.
+        errors: Caught exceptions of the tick.
     """
 
     def __init__(
@@ -93,7 +92,7 @@ class SafetyShell:
         self.errors = 0
 
     def step(self, sensors: Sensors) -> Command:
-        """The command of the controller, or of the state that holds, at one control tick; it never raises."""
+        """Command of the controller, or of its state, at a tick; never raises."""
         try:
             reported = float(sensors.time)
         except (AttributeError, TypeError, ValueError):
@@ -163,7 +162,7 @@ class SafetyShell:
         return spread > (_FLAT * float(along.std())) ** 2
 
     def _bridge(self, time: float) -> Command:
-        """A tick without a usable reading: on with the last one for a moment, then blind."""
+        """A tick without usable reading: on with the last briefly, then blind."""
         self._silent += 1
         if self._silent > self._bridged and self._begun:
             self.state = "blind"
@@ -175,7 +174,7 @@ class SafetyShell:
         return self._stop.after(self._last, self.state)
 
     def _problem(self, sensors: Sensors) -> int:
-        """What is wrong with encoders and IMU, 0 for none; the controller itself bridges NaN."""
+        """Fault of encoders and IMU, 0 for none; the controller bridges NaN."""
         joints, gyro, accelerometer = sensors.joint_positions, sensors.gyro, sensors.accelerometer
         if self._body is None:
             self._joints = len(joints) if self._joints is None else self._joints
@@ -187,7 +186,7 @@ class SafetyShell:
         return found if found < 3 or moves else 0
 
     def _readings(self, sensors: Sensors) -> Readings | None:
-        """Each sole's reading under its own side; what a silent one carries follows from the other."""
+        """Each sole's reading under its side; a silent one follows from the other."""
         readings, soles, counts = sensors.readings, self._soles, self._counts
         left, right = _sound(readings, "left", counts["left"]), _sound(readings, "right", counts["right"])
         if left is None or right is None:
@@ -204,7 +203,7 @@ class SafetyShell:
         return readings if lost is None else self._replaced(sensors, readings, lost)
 
     def _both_silent(self, soles: SoleCheck) -> bool:
-        """Whether both soles are stuck, or report no force while the robot is carried."""
+        """Whether both soles are stuck, or unloaded while carrying."""
         silent = self._unloaded * self._period > _WEIGHTLESS and soles.left + soles.right < 0.05 * self._weight
         # A foot in the air reports no force, and one that is known to be silent neither.
         if silent and self._last.phase.stance is None and self._lost is None:
@@ -213,7 +212,7 @@ class SafetyShell:
         return both and self._last.phase.kind != PhaseKind.STANDING
 
     def _silent_sole(self, soles: SoleCheck, accelerometer: NDArray[np.float64]) -> Side | None:
-        """The sole that is stuck, or reports no force while the robot is carried."""
+        """Sole that is stuck, or unloaded while carrying."""
         weight, phase = self._weight, self._last.phase
         if phase.kind != PhaseKind.STANDING:
             if soles.left_same >= self._stuck and soles.left > 0.05 * weight:
@@ -232,7 +231,7 @@ class SafetyShell:
         return self._lost
 
     def _replaced(self, sensors: Sensors, readings: Readings, lost: Side | None) -> Readings | None:
-        """The readings with a silent sole's estimated as an even load, what the other one does not carry."""
+        """Readings with a silent sole's as an even load, the other's remainder."""
         if lost is None:
             return readings
         other = other_side(lost)
@@ -259,7 +258,7 @@ class SafetyShell:
 
 
 def _sound(readings: Readings, side: Side, count: int) -> Reading | None:
-    """A sole's reading; None without one of its size, or without any number."""
+    """Sole's reading; None if missized or without any number."""
     reading = readings.get(side)
     if reading is None or len(reading.force) != count:
         return None

@@ -1,4 +1,4 @@
-"""The command before the first sound reading: stand as the walk begins."""
+"""Stand as the walk begins, before the first sound reading."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ def standing_command(
     com_height: float,
     time: float,
 ) -> Command:
-    """Stand where a walk begins, with half of the weight on each foot.
+    """Stand where a walk begins, weight halved between feet.
 
     Args:
-        feet: Pose of the feet.
-        plan: The walk's plan.
-        layouts: Sole layout of each side.
-        weight: Weight of the robot in N.
-        com_height: Height in m of the CoM over the soles.
-        time: Time in s of the plan.
+        feet: Pose of both.
+        plan: The walk's.
+        layouts: Of each side.
+        weight: Robot's in N.
+        com_height: CoM over the soles in m.
+        time: Of the plan in s.
 
     Returns:
-        The command, with its targets as state and unloaded percepts.
+        With targets as state and unloaded percepts.
     """
     reference, phase = plan.at(time), plan.schedule.at(time)
     ground = float(np.mean([feet[side].z for side in SIDES]))

@@ -19,13 +19,13 @@ _FORCE = 4.5  # weight/beat of the force on a foot
 
 
 class TargetLimits:
-    """Moves targets by no more than a limit in a tick.
+    """Limits targets' moves per tick.
 
     Args:
-        period: Control period in s.
-        leg: Length of a leg in m.
-        beat: Time unit of the body in s, the root of leg over gravity.
-        weight: Weight in N.
+        period: Of control in s.
+        leg: Leg length in m.
+        beat: Body's time unit in s, root of leg over gravity.
+        weight: In N.
     """
 
     def __init__(self, period: float, leg: float, beat: float, weight: float) -> None:
@@ -34,14 +34,14 @@ class TargetLimits:
         self._turn, self._force = _TURN * share, _FORCE * weight * share
 
     def limited(self, before: Command, now: Command) -> Command:
-        """A command whose targets are within the limits from those of the tick before.
+        """A command with targets within the limits from the last tick's.
 
         Args:
-            before: Command of the tick before.
-            now: Command of this tick.
+            before: Last tick's.
+            now: This tick's.
 
         Returns:
-            `now` itself where no target is farther; else one with targets on the way.
+            `now` itself within limits; else with targets on the way.
         """
         left, right = now.feet["left"], now.feet["right"]
         was_left, was_right = before.feet["left"], before.feet["right"]
@@ -73,7 +73,7 @@ class TargetLimits:
 
 
 def _moved(before: NDArray[np.float64], now: NDArray[np.float64], most: float) -> NDArray[np.float64]:
-    """A vector moved towards another one by a limit in each coordinate at most; not by NaN."""
+    """A vector moved towards another by a limit per coordinate; never by NaN."""
     way = now - before
     largest = float(np.abs(way).max())
     if not np.isfinite(largest):
@@ -82,7 +82,7 @@ def _moved(before: NDArray[np.float64], now: NDArray[np.float64], most: float) -
 
 
 def _turned(before: NDArray[np.float64], now: NDArray[np.float64], most: float) -> NDArray[np.float64]:
-    """A rotation between two: their weighted sum, made orthogonal."""
+    """Weighted sum of two rotations, made orthogonal."""
     largest = float(np.abs(now - before).max())
     if not np.isfinite(largest):
         return before

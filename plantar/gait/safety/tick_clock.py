@@ -1,4 +1,4 @@
-"""The time of control ticks: monotone and plausible for any reported time."""
+"""Monotone, plausible tick times for any reported time."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ _MOST_DRAWN = 0.2  # periods by which a tick is longer or shorter for that
 
 
 class TickClock:
-    """Follows the time that ticks report.
+    """Time by what ticks report.
 
-    A tick is expected one period after the last one. A time near that is used as it is, one a little off pulls the
-    clock slowly, one far off is another zero of the clock.
+    A tick is expected one period after the last. A near time is used, one a little off pulls the clock slowly, one far
+    off is another zero.
 
     Args:
-        period: Control period in s.
+        period: Of control in s.
 
     Attributes:
-        odd: Ticks in a row whose time was not usable.
+        odd: Successive ticks with unusable times.
 
     Example:
         >>> clock = TickClock(0.005)
@@ -37,7 +37,7 @@ class TickClock:
         self.odd = 0
 
     def time_of(self, reported: float) -> float:
-        """The time in s of a tick, later than that of the tick before, by the time in s that it has `reported`."""
+        """A tick's time in s, after the last one's, by the `reported` time in s."""
         if self._last is None:
             self._last = reported if math.isfinite(reported) else 0.0
             self._offset = 0.0 if math.isfinite(reported) else math.nan

@@ -1,4 +1,4 @@
-"""A watchdog for ticks that come late or not at all."""
+"""Watchdog for late or missing ticks."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ __all__ = ["Watchdog"]
 
 
 class Watchdog:
-    """Calls a function once where ticks stop, from a separate thread.
+    """Calls a function once when ticks stop, from a thread.
 
     Args:
-        limit: Time in s without a tick.
-        late: What is called, for example what takes the power off; once until ticks come again.
+        limit: In s without a tick.
+        late: Called, such as power off; once until ticks return.
 
     Attributes:
-        times: How often ticks have stopped.
+        times: Number of stops.
 
     Raises:
-        InputError: If the limit is not positive and finite.
+        InputError: Limit not positive, finite.
 
     Example:
         >>> with Watchdog(10.0, lambda: None) as watchdog:
@@ -45,7 +45,7 @@ class Watchdog:
         self.times = 0
 
     def beat(self) -> None:
-        """A tick has come; the first one begins the watch."""
+        """A tick has come; the first starts the watch."""
         self._beat = time.monotonic()
 
     def _watch(self) -> None:

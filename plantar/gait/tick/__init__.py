@@ -1,1 +1,1 @@
-"""The stages of a control tick, each of which joins the files of some rooms."""
+"""Stages of a control tick, joining the rooms' files."""

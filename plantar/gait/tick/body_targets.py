@@ -1,4 +1,4 @@
-"""Where the body should be: height of the CoM, heading and lean of the torso."""
+"""The body's targets: CoM height, torso heading and lean."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over g
 
 
 class BodyTargets:
-    """Targets of CoM and torso over the commanded feet, in their frame."""
+    """CoM and torso targets over the commanded feet, their frame."""
 
     def __init__(self, settings: ControllerSettings, footing: Footing) -> None:
         self._settings, self._footing = settings, footing
@@ -30,12 +30,12 @@ class BodyTargets:
     def at(
         self, phase: Phase, com: NDArray[np.float64], lean: float
     ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
-        """Returns CoM (3,) in m, heading in rad and rotation (3, 3) of the torso.
+        """Returns CoM (3,) in m, heading in rad and torso rotation (3, 3).
 
         Args:
-            phase: Phase of the walk.
-            com: CoM (2,) in the world in m.
-            lean: Least lean in rad/m that the robot was found to need.
+            phase: The walk's.
+            com: (2,), world frame, in m.
+            lean: Least needed in rad/m.
         """
         left, right = self._footing.motion.footholds["left"][1], self._footing.motion.footholds["right"][1]
         x, y = self._footing.frame.to_command(com).tolist()
@@ -44,9 +44,9 @@ class BodyTargets:
         return target, torso, self.posture(target, torso, lean)
 
     def posture(self, com: NDArray[np.float64], torso: float, lean: float = 0.0) -> NDArray[np.float64]:
-        """Returns the torso's rotation (3, 3): along the feet, leaning over the foot that `com` (3,) in m moves to.
+        """Returns the torso's rotation (3, 3): along the feet, leaning over the foot that `com` (3,) in m nears.
 
-        The lean brings the carrying hip and the CoM together, which relieves the hip's roll joint.
+        The lean brings carrying hip and CoM together, relieving the hip roll.
         """
         settings, footholds = self._settings, self._footing.motion.footholds
         (lx, ly, _), (rx, ry, _) = footholds["left"][0].tolist(), footholds["right"][0].tolist()
@@ -60,7 +60,7 @@ class BodyTargets:
         return matrix(c, -d * e, d * f, d, c * e, -c * f, 0.0, f, e)
 
     def _com_height(self, phase: Phase) -> float:
-        """Height in m over the stance foot, blended in double support, higher over a partial foothold."""
+        """Height in m over the stance foot, blended in double support, higher over partial footholds."""
         footing, rise = self._footing, self._settings.partial_rise
         heights = {side: footing.motion.footholds[side][0].item(2) for side in SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])

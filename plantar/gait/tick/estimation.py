@@ -1,4 +1,4 @@
-"""Sense and estimate: from a tick's readings to the state of the body."""
+"""From a tick's readings to the body's state."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ __all__ = ["Estimation", "Sensed"]
 
 
 class Sensed(Record, frozen=True):
-    """One reading, which all parts of a tick share."""
+    """A reading that all parts share."""
 
     time: float
     phase: Phase
@@ -43,13 +43,13 @@ class Sensed(Record, frozen=True):
 
 
 class Estimation:
-    """Follows the state of the body, and how the robot differs from its model.
+    """Body state, and the robot's differences from its model.
 
     Attributes:
-        omega: Frequency in rad/s of the pendulum.
-        body: What is identified of the robot's differences; None believes the model.
-        estimator: The estimator of the floating base.
-        stands: Whether it is still averaging the stand at the start, before any feedback.
+        omega: Pendulum's in rad/s.
+        body: Identified differences; None believes the model.
+        estimator: Of the floating base.
+        stands: Whether still averaging the initial stand, before feedback.
     """
 
     def __init__(
@@ -89,13 +89,13 @@ class Estimation:
         )
 
     def summary(self) -> dict[str, object]:
-        """What was identified of the robot's differences from its model."""
+        """The robot's identified differences from its model."""
         bias = self.estimator.gyro_bias
         found: dict[str, object] = {} if bias is None else {"gyro_bias_rad_s": bias.value.round(6).tolist()}
         return found if self.body is None else {**found, **self.body.summary()}
 
     def sense(self, sensors: Sensors, phase: Phase) -> Sensed:
-        """Returns what `sensors` of soles and ankles measure in a phase, each taxel's force clipped at its limit."""
+        """Returns what soles and ankles measure in a phase, taxel forces clipped at their limit."""
         readings, layouts = sensors.readings, self._layouts
         percepts: dict[Side, Percept] = {
             "left": percept_to_its_limit(readings["left"], layouts["left"]),
@@ -110,7 +110,7 @@ class Estimation:
         return Sensed(sensors.time, phase, percepts, ankles, soles)
 
     def update(self, sensors: Sensors, sensed: Sensed, acceleration: NDArray[np.float64]) -> BaseState:
-        """Returns the state of the body by `sensors` and `sensed`, and the CoM's planned acceleration (2,) in m/s^2."""
+        """Returns the body's state by `sensors` and `sensed`, and the CoM's planned acceleration (2,) in m/s^2."""
         s, phase = self._settings, sensed.phase
         self._ticks += 1
         self.stands = self._ticks * s.period <= s.estimator.averaging
@@ -132,7 +132,7 @@ class Estimation:
         return state
 
     def dcm(self, state: BaseState) -> NDArray[np.float64]:
-        """DCM (2,) in m of a state (T 4.27)."""
+        """A state's DCM (2,) in m (T 4.27)."""
         (x, y, _), (vx, vy, _) = state.com.tolist(), state.com_velocity.tolist()
         return vector2(x + vx / self.omega, y + vy / self.omega)
 
@@ -146,7 +146,7 @@ class Estimation:
             self.estimator.stand_again(sensors.joint_positions)
 
     def push_on_skin(self, sensors: Sensors) -> NDArray[np.float64] | None:
-        """Acceleration (2,) of the CoM in m/s^2 by what skin on the upper body measures, or None."""
+        """CoM acceleration (2,) in m/s^2 by the upper body's skin, or None."""
         s, state = self._settings, self._state
         if s.push_felt is None or s.skin is None or sensors.skin is None or state is None:
             return None

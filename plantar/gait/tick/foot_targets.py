@@ -1,4 +1,4 @@
-"""Feet: what each should carry, and how it gives way, by the balance law."""
+"""Feet: loads and yielding, by the balance law."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _CONTACT_OFFSET = 0.0433  # sole that a foot's centre of pressure keeps from the
 
 
 class FootTargets:
-    """Poses and loads of the soles, in the command frame."""
+    """Soles' poses and loads, command frame."""
 
     def __init__(self, settings: ControllerSettings, footing: Footing) -> None:
         self._footing = footing
@@ -40,13 +40,13 @@ class FootTargets:
         self._contacts: dict[Side, tuple[NDArray[np.float64], tuple[object, ...], Contact]] = {}
 
     def states(self, phase: Phase, soles: Mapping[Side, SoleLoad], contacts: bool, rests: bool) -> Feet:
-        """Returns the feet as a balance law sees them.
+        """Returns the feet for a balance law.
 
         Args:
-            phase: Phase of the walk.
-            soles: Load of each sole.
-            contacts: Whether the law needs contacts and wrenches of feet on the ground.
-            rests: Whether the robot stands after a walk; wrenches are given then, too.
+            phase: The walk's.
+            soles: Each sole's load.
+            contacts: Whether the law needs contacts and wrenches.
+            rests: Whether the robot stands after a walk; wrenches included.
         """
         states: dict[Side, FootState] = {}
         motion, crept = self._footing.motion, self._crept() if contacts else ()
@@ -64,7 +64,7 @@ class FootTargets:
         return Feet(states, phase.stance, self._footing.frame, rests)
 
     def targets(self, feet: Feet, actions: Mapping[Side, FootAction]) -> dict[Side, FootTarget]:
-        """Returns pose and load of each sole of `feet`, turned and shifted about its centre by the actions of a law."""
+        """Returns pose and load of each sole of `feet`, turned and shifted about its center by the law's actions."""
         targets: dict[Side, FootTarget] = {}
         for side, action in actions.items():
             foot, roll, pitch, shift = feet.states[side], action.roll, action.pitch, action.shift
@@ -85,15 +85,15 @@ class FootTargets:
         posture: NDArray[np.float64],
         state: BaseState,
     ) -> None:
-        """Correct the target of the foot that swings, or has just landed, for the body's lean.
+        """Correct a swinging or just landed foot for body lean.
 
         Args:
-            feet: Targets, in which that foot's is replaced.
-            phase: Phase of the walk.
-            com: Commanded CoM (3,) in m.
+            feet: Targets, with that foot's replaced.
+            phase: The walk's.
+            com: Commanded (3,) in m.
             torso: Commanded heading in rad.
-            posture: Commanded rotation (3, 3) of the torso.
-            state: The state of the body.
+            posture: Commanded torso rotation (3, 3).
+            state: The body's.
         """
         side, frame = self._footing.motion.last_side, self._footing.frame
         if side is None:
@@ -116,13 +116,13 @@ class FootTargets:
         feet[side] = FootTarget(foot.position + shift, rotation, foot.force, foot.center_of_pressure)
 
     def _crept(self) -> tuple[int, ...]:
-        """How far the command frame has crept, in 1/6000 of the leg (0.1 mm for H1) and 0.1 mrad."""
+        """Command frame's creep, in 1/6000 of the leg (0.1 mm for H1) and 0.1 mrad."""
         frame, fine = self._footing.frame, self._fine
         x, y, z = frame.offset
         return round(x * fine), round(y * fine), round(z * fine), round(frame.turn * 1e4)
 
     def _contact(self, side: Side, crept: tuple[int, ...]) -> Contact:
-        """Contact of a standing foot; the same object until the frame has crept by a step of `_crept`."""
+        """Standing foot's contact; the same object until `_crept` steps."""
         contacts, frame = self._footing.contacts, self._footing.frame
         polygon = contacts.polygon(side)
         rectangle = self._rectangles.get(side)

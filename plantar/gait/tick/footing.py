@@ -1,4 +1,4 @@
-"""Swing and perceive: where the feet are commanded, how they land, and what they stand on."""
+"""Swing and perceive: feet as commanded, landing, and their footholds."""
 
 from __future__ import annotations
 
@@ -47,19 +47,19 @@ _MAX_LANDING_OFFSET = 0.25  # leg that a foot that has landed off its place is c
 
 
 class Footing:
-    """The feet of a walk.
+    """A walk's feet.
 
     Attributes:
-        frame: Frame that the footholds are commanded in.
-        motion: Where the feet are commanded.
-        contacts: What they stand on.
-        damping: How each gives way to its load.
-        compensation: How the swing foot is corrected for the body's lean.
-        guard: Checks footholds; None steps on everything.
-        conformity: Turns soles to the ground's shape; None leaves them as they land.
+        frame: Command frame of the footholds.
+        motion: Commanded feet.
+        contacts: Their footholds.
+        damping: Each foot's yielding to load.
+        compensation: Swing foot's correction for body lean.
+        guard: Checks footholds; None allows all.
+        conformity: Turns soles to the ground; None leaves them.
 
     Raises:
-        InputError: If the settings have a part that needs preemptive foot compliance, and not that.
+        InputError: Part without preemptive compliance.
     """
 
     def __init__(
@@ -99,14 +99,14 @@ class Footing:
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
-        """Sides whose proximity it needs at the next tick."""
+        """Sides whose proximity the next tick needs."""
         motion = self.motion
         sides, last = motion.proximity_sides, motion.last_side
         looks = self._settings.footholds == "skin" and not motion.landed and motion.comes_down
         return (*sides, last) if looks and last is not None and last not in sides else sides
 
     def align(self, state: BaseState) -> None:
-        """Let the command frame follow where the carrying foot really stands."""
+        """Let the command frame follow the real carrying foot."""
         side: Side = "left" if state.loads["left"] >= state.loads["right"] else "right"
         if state.loads[side] <= self._settings.estimator.minimum_load:
             return
@@ -118,12 +118,12 @@ class Footing:
         """Advance the swing foot.
 
         Args:
-            sensed: What soles measure.
-            state: The state of the body.
+            sensed: Of the soles.
+            state: The body's.
             feedback: Whether balance is fed back.
 
         Returns:
-            The feet then, and by how much in m one that has just landed should carry further inside.
+            The feet, and how much in m farther inside one just landed should carry.
         """
         phase, percepts, s, motion = sensed.phase, sensed.percepts, self._settings, self.motion
         senses = heights = None
@@ -151,7 +151,7 @@ class Footing:
         return feet, inward
 
     def _stand_at_landing(self, feet: FeetView, state: BaseState, misplaced: float) -> None:
-        """Command a foot that has landed next to its place to where it is, where steps move for balance."""
+        """Command a landed foot where it is, if steps move for balance."""
         if feet.side is None or state.loads[feet.side] <= self._settings.landing.contact_force:
             return  # only the plan has it down
         side, other, soles = feet.side, other_side(feet.side), state.positions_sole
@@ -174,14 +174,14 @@ class Footing:
     def perceive(
         self, sensed: Sensed, state: BaseState, feet: FeetView, inward: float, dcm: NDArray[np.float64] | None
     ) -> tuple[Tick, NDArray[np.float64]]:
-        """What the feet stand on, for proposers, and the region of the desired ZMP (`zmp_region`).
+        """Footholds for proposers, and the desired ZMP's region (`zmp_region`).
 
         Args:
-            sensed: What soles measure.
-            state: The state of the body.
-            feet: Commanded feet.
-            inward: What `swing` returned.
-            dcm: The DCM (2,) in m; None where balance is not fed back.
+            sensed: Of the soles.
+            state: The body's.
+            feet: Commanded.
+            inward: From `swing`.
+            dcm: (2,) in m; None without feedback.
 
         Returns:
             Both.
@@ -212,7 +212,7 @@ class Footing:
         return tick, region
 
     def zmp_region(self, phase: Phase, feet: FeetView) -> NDArray[np.float64]:
-        """Returns where the desired ZMP may lie in a phase with such feet: polygon (k, 2) in the world in m."""
+        """Returns the desired ZMP's region: polygon (k, 2), world frame, in m."""
         margin = 0.0 if self._regulates else self._settings.balance.zmp_offset  # f(c) S is a share of the whole S
         return self.contacts.zmp_region(phase, feet, self.frame.offset, margin)
 
@@ -232,13 +232,13 @@ class Footing:
     def regulated(
         self, phase: Phase, time: float, pendulum: Pendulum | None, region: NDArray[np.float64]
     ) -> tuple[LipReference, NDArray[np.float64]]:
-        """Returns the plan now and where the ZMP may lie, or u* with its share of that (K 25-27), for the balance law.
+        """Returns the plan and the ZMP's region, or u* with its share of that (K 25-27).
 
         Args:
-            phase: The phase, of the plan as it is now.
-            time: Time in s.
-            pendulum: The pendulum before the plan changed; None hands over the plan.
-            region: Where the desired ZMP may lie (k, 2) in m.
+            phase: Of the present plan.
+            time: In s.
+            pendulum: Before the plan changed; None hands over the plan.
+            region: Desired ZMP's (k, 2) in m.
         """
         reference, plan = self._plan.at(time), self._plan.view
         if pendulum is None or not self._regulates or not len(region):
@@ -253,7 +253,7 @@ class Footing:
         return reference.changed(vrp=within_support(wanted, region).vrp, dcm=pendulum.dcm), region
 
     def _level(self, slope: SoleSlope, phase: Phase, state: BaseState) -> None:
-        """Turn a foot that comes down blindly, or has just landed, parallel to the stance foot."""
+        """Turn a blind or just landed foot parallel to the stance foot."""
         standing = phase.kind == PhaseKind.STANDING and phase.step == 0
         slope.update(state.rotations_sole, state.loads, standing)
         side = self.motion.last_side
@@ -264,7 +264,7 @@ class Footing:
             self.damping[side].level(load, slope.slope(side), landing.levelling)
 
     def _damp(self, phase: Phase, sensed: Sensed, state: BaseState, feet: FeetView, looks: bool) -> None:
-        """Damp feet that come to carry, once each."""
+        """Damp feet that come to carry, once."""
         damped: dict[Side, tuple[SoleLoad, float]] = {}
         if looks and self._slope is not None:
             self._level(self._slope, phase, state)
@@ -279,7 +279,7 @@ class Footing:
                 self.damping[side].update(state.loads[side], cop, self.contacts.center(side))
 
     def follow(self, phase: Phase, time: float) -> FeetView:
-        """Let the feet follow a plan that has changed in a phase, at a time in s; returns them."""
+        """Returns feet that follow a changed plan in a phase, at a time in s."""
         if phase.swing is not None:
             landed = self.motion.landed
             self.motion.aim(phase, time, self._plan.view.foothold(phase.step), self.frame)
@@ -289,7 +289,7 @@ class Footing:
         return self.motion.view
 
     def conform(self, phase: Phase, zmp: NDArray[np.float64], state: BaseState, sensed: Sensed) -> None:
-        """Turn the soles that stand in a phase to the ground, as `sensed`, for a `state` and a desired ZMP `zmp`."""
+        """Turn a phase's standing soles to the ground, by `sensed`, `state` and desired `zmp`."""
         if self.conformity is None:
             return
         plan, incoming = self._plan.view, None

@@ -1,4 +1,4 @@
-"""Propose: which proposers a controller asks, in which order."""
+"""The controller's proposers and their order."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ def proposers(
     middles: Mapping[Side, NDArray[np.float64]],
     guard: StepGuard | None,
 ) -> list[Proposer]:
-    """Returns the proposers of a walk, in the order in which they are asked.
+    """Returns a walk's proposers in order.
 
     Args:
-        settings: Settings of the controller.
-        layouts: Sole layout of each side.
-        plan: Plan of the walk.
-        feet: Where the feet stand at the start.
-        begin: Time in s at which the plan begins.
+        settings: The controller's.
+        layouts: Of each side.
+        plan: The walk's.
+        feet: At the start.
+        begin: Plan's start in s.
         middles: Point (2,) of each sole in m under its ankle.
-        guard: Checks footholds; None steps on everything.
+        guard: Checks footholds; None allows all.
     """
     s, outlines = settings, {side: layouts[side].outline for side in SIDES}
     start = plan.at(begin).com
