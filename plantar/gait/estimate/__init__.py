@@ -1,1 +1,1 @@
-"""State of the body: floating base, loads, and the frame that joints are solved in."""
+"""State of the body: floating base, loads, command frame."""

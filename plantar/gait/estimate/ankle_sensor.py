@@ -1,6 +1,4 @@
-"""Force-torque sensor between ankle and foot: the ground's wrench on the sole, less the static weight of foot and
-shoe.
-"""
+"""Ankle force-torque sensor: the ground's wrench on the sole, less foot and shoe weight."""
 
 from __future__ import annotations
 
@@ -17,10 +15,10 @@ __all__ = ["AnkleSensor", "SoleWrench"]
 
 @dataclass(frozen=True)
 class SoleWrench:
-    """A ground reaction wrench on a sole, with the interface of a percept.
+    """Ground wrench on a sole, with a percept's interface.
 
     Attributes:
-        wrench_in_sole: Wrench (6,) about the sole frame's origin in N and N m, by the world on the robot.
+        wrench_in_sole: (6,) about the sole's origin in N and N m, by the world on the robot.
     """
 
     wrench_in_sole: NDArray[np.float64]
@@ -32,20 +30,20 @@ class SoleWrench:
 
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Centre of pressure (2,) in the sole frame in m (T 4.5-4.6), or None without load."""
+        """Center of pressure (2,), sole frame, in m (T 4.5-4.6); None without load."""
         point = Wrench.of(self.wrench_in_sole).center_of_pressure
         return None if point is None else np.array(point)
 
 
 @dataclass(frozen=True)
 class AnkleSensor:
-    """A force-torque sensor and what hangs below it.
+    """Ankle force-torque sensor and what hangs below it.
 
     Attributes:
-        position: Sensor frame's origin (3,) in the sole frame in m.
-        rotation: Rotation (3, 3) from the sensor to the sole frame.
-        mass: Mass of foot and shoe below the sensor in kg.
-        com: Their CoM (3,) in the sole frame in m.
+        position: Sensor origin (3,), sole frame, in m.
+        rotation: Sensor to sole (3, 3).
+        mass: Foot and shoe below the sensor in kg.
+        com: Their CoM (3,), sole frame, in m.
 
     Example:
         >>> sensor = AnkleSensor(np.array([0.0, 0.0, 0.1]), np.eye(3), 2.0, np.array([0.03, 0.0, 0.04]))
@@ -60,11 +58,11 @@ class AnkleSensor:
     com: NDArray[np.float64]
 
     def sole_wrench(self, measured: NDArray[np.float64], rotation_sole_to_world: NDArray[np.float64]) -> SoleWrench:
-        """The ground's wrench (6,) on the sole: the measured one less the foot's weight.
+        """The ground's wrench (6,) on the sole, without the foot's weight.
 
         Args:
-            measured: Wrench (6,) in the sensor frame about its origin in N and N m, by the foot on the leg.
-            rotation_sole_to_world: Estimated rotation (3, 3) of the sole.
+            measured: (6,), sensor frame, about its origin in N and N m, by the foot on the leg.
+            rotation_sole_to_world: Sole's estimated (3, 3).
 
         Returns:
             The wrench on the sole.

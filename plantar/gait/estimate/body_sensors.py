@@ -1,4 +1,4 @@
-"""Missing readings of encoders and IMU: bridged by the last ones for a moment, then the robot is blind."""
+"""Missing encoder and IMU readings: briefly the last ones, then blind."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class BodySensors:
     """Bridges missing readings of encoders and IMU.
 
     Args:
-        period: Control period in s.
-        bridged: Time in s for which the last readings are used.
+        period: Of control in s.
+        bridged: Longest use of the last readings in s.
 
     Attributes:
-        blind: Whether readings were missing for longer; final.
+        blind: Whether readings were missing longer; final.
 
     Example:
         >>> body, silent = BodySensors(0.005, 0.01), np.full(3, np.nan)
@@ -39,14 +39,13 @@ class BodySensors:
         self.blind = False
 
     def heard(self, told: Told) -> Told | None:
-        """The readings to use at this tick: those given, the last complete ones where a number is missing, or None if
-        blind.
+        """Readings to use: given, or the last complete if a number is missing; None if blind.
 
         Args:
             told: Joint angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2.
 
         Raises:
-            InputError: If no reading was complete since the start.
+            InputError: No complete reading yet.
         """
         if self.blind:
             return None

@@ -1,4 +1,4 @@
-"""Height of the CoM over ground that goes up and down."""
+"""CoM height over ground that goes up and down."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ __all__ = ["CoMHeight"]
 
 
 class CoMHeight:
-    """Follows the height of the footholds by a critically damped second-order filter.
+    """Foothold height by a critically damped second-order filter.
 
-    A first-order filter would start with a speed at each slab, which stiff legs turn into an impact.
+    A first-order filter starts with speed at each slab: an impact for stiff legs.
 
     Args:
-        ground: Height in m of the ground at the start.
-        period: Control period in s.
+        ground: Initial height in m.
+        period: Of control in s.
         frequency: Natural frequency in rad/s.
 
     Example:
@@ -29,7 +29,7 @@ class CoMHeight:
         self._frequency = frequency
 
     def update(self, target: float) -> float:
-        """Filtered height in m after one more tick with `target`, the height in m of the ground under the feet."""
+        """Filtered height in m after a tick with `target`, the ground's height in m under the feet."""
         w = self._frequency
         # Damping ratio 1: a step of the ground neither overshoots nor jumps in speed, which the legs would have to
         # follow.

@@ -1,4 +1,4 @@
-"""Horizontal offset of the CoM from the model's, from where the ground carries a robot that stands still."""
+"""CoM's horizontal offset from the model, by a standing robot's ground forces."""
 
 from __future__ import annotations
 
@@ -22,17 +22,16 @@ def com_offset(
     feet: Mapping[Side, tuple[float, float, float, float]],
     wrenches: Mapping[Side, NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """Horizontal offset (3,) in m, base frame, of a standing robot's CoM from its model's; zero where no foot is
-    loaded.
+    """CoM's horizontal offset (3,) in m, base frame, of a standing robot from its model; zero without load.
 
     Args:
         posture: Its posture.
-        rotation: Rotation (3, 3) from the base frame to the world.
-        feet: Pose of each flat sole: x, y, z in m and heading in rad.
-        wrenches: Wrench (6,) on each sole in its own frame in N and N m.
+        rotation: Base to world (3, 3).
+        feet: Flat soles: x, y, z in m and heading in rad.
+        wrenches: (6,) on each sole, own frame, in N and N m.
 
     Returns:
-        The offset; it includes the effects of encoder errors and unequal taxels.
+        The offset, with the effects of encoder errors and unequal taxels.
     """
     points: list[NDArray[np.float64] | None] = []
     bases: list[NDArray[np.float64]] = []

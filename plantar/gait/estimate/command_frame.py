@@ -1,6 +1,4 @@
-"""The frame in which joints are solved: commanded footholds are fixed in it, and it slowly follows the carrying
-foot.
-"""
+"""Frame in which joints are solved: fixed to commanded footholds, slowly following the carrying foot."""
 
 from __future__ import annotations
 
@@ -15,12 +13,12 @@ __all__ = ["CommandFrame"]
 
 
 class CommandFrame:
-    """Offset and turn between the command frame and the world.
+    """Offset and turn of the command frame in the world.
 
     Args:
-        anchor: Initial position (3,) of a foot in the command frame in m.
-        period: Control period in s.
-        time_constant: Time constant in s with which the frame follows.
+        anchor: Initial foot position (3,), command frame, in m.
+        period: Of control in s.
+        time_constant: Of following in s.
     """
 
     def __init__(self, anchor: NDArray[np.float64], period: float, time_constant: float) -> None:
@@ -32,12 +30,12 @@ class CommandFrame:
         self._share = min(1.0, period / time_constant)
 
     def update(self, commanded: NDArray[np.float64], real: NDArray[np.float64], turn: float) -> None:
-        """Follow the carrying foot for one tick.
+        """Follow the carrying foot for a tick.
 
         Args:
-            commanded: Its commanded position (3,) in m.
-            real: Its estimated position (3,) in the world in m.
-            turn: Its heading in the world less the commanded one in rad.
+            commanded: Its commanded (3,) in m.
+            real: Its estimated (3,), world frame, in m.
+            turn: Its heading less the commanded one in rad.
         """
         (ax, ay, az), (ox, oy, oz), share = self._anchor, self._offset, self._share
         (cx, cy, cz), (rx, ry, rz) = commanded.tolist(), real.tolist()
@@ -48,17 +46,17 @@ class CommandFrame:
 
     @property
     def offset(self) -> tuple[float, float, float]:
-        """Offset in m from the world to the frame, at its anchor."""
+        """From world to frame at the anchor, in m."""
         return self._offset
 
     def now(self) -> CommandFrame:
-        """A copy of the frame that later updates do not change."""
+        """A copy that later updates do not change."""
         frame = object.__new__(CommandFrame)
         frame.__dict__.update(self.__dict__)
         return frame
 
     def to_command(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A horizontal point (2,) of the world in the command frame, both in m.
+        """A horizontal world point (2,) in the command frame, in m.
 
         Example:
             >>> CommandFrame(np.zeros(3), 0.005, 0.3).to_command(np.array([1.0, 2.0])).tolist()
@@ -71,7 +69,7 @@ class CommandFrame:
         return vector2(x + c * dx + s * dy, y - s * dx + c * dy)
 
     def to_world(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A point (3,) of the command frame in the world, both in m."""
+        """A command-frame point (3,) in the world, in m."""
         (px, py, pz), (x, y, z), (ox, oy, oz) = point.tolist(), self._anchor, self._offset
         dx, dy = px - x, py - y
         c, s = math.cos(self.turn), math.sin(self.turn)

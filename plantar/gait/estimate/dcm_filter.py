@@ -1,6 +1,6 @@
-"""CoM and DCM of a pushed pendulum: a stationary Kalman filter with the measured push as input (after K 7-12).
+"""CoM and DCM of a pushed pendulum: stationary Kalman filter with the measured push (after K 7-12).
 
-On each axis, sampled exactly, with d the offset of a push on a part without skin:
+Each axis, sampled exactly, with d the offset by a push on parts without skin:
 
     x' = w (xi - x),    xi' = w (xi - p + u_w + d),    d' = 0 + noise.
 """
@@ -23,13 +23,13 @@ __all__ = ["DcmFilter", "DcmFilterRules", "PushedPendulum"]
 
 
 class DcmFilterRules(Part, table="dcm_filter", needs={"control.dcm_estimate": ("kalman",)}):
-    """Standard deviations at one tick.
+    """Standard deviations at a tick.
 
     Attributes:
-        com_noise: Of the kinematic CoM in m.
-        velocity_noise: Of the velocity of the CoM in m/s, where one is measured.
-        zmp_noise: Of the ZMP less the measured offset in m.
-        unfelt_rate: Of the change in m/s of the offset of an unmeasured push; 0 counts it as noise of the ZMP.
+        com_noise: Kinematic CoM's in m.
+        velocity_noise: CoM velocity's in m/s, where measured.
+        zmp_noise: ZMP's, less the measured offset, in m.
+        unfelt_rate: Change in m/s of an unmeasured push's offset; 0 counts it as ZMP noise.
     """
 
     com_noise: float = share(0.00333, "leg", 1e-6, 0.1)
@@ -44,7 +44,7 @@ class PushedPendulum(NamedTuple):
     Attributes:
         com: CoM (2,) in m.
         dcm: DCM (2,) in m.
-        unfelt: Offset (2,) of the VRP in m by a push that no skin measures.
+        unfelt: VRP offset (2,) in m by a push that no skin measures.
     """
 
     com: NDArray[np.float64]
@@ -53,15 +53,15 @@ class PushedPendulum(NamedTuple):
 
 
 class DcmFilter:
-    """Estimates CoM and DCM from the kinematic CoM, the ZMP and the measured push.
+    """CoM and DCM from kinematic CoM, ZMP and measured push.
 
     Args:
         rules: Standard deviations.
-        omega: Pendulum frequency in rad/s.
-        period: Control period in s.
+        omega: Pendulum's in rad/s.
+        period: Of control in s.
 
     Raises:
-        InputError: If frequency or period is not a finite number above 0.
+        InputError: Frequency or period not finite, positive.
 
     Example:
         >>> known = DcmFilter(DcmFilterRules(), 3.5, 0.005)
@@ -104,20 +104,19 @@ class DcmFilter:
     def update(
         self, com: ArrayLike, com_velocity: ArrayLike | None, zmp: ArrayLike | None, offset: ArrayLike
     ) -> PushedPendulum:
-        """CoM and DCM after one more control tick; at the first one, what is measured.
+        """CoM and DCM after a tick; at first as measured.
 
         Args:
             com: Kinematic CoM (2,) in m.
-            com_velocity: Measured velocity (2,) of the CoM in m/s, or None.
-            zmp: ZMP (2,) since the tick before in m; None where no foot is loaded.
-            offset: Offset u_w (2,) of the VRP by the measured push in m
-                (`plantar.mechanics.external_wrench.vrp_offset`).
+            com_velocity: Its measured (2,) in m/s, or None.
+            zmp: ZMP (2,) since the last tick in m; None without load.
+            offset: VRP's u_w (2,) by the measured push in m (`plantar.mechanics.external_wrench.vrp_offset`).
 
         Returns:
             The state.
 
         Raises:
-            InputError: If one of these is not two finite numbers.
+            InputError: Non-finite or misshaped input.
         """
         place = array(com, "CoM", (2,), finite=True)
         felt = array(offset, "VRP offset", (2,), finite=True)

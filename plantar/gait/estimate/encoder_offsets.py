@@ -1,7 +1,7 @@
-"""Zero errors of the encoders, from two feet that rest flat on the ground at known places.
+"""Encoder zero errors by two flat feet at known places.
 
-The closed loop through the ground gives six equations, gravity two more. Of all offsets that explain the measurements
-the smallest are returned; the rest appears as an offset of the CoM (`plantar.gait.estimate.com_offset`).
+The closed loop through the ground gives six equations, gravity two. The smallest explaining offsets are returned; the
+rest appears as a CoM offset (`plantar.gait.estimate.com_offset`).
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ class _Posture(Protocol):
 
 
 class StandingTolerances(NamedTuple):
-    """Standard deviations of what is known of a standing robot.
+    """Standard deviations for a standing robot.
 
     Attributes:
         offset: Of an encoder's zero in rad.
         place: Of each coordinate of a foot in m.
-        turn: Of each angle of a sole against the ground, and of the mean accelerometer direction, in rad.
+        turn: Of a sole's angles to the ground, and mean accelerometer direction, in rad.
     """
 
     offset: float
@@ -51,14 +51,13 @@ def encoder_offsets(
     feet: Mapping[Side, tuple[float, float, float, float]],
     tolerances: StandingTolerances,
 ) -> NDArray[np.float64]:
-    """The most probable reading less true angle of each encoder (k,) in rad.
+    """Most probable reading less true angle (k,) in rad.
 
     Args:
-        kinematics: Maps joint positions (k,) in rad to position (3,) in m and rotation (3, 3) of each sole in the base
-            frame.
-        joint_positions: Mean encoder readings (k,) in rad.
-        up: Unit vector (3,) against gravity in the base frame.
-        feet: Pose of each sole: x, y, z in m and heading in rad.
+        kinematics: Maps joint positions (k,) in rad to each sole's position (3,) in m and rotation (3, 3), base frame.
+        joint_positions: Mean encoders (k,) in rad.
+        up: Unit vector (3,) against gravity, base frame.
+        feet: Soles: x, y, z in m and heading in rad.
         tolerances: Standard deviations.
 
     Returns:
@@ -94,12 +93,12 @@ def encoder_offsets(
 def standing_base(
     posture: _Posture, up: NDArray[np.float64], feet: Mapping[Side, tuple[float, float, float, float]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Rotation (3, 3) to the world and position (3,) in m of the base: level by gravity, headed and placed by its feet.
+    """Base to world (3, 3) and base position (3,) in m: level by gravity, placed by its feet.
 
     Args:
-        posture: Position (3,) in m and rotation (3, 3) of each sole in the base frame.
-        up: Unit vector (3,) against gravity in the base frame.
-        feet: Pose of each sole: x, y, z in m and heading in rad.
+        posture: Each sole's position (3,) in m and rotation (3, 3), base frame.
+        up: Unit vector (3,) against gravity, base frame.
+        feet: Soles: x, y, z in m and heading in rad.
 
     Returns:
         Rotation and position.
@@ -117,7 +116,7 @@ def standing_base(
 def _differenced(
     kinematics: Callable[[NDArray[np.float64]], _Posture], joints: NDArray[np.float64]
 ) -> tuple[_Posture, dict[Side, NDArray[np.float64]], dict[Side, NDArray[np.float64]]]:
-    """A posture, and each sole's velocity (3, k) and angular velocity (3, k) in the base frame by each joint."""
+    """A posture, and each sole's velocity (3, k) and angular velocity (3, k) by joint, base frame."""
     posture = kinematics(joints)
     moved: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}
     turned: dict[Side, NDArray[np.float64]] = {side: np.zeros((3, len(joints))) for side in SIDES}

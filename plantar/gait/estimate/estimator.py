@@ -1,8 +1,8 @@
-"""Floating-base state from joint encoders, IMU and the soles' readings.
+"""Floating-base state from encoders, IMU and soles.
 
-The gyro is integrated; gravity, corrected by the planned acceleration, corrects roll and pitch, and the heading of the
-loaded feet yaw. The material point of each loaded sole at its centre of pressure does not move, which gives the
-position. The CoM's velocity is observed with the pendulum x'' = w^2 (x - p), or by `dcm_filter`.
+The gyro is integrated; gravity, less planned acceleration, corrects roll and pitch, loaded feet the yaw. The material
+point at each loaded sole's center of pressure is at rest, which gives position. CoM velocity: observer of x'' = w^2 (x
+- p), or `dcm_filter`.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ __all__ = [
 
 
 class Posture(Record, frozen=True):
-    """Kinematics of a joint configuration in the base (torso) frame.
+    """Kinematics of a joint configuration, base (torso) frame.
 
     Attributes:
         com: CoM (3,) in m.
-        positions: Sole frame origin (3,) of each foot in m.
-        rotations: Rotation (3, 3) from each sole frame to the base frame.
+        positions: Sole origin (3,) of each foot in m.
+        rotations: Each sole to base (3, 3).
     """
 
     com: NDArray[np.float64]
@@ -56,7 +56,7 @@ class Posture(Record, frozen=True):
 
 
 class SoleLoad(Protocol):
-    """Load of a sole, by its taxels (`plantar.Percept`) or its ankle (`SoleWrench`)."""
+    """A sole's load, by taxels (`plantar.Percept`) or ankle (`SoleWrench`)."""
 
     @property
     def vertical_force(self) -> float:
@@ -65,17 +65,17 @@ class SoleLoad(Protocol):
 
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
-        """Centre of pressure (2,) in the sole frame in m, None without load."""
+        """Center of pressure (2,), sole frame, in m; None without load."""
         ...
 
     @property
     def wrench_in_sole(self) -> NDArray[np.float64]:
-        """Wrench (6,) about the sole frame's origin in N and N m."""
+        """Wrench (6,) about the sole's origin in N and N m."""
         ...
 
 
 class LegKinematics(Protocol):
-    """Kinematics that the estimator needs of a robot model."""
+    """Kinematics that the estimator needs."""
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
         """Forward kinematics of joint positions (k,) in rad."""
@@ -84,15 +84,15 @@ class LegKinematics(Protocol):
 
 @runtime_checkable
 class LiveKinematics(LegKinematics, Protocol):
-    """Kinematics that return the same arrays at each call."""
+    """Kinematics that return the same arrays each call."""
 
     def live_posture(self, joint_positions: NDArray[np.float64]) -> Posture:
-        """As `posture`, in arrays that hold until the next call of either."""
+        """As `posture`, in arrays valid until the next call of either."""
         ...
 
 
 def live_kinematics(kinematics: LegKinematics) -> Callable[[NDArray[np.float64]], Posture]:
-    """The fastest forward kinematics of a model, for callers that keep no posture."""
+    """A model's fastest kinematics, for callers that keep no posture."""
     return kinematics.live_posture if isinstance(kinematics, LiveKinematics) else kinematics.posture
 
 
@@ -104,13 +104,13 @@ class EstimatorGains(Part, table="estimator"):
     """Gains of the estimator.
 
     Attributes:
-        gravity: Roll and pitch correction by the accelerometer in 1/s.
-        averaging: Time in s at the start for which the robot holds still and gravity is averaged.
-        yaw: Heading correction by the loaded feet in 1/s.
-        observer: Bandwidth of the CoM velocity observer in rad/s, above the pendulum's frequency.
-        tare: Time constant in s with which a foot in the air finds its zero.
-        minimum_load: Vertical force in N above which a foot counts as loaded; above the summed noise of unloaded
-            taxels. Feet are weighted by their load beyond it.
+        gravity: Roll and pitch by the accelerometer in 1/s.
+        averaging: Initial time in s of standing still and averaging gravity.
+        yaw: Heading by the loaded feet in 1/s.
+        observer: CoM velocity observer's bandwidth in rad/s, above the pendulum's.
+        tare: Time constant in s of the zero of a foot in the air.
+        minimum_load: Vertical force in N of a loaded foot, above the summed noise of unloaded taxels; feet are weighted
+            by load beyond it.
     """
 
     gravity: float = share(0.0495, "1/beat", 0, 50)
@@ -126,16 +126,16 @@ class FloatingBaseEstimator:
     """Estimator of the floating base.
 
     Attributes:
-        kinematics: Forward kinematics of the robot.
-        omega: Pendulum frequency in rad/s.
-        period: Control period in s.
-        feet: Known standing pose (x, y, z, yaw) of each sole at the start.
+        kinematics: Robot's, forward.
+        omega: Pendulum's in rad/s.
+        period: Of control in s.
+        feet: Initial standing pose (x, y, z, yaw) of each sole.
         gains: Gains.
-        gyro_bias: Identifies the gyro's bias, and corrects the heading for the time before; None disables both.
-        steady: Selects the feet that are still enough to compare the gyro with; None takes all loaded ones.
-        push: Estimates a push on the body from soles and IMU; None disables it.
-        dcm_filter: Estimates the horizontal CoM and its velocity; None uses the observer.
-        push_acceleration: Acceleration (2,) of the CoM in m/s^2 by a push at this tick.
+        gyro_bias: Gyro bias, correcting earlier heading too; None disables both.
+        steady: Selects still feet for the gyro; None takes all loaded.
+        push: Push by soles and IMU; None disables it.
+        dcm_filter: Horizontal CoM and velocity; None uses the observer.
+        push_acceleration: CoM's (2,) in m/s^2 by a push now.
     """
 
     kinematics: LegKinematics
@@ -190,16 +190,16 @@ class FloatingBaseEstimator:
         airborne: Side | None = None,
         felt: NDArray[np.float64] | None = None,
     ) -> BaseState:
-        """The estimated state after one more control tick.
+        """Estimated state after a tick.
 
         Args:
-            joint_positions: Encoder readings (k,) in rad.
-            gyro: Angular velocity (3,) of the base in the base frame in rad/s.
-            accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
-            soles: Load of each sole.
-            planned_acceleration: Planned horizontal CoM acceleration (2,) in m/s^2; 0 where None.
-            airborne: Foot that is high in the air by plan: its reading becomes its tare.
-            felt: Acceleration (2,) of the CoM in m/s^2 by a push on the body's skin, for `push`; None uses the soles.
+            joint_positions: Encoders (k,) in rad.
+            gyro: Angular velocity (3,) of the base, base frame, in rad/s.
+            accelerometer: Specific force (3,) of the base, base frame, in m/s^2.
+            soles: Each sole's load.
+            planned_acceleration: CoM's horizontal (2,) in m/s^2; None for 0.
+            airborne: Foot high in the air by plan: its reading becomes its tare.
+            felt: CoM acceleration (2,) in m/s^2 by a push on skin, for `push`; None uses the soles.
 
         Returns:
             The state.
@@ -242,9 +242,7 @@ class FloatingBaseEstimator:
         )
 
     def _anchor(self, loads: Mapping[str, float]) -> None:
-        """Return the base to the height at which its feet landed; else errors of steps, tilt times length, would add
-        up.
-        """
+        """Return the base to its feet's landing height; else step errors (tilt times length) add up."""
         heights, error, total = self._heights, 0.0, 0.0
         left, right = self._places[:, 2].tolist()
         for i, side in enumerate(SIDES):
@@ -260,7 +258,7 @@ class FloatingBaseEstimator:
             self._position[2] -= self._share * error / total
 
     def _carry(self, index: int, side: Side, soles: Mapping[Side, SoleLoad]) -> float:
-        """Pass a foot's load in N to the kernel, and return it."""
+        """Pass a foot's load in N to the kernel; return it."""
         sole = soles[side]
         load, point = max(0.0, sole.vertical_force - self._tare[side]), sole.position_cop_in_sole
         x, y = (0.0, 0.0) if point is None else point.tolist()
@@ -269,9 +267,7 @@ class FloatingBaseEstimator:
         return load
 
     def stand_again(self, joint_positions: NDArray[np.float64]) -> None:
-        """Reset the robot to its known footholds, after its kinematics were corrected; `joint_positions` (k,) in
-        rad.
-        """
+        """Reset to the known footholds after corrected kinematics; `joint_positions` (k,) in rad."""
         if not self._begun:
             return
         posture = self.kinematics.posture(joint_positions)
@@ -286,7 +282,7 @@ class FloatingBaseEstimator:
             self._base.watch(posture.com, places["left"], places["right"], turns["left"], turns["right"])
 
     def _stand(self, posture: Posture, up: NDArray[np.float64]) -> None:
-        """Level the base by a unit vector (3,) against gravity, and place it over the known footholds."""
+        """Level the base by a unit vector (3,) against gravity, over the known footholds."""
         rotation, position = standing_base(posture, up, self.feet)
         self._base.stand(rotation, position, *(self.feet[side][3] for side in SIDES))
         if self.dcm_filter is not None:

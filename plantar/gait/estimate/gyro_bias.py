@@ -1,6 +1,6 @@
-"""Bias of the gyro, from loaded feet: a sole on the ground does not turn, so the base turns as the leg's joints do.
+"""Gyro bias by loaded feet: a standing sole does not turn, so the base turns with leg joints.
 
-Both turns are compared in pieces short enough for a slip of the sole to exceed the noise.
+Compared in pieces short enough for a slip to exceed noise.
 """
 
 from __future__ import annotations
@@ -25,20 +25,19 @@ _FIRST_PIECES = 2
 
 
 class GyroBias:
-    """Mean difference of the gyro and the turn of the legs: over all samples so far, then over a time constant.
+    """Mean difference of gyro and leg turn: over all samples, then a time constant.
 
-    A foot is weighted by its load; a tick in which both feet carry counts ten times, as a single sole may turn on soft
-    ground.
+    A foot counts by load; both-feet ticks count tenfold, as a single sole can turn on soft ground.
 
     Attributes:
-        kernel: The compiled part, which the estimator calls within its own.
+        kernel: Compiled part, called within the estimator's.
 
     Args:
-        period: Control period in s.
-        time_constant: Time constant in s of the mean.
-        largest: Largest bias of an axis in rad/s.
-        piece: Duration in s of a piece.
-        slip: Largest angle in rad by which noise differs in a piece.
+        period: Of control in s.
+        time_constant: Of the mean in s.
+        largest: Bias of an axis in rad/s.
+        piece: Its duration in s.
+        slip: Largest angle in rad by noise in a piece.
 
     Example:
         >>> bias = GyroBias(0.005, 20.0, 0.05, 0.005, 6e-4)
@@ -56,14 +55,12 @@ class GyroBias:
 
     @property
     def value(self) -> NDArray[np.float64]:
-        """The bias (3,) in the base frame in rad/s."""
+        """Bias (3,), base frame, in rad/s."""
         return self._value.copy()
 
     @property
     def missed(self) -> NDArray[np.float64] | None:
-        """Angle (3,) in rad, base frame, by which the legs turned more in the piece that has just ended without a slip;
-        or None.
-        """
+        """Angle (3,) in rad, base frame, that the legs turned more in a just ended piece without slip, or None."""
         return self._missed.copy() if self.kernel.concluded else None
 
     def update(
@@ -72,12 +69,12 @@ class GyroBias:
         turn: NDArray[np.float64] | None,
         weights: Mapping[Side, float],
     ) -> NDArray[np.float64]:
-        """The bias (3,) in rad/s after one more control tick.
+        """Bias (3,) in rad/s after a tick.
 
         Args:
-            gyro: Measured angular velocity (3,) of the base in its own frame in rad/s.
-            turn: Turn (3,) of the base in the tick in rad by the still feet, base frame; None where no foot is still.
-            weights: Load of each foot in any unit; 0 for one that is not still.
+            gyro: Base's angular velocity (3,), base frame, in rad/s.
+            turn: Base's turn (3,) in rad by still feet, base frame; None without.
+            weights: Each foot's load in any unit; 0 if not still.
 
         Returns:
             The bias.

@@ -1,4 +1,4 @@
-"""Settings of what the controller identifies of its robot: the difference from the model."""
+"""Settings of the robot's identified differences from its model."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ __all__ = ["IdentificationRules"]
 
 
 class IdentificationRules(Part, table="identification", needs={"control.identify": (True,)}):
-    """What is identified while the robot stands and walks, and how fast.
+    """What is identified standing and walking, and how fast.
 
     Attributes:
-        gyro: Whether the gyro's bias is identified, by carrying feet.
-        encoders: Whether the encoders' zeros are identified in the opening stand.
-        encoder_largest: Largest accepted offset of a joint in rad.
-        com: Whether the CoM's offset is identified, by the ZMP of the opening stand.
-        com_largest: Largest accepted offset in m.
-        lean: Roll of the torso in rad per metre between the CoM and the middle of the feet, for each tenth by which
-            mass and CoM load the hips more than in the model, up to two tenths; 0 uses the walk's own lean.
-        fade: Time in s in which commands approach what was identified in the opening stand.
+        gyro: Whether gyro bias is, by carrying feet.
+        encoders: Whether encoder zeros are, in the opening stand.
+        encoder_largest: Largest accepted joint offset in rad.
+        com: Whether the CoM offset is, by the opening stand's ZMP.
+        com_largest: Its largest accepted in m.
+        lean: Torso roll in rad per metre between CoM and feet's middle, for each tenth that mass and CoM load the hips
+            more than in the model, up to two tenths; 0 uses the walk's lean.
+        fade: Time in s in which commands approach the identified values.
     """
 
     gyro: bool = switch(True)

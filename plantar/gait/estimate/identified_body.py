@@ -1,4 +1,4 @@
-"""Kinematics of the robot as identified: encoder offsets removed, CoM where it was found."""
+"""Robot kinematics with identified encoder offsets and CoM."""
 
 from __future__ import annotations
 
@@ -25,22 +25,22 @@ _MASS_RATIOS = (0.7, 1.4)  # that are believed of the mass over the model's; bey
 
 
 class IdentifiedBody:
-    """Identifies encoder offsets and CoM in the opening stand, and corrects kinematics by them from then on.
+    """Identifies encoder offsets and CoM in the opening stand, then corrects kinematics.
 
-    Measurements are corrected at once, commands gradually (`joint_offsets`, `com_shift`), so that joints do not jump.
+    Measurements are corrected at once, commands gradually (`joint_offsets`, `com_shift`): joints do not jump.
 
     Attributes:
-        encoder_offsets: Reading less true angle of each encoder (k,) in rad; empty until known.
-        com_offset: Offset (3,) of the CoM from the model's in the base frame in m.
-        mass_ratio: Mass by the ground's forces over the model's.
-        known: Whether these have been identified.
+        encoder_offsets: Reading less true angle (k,) in rad; empty until known.
+        com_offset: From the model's (3,), base frame, in m.
+        mass_ratio: Mass by ground forces over the model's.
+        known: Whether identified.
 
     Args:
-        kinematics: Kinematics of the model.
-        weight: Weight of the model in N.
-        feet: Pose of each sole at the start: x, y, z in m and heading in rad.
+        kinematics: The model's.
+        weight: The model's in N.
+        feet: Initial soles: x, y, z in m and heading in rad.
         rules: What is identified.
-        period: Control period in s.
+        period: Of control in s.
     """
 
     def __init__(
@@ -68,7 +68,7 @@ class IdentifiedBody:
         self._step = period / rules.fade
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
-        """Corrected forward kinematics of encoder readings (k,) in rad."""
+        """Corrected forward kinematics of encoders (k,) in rad."""
         if not self.known:
             return self._kinematics.posture(joint_positions)
         read = joint_positions - self.encoder_offsets if len(self.encoder_offsets) else joint_positions
@@ -76,7 +76,7 @@ class IdentifiedBody:
         return Posture(posture.com + self.com_offset, posture.positions, posture.rotations)
 
     def live_posture(self, joint_positions: NDArray[np.float64]) -> Posture:
-        """The same in the same arrays at each call."""
+        """The same in the same arrays each call."""
         read = joint_positions - self.encoder_offsets if self._reads_off else joint_positions
         posture = self._live_posture(read)
         if not self._lies_off:
@@ -90,17 +90,17 @@ class IdentifiedBody:
     def stand(
         self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, SoleLoad]
     ) -> None:
-        """Add a tick in which the robot stands still.
+        """Add a tick of standing still.
 
         Args:
-            joint_positions: Encoder readings (k,) in rad.
-            accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
-            soles: Load of each sole.
+            joint_positions: Encoders (k,) in rad.
+            accelerometer: Specific force (3,) of the base, base frame, in m/s^2.
+            soles: Each sole's load.
         """
         self._stand.update(joint_positions, accelerometer, soles)
 
     def conclude(self) -> None:
-        """Identify from the stand, which is over."""
+        """Identify from the finished stand."""
         stood, rules = self._stand.mean(), self._rules
         self.known = True
         if stood is None:
@@ -127,24 +127,24 @@ class IdentifiedBody:
         self._tenths = min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)
 
     def advance(self) -> None:
-        """Advance the commanded corrections by a tick after the stand."""
+        """Advance commanded corrections by a tick after the stand."""
         self._share = min(1.0, self._share + self._step)
 
     @property
     def joint_offsets(self) -> NDArray[np.float64] | None:
-        """Offsets (k,) in rad to add to joint set-points, since servos follow the encoders; None for none."""
+        """Added to joint set-points (k,) in rad, since servos follow encoders; None for none."""
         return self._faded * self.encoder_offsets if len(self.encoder_offsets) else None
 
     @property
     def com_shift(self) -> NDArray[np.float64]:
-        """Shift (3,) in m in the base frame to take off the desired CoM to get the model's."""
+        """Subtracted from the desired CoM (3,) in m, base frame, to get the model's."""
         return self._faded * self.com_offset
 
     @property
     def lean(self) -> float:
-        """Roll of the torso over the stance foot in rad per metre between the CoM and the middle of the feet.
+        """Torso roll over the stance foot in rad per metre between CoM and feet's middle.
 
-        It relieves the carrying hip, whose motor has a tenth of torque to spare.
+        It relieves the carrying hip, whose motor has a tenth of torque spare.
         """
         return self._faded * self._rules.lean * self._tenths
 
@@ -154,7 +154,7 @@ class IdentifiedBody:
         return s * s * (3.0 - 2.0 * s)  # starts and ends without a jump in speed
 
     def summary(self) -> dict[str, Any]:
-        """What was identified, for a run's summary."""
+        """Identified values, for a run's summary."""
         return {
             "encoder_offsets_deg": np.round(np.degrees(self.encoder_offsets), 4).tolist(),
             "com_offset_m": np.round(self.com_offset, 5).tolist(),

@@ -1,4 +1,4 @@
-"""Means of the sensors while the robot holds still at the start."""
+"""Sensor means of the opening stand."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ class _Sole(Protocol):
 
 
 class Stood(NamedTuple):
-    """Mean readings of a standing robot.
+    """Means of a standing robot.
 
     Attributes:
-        joint_positions: Encoder readings (k,) in rad.
-        up: Unit vector (3,) against gravity in the base frame, by the accelerometer.
-        wrenches: Wrench (6,) on each sole in its own frame in N and N m.
+        joint_positions: Encoders (k,) in rad.
+        up: Unit vector (3,) against gravity, base frame, by accelerometer.
+        wrenches: (6,) on each sole, own frame, in N and N m.
     """
 
     joint_positions: NDArray[np.float64]
@@ -57,9 +57,9 @@ class OpeningStand:
         """Add a control tick.
 
         Args:
-            joint_positions: Encoder readings (k,) in rad.
-            accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
-            soles: Load of each sole.
+            joint_positions: Encoders (k,) in rad.
+            accelerometer: Specific force (3,) of the base, base frame, in m/s^2.
+            soles: Each sole's load.
         """
         self._count += 1
         self._joints = joint_positions.copy() if self._count == 1 else self._joints + joint_positions
@@ -68,7 +68,7 @@ class OpeningStand:
             self._wrenches[side] = self._wrenches[side] + soles[side].wrench_in_sole
 
     def mean(self) -> Stood | None:
-        """The means so far; None before the first tick."""
+        """Means so far; None before the first tick."""
         if self._count == 0:
             return None
         n = self._count

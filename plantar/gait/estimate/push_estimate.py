@@ -1,4 +1,4 @@
-"""A push on the body, from the disagreement of ZMP and acceleration: x'' - w^2 (x - p) = F / m + w^2 u_tau (K 9-12)."""
+"""Push by disagreeing ZMP and acceleration: x'' - w^2 (x - p) = F / m + w^2 u_tau (K 9-12)."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ __all__ = ["PushEstimate", "PushRules"]
 
 
 class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("soles", "skin")}):
-    """When a disagreement of ZMP and acceleration is a push; walking alone leaves up to 0.117 g.
+    """When the disagreement is a push; walking alone leaves up to 0.117 g.
 
     Attributes:
-        time_constant: Time constant in s of its low pass.
+        time_constant: Its low pass in s.
         begins: Acceleration in m/s^2 above which a push begins.
-        ends: Acceleration in m/s^2 below which it ends.
+        ends: Below which it ends, in m/s^2.
     """
 
     time_constant: float = share(0.0396, "beat", 0, 1)
@@ -28,11 +28,11 @@ class PushRules(Part, table="push_estimate", needs={"control.push_estimate": ("s
 
 
 class PushEstimate:
-    """Estimates the acceleration of the CoM by a push.
+    """CoM acceleration by a push.
 
     Args:
         rules: Thresholds.
-        period: Control period in s.
+        period: Of control in s.
 
     Example:
         >>> push = PushEstimate(PushRules(time_constant=0.01, begins=1.0, ends=0.6), 0.005)
@@ -51,11 +51,11 @@ class PushEstimate:
         self.acts = False
 
     def update(self, measured: NDArray[np.float64], pendulum: NDArray[np.float64] | None) -> NDArray[np.float64]:
-        """Acceleration (2,) of the CoM in m/s^2 by a push, after one more control tick; zero without one.
+        """CoM acceleration (2,) in m/s^2 by a push after a tick; zero without.
 
         Args:
-            measured: Horizontal acceleration (2,) of the base in the world frame in m/s^2.
-            pendulum: w^2 (x - p), (2,) in m/s^2; None where no foot is loaded.
+            measured: Base's horizontal (2,), world frame, in m/s^2.
+            pendulum: w^2 (x - p), (2,) in m/s^2; None without load.
 
         Returns:
             The acceleration.

@@ -1,4 +1,4 @@
-"""Load of a sole from noisy taxels: a low pass on each, before noise is clipped at zero and becomes a bias."""
+"""Sole load from noisy taxels, low-passed before clipping makes noise a bias."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ __all__ = ["SkinLoad", "at_its_limit", "percept_to_its_limit"]
 
 
 def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
-    """The reading with each saturated taxel at its largest force; left out, it could put a loaded foot in the air.
+    """A reading with saturated taxels at their largest force; without, a loaded foot could seem in the air.
 
     Args:
-        reading: The sole's reading.
-        layout: The sole.
+        reading: Sole's.
+        layout: Of the sole.
 
     Returns:
-        The same reading where no taxel is saturated.
+        The same reading without saturated taxels.
     """
     if not layout.kernel.reaches(reading.force, layout.force_limit):
         return reading
@@ -32,11 +32,11 @@ def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
 
 
 def percept_to_its_limit(reading: Reading, layout: SoleLayout) -> Percept:
-    """Percept of a sole with saturated taxels as in `at_its_limit` and its loads summed.
+    """Sole's percept, saturated as in `at_its_limit`, loads summed.
 
     Args:
-        reading: The sole's reading.
-        layout: The sole.
+        reading: Sole's.
+        layout: Of the sole.
 
     Returns:
         The percept.
@@ -46,12 +46,12 @@ def percept_to_its_limit(reading: Reading, layout: SoleLayout) -> Percept:
 
 
 class SkinLoad:
-    """Filtered wrench of one sole.
+    """Filtered wrench of a sole.
 
     Args:
-        layout: The sole, n taxels.
+        layout: Of the sole, n taxels.
         noise: Standard deviation of a taxel's white noise in N.
-        share: Share of a new reading in the running mean: period / (time constant + period).
+        share: New reading's in the running mean: period / (time constant + period).
     """
 
     def __init__(self, layout: SoleLayout, noise: float, share: float) -> None:
@@ -61,7 +61,7 @@ class SkinLoad:
         self._mean: NDArray[np.float64] | None = None
 
     def update(self, reading: Reading) -> SoleWrench:
-        """Filtered wrench on the sole (T 4.23) with its latest reading; dead taxels count as unloaded."""
+        """Filtered wrench (T 4.23) with the latest reading; dead taxels count as unloaded."""
         force, sound = reading.force, np.isfinite(reading.force)
         whole = bool(sound.all())
         if not whole:

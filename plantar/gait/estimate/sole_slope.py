@@ -1,6 +1,6 @@
-"""Slope of one sole against the other from the legs' angles, which is more precise than the attitude.
+"""Slope between the soles by leg angles, more precise than attitude.
 
-It shows on which side of a foot that rests on an edge the ground is; the ground is expected to be level under both.
+It shows the ground's side under a foot on an edge; level ground is expected under both.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ __all__ = ["SoleSlope"]
 
 
 class SoleSlope:
-    """Slope of each sole against the ground of the other one.
+    """Slope of each sole against the other's ground.
 
-    Slopes in the opening stand, by encoder offsets, are subtracted. While the other foot is in the air, a sole's slope
-    follows its attitude in the world.
+    Opening stand slopes, from encoder offsets, are subtracted. With the other foot in the air, a sole's slope follows
+    its attitude in the world.
 
     Args:
-        least_load: Vertical force in N from which a foot shows the ground.
-        smoothing: Share of a new tick in the mean over the opening stand.
+        least_load: Vertical force in N of a foot that shows the ground.
+        smoothing: New tick's share in the opening stand's mean.
     """
 
     def __init__(self, least_load: float, smoothing: float = 0.02) -> None:
@@ -39,9 +39,9 @@ class SoleSlope:
         """Add a tick.
 
         Args:
-            rotations: Rotation (3, 3) from each sole to the world.
-            loads: Vertical force on each foot in N.
-            standing: Whether this is the opening stand, with both soles flat.
+            rotations: Each sole to world (3, 3).
+            loads: Vertical on each foot in N.
+            standing: Whether in the opening stand, both soles flat.
         """
         between = rotations["right"].T @ rotations["left"]
         against = {"left": between[2, :2], "right": between[:2, 2]}
@@ -57,5 +57,5 @@ class SoleSlope:
             self._slopes[side] = slope + (world - then)
 
     def slope(self, side: Side) -> NDArray[np.float64]:
-        """Rise of a sole (2,) along its x and y axes in m/m; zero before the first tick."""
+        """Sole's rise (2,) along x, y in m/m; zero before the first tick."""
         return self._slopes[side]

@@ -1,6 +1,6 @@
-"""Which loaded feet are still: those that carry nearly all, and those with a steady load.
+"""Still feet: carrying nearly all, or steadily.
 
-A foot that lands or lifts off turns always the same way, which would add up in the heading.
+Landing and lifting feet always turn the same way, which would add up in heading.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ __all__ = ["SteadyLoad"]
 
 
 class SteadyLoad:
-    """Compares each foot's load with the total and with its own running mean.
+    """Compares a foot's load with the total and its own mean.
 
     Attributes:
-        kernel: The compiled part, which the estimator calls within its own.
+        kernel: Compiled part, called within the estimator's.
 
     Args:
-        period: Control period in s.
-        share: Share of the total load from which a foot is still; the other one then is not.
-        time_constant: Time constant in s of the running mean.
-        band: Largest difference in N of load and mean of a still foot.
+        period: Of control in s.
+        share: Share of total load of a still foot; the other then is not.
+        time_constant: Of the running mean in s.
+        band: Still foot's largest difference in N of load and mean.
 
     Example:
         >>> steady = SteadyLoad(0.005, 0.8, 0.25, 40.0)
@@ -39,9 +39,7 @@ class SteadyLoad:
         self.kernel = _Kernel(share, min(1.0, period / time_constant), band)
 
     def update(self, loads: Mapping[Side, float]) -> dict[Side, float]:
-        """The loads in N after one more control tick, 0 for a foot that may turn; `loads` are those of each foot
-        in N.
-        """
+        """Loads in N after a tick, 0 for a foot that can turn; `loads`: each foot's in N."""
         kernel = self.kernel
         kernel.update(loads["left"], loads["right"])
         return {"left": kernel.left, "right": kernel.right}

@@ -1,6 +1,6 @@
-"""The push that is expected to last: a low pass of the VRP offset (K 19), which stays (K 18) or decays from then on.
+"""Lasting push: low-passed VRP offset (K 19), which stays (K 18) or decays.
 
-With u_w(s) = u_w e^(-s / lasts) the closed forms of a constant offset over a horizon T use
+With u_w(s) = u_w e^(-s / lasts), constant-offset forms over a horizon T use
 
     mean(T) = u_w a (1 - e^(-a' T)) / (1 - e^(-w T)),    a' = w + 1 / lasts,  a = w / a'.
 """
@@ -26,11 +26,11 @@ product of it with what a pendulum grows by overflows."""
 
 
 class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estimate": ("soles", "skin")}):
-    """How a push is expected to go on.
+    """How a push goes on.
 
     Attributes:
-        time_constant: Time constant in s of the low pass (K 19).
-        lasts: Time constant in s with which the expected push decays; 1e6 for one that stays (K 18).
+        time_constant: Low pass in s (K 19).
+        lasts: Expected decay's time constant in s; 1e6 stays (K 18).
     """
 
     time_constant: float = share(4.04, "beat", 0, 10)
@@ -38,12 +38,12 @@ class WrenchFilterRules(Part, table="push_expected", needs={"control.push_estima
 
 
 class WrenchFilter:
-    """Follows the VRP offset by a wrench on the body and expects it to go on.
+    """Follows the VRP offset by a body wrench and expects its course.
 
     Args:
-        rules: How.
-        omega: Pendulum frequency in rad/s.
-        period: Control period in s.
+        rules: Its course.
+        omega: Pendulum's in rad/s.
+        period: Of control in s.
 
     Example:
         >>> push = WrenchFilter(WrenchFilterRules(time_constant=0.1, lasts=1e6), 3.5, 0.005)
@@ -75,13 +75,13 @@ class WrenchFilter:
         return self._x != 0.0 or self._y != 0.0
 
     def update(self, offset: ArrayLike) -> NDArray[np.float64]:
-        """Expected offset (2,) in m after one more control tick (K 19).
+        """Expected offset (2,) in m after a tick (K 19).
 
         Args:
-            offset: Measured offset u_w (2,) of the VRP in m, cut to `MOST_OFFSET`; zero where not finite.
+            offset: VRP's measured u_w (2,) in m, cut to `MOST_OFFSET`; zero where not finite.
 
         Raises:
-            InputError: If these are not two numbers.
+            InputError: Misshaped offset.
         """
         x, y = array(offset, "VRP offset", (2,)).tolist()
         size = math.hypot(x, y)
@@ -97,10 +97,10 @@ class WrenchFilter:
         return self.expected
 
     def mean(self, horizon: float) -> NDArray[np.float64]:
-        """The constant offset (2,) in m that moves the DCM over `horizon` (s) as far as the expected one.
+        """Constant offset (2,) in m that moves the DCM over `horizon` (s) as the expected one.
 
         Raises:
-            InputError: If the time is not a finite number, 0 or more.
+            InputError: Time not finite, 0 or more.
         """
         time = number(horizon, "horizon", finite=True)
         if time < 0.0:

@@ -1,1 +1,1 @@
-"""Where the feet are commanded to be, how they swing and how they land."""
+"""Commanded feet, their swing and landing."""

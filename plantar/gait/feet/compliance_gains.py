@@ -1,4 +1,4 @@
-"""Settings of preemptive foot compliance: how a sole comes down, and what it carries after touchdown."""
+"""Preemptive foot compliance: a sole's descent, and load after touchdown."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ __all__ = ["ComplianceGains", "TouchdownGains"]
 
 
 class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
-    """How a swing foot comes down on the ground that its taxels see.
+    """How a swing foot descends to ground that its taxels see.
 
     Attributes:
-        law: "plane" comes down by the distance of the plane fitted to what is seen; "wrench" is damped by the virtual
-            force, turned by the virtual moment and stopped where that force exceeds `stop` (T 4.30-4.31).
-        stop: epsilon_stop of T 4.31, as a share of the virtual force of a sole that touches with all its taxels.
-        damping: Smallest time constant in s of the approach: speed = touch_speed + distance / time constant.
-        touch_speed: Speed in m/s at touchdown.
-        margin: Distance in m from the ground at which it is down to that speed.
-        top_speed: Largest speed downwards in m/s.
-        acceleration: Largest acceleration downwards in m/s^2.
-        clearance: Largest distance in m kept from the ground while the foot still moves horizontally.
-        reserve: Largest such distance of a foot that is late; it begins to hurry at twice that.
-        late_speed_ratio: Factor on its touchdown speed then.
-        turning: Time constant in s with which the sole turns to the ground.
-        turn_rate: Largest rate of that in rad/s, less close to the ground (`SwingCompliance.turn_rate`).
+        law: "plane" descends by the fitted plane's distance; "wrench" is damped by the virtual force, turned by the
+            virtual moment and stopped where the force exceeds `stop` (T 4.30-4.31).
+        stop: epsilon_stop of T 4.31, share of the virtual force with all taxels touching.
+        damping: Least time constant in s: speed = touch_speed + distance / time constant.
+        touch_speed: At touchdown in m/s.
+        margin: Distance in m from the ground by which it has that speed.
+        top_speed: Largest downwards in m/s.
+        acceleration: Largest downwards in m/s^2.
+        clearance: Largest kept distance in m from the ground during horizontal motion.
+        reserve: The same of a late foot; it hurries from twice that.
+        late_speed_ratio: Factor then on its touchdown speed.
+        turning: Time constant in s of turning to the ground.
+        turn_rate: Its largest rate in rad/s, less near the ground (`SwingCompliance.turn_rate`).
     """
 
     law: str = choice("plane", "wrench")
@@ -50,13 +50,13 @@ class ComplianceGains(Part, table="compliance", needs={"control.pfc": (True,)}):
 
 
 class TouchdownGains(Part, table="touchdown", needs={"control.pfc": (True,)}):
-    """From which load a foot counts as down, and which load it carries until weight is put on it.
+    """Load of touchdown, and carried until weight transfer.
 
     Attributes:
-        contact_force: Force in N that counts as touchdown.
-        touch_force: Force in N that a foot carries at first.
-        hold_force: Force in N that it carries from then on to the double support.
-        admittance: Speed in m/s with which a foot on the ground yields to each newton of force error.
+        contact_force: Of touchdown in N.
+        touch_force: Carried at first in N.
+        hold_force: Carried from then to double support in N.
+        admittance: Yielding in m/s per newton of force error.
     """
 
     contact_force: float = share(0.0213, "weight", 0, 10000)

@@ -1,4 +1,4 @@
-"""Where the feet are commanded: footholds, the swing foot and its landing."""
+"""Commanded feet: footholds, swing and landing."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _WARY = 6  # steps after ground that was elsewhere in which a swing that does no
 
 
 class SoleSense(Record, frozen=True):
-    """What a sole senses, and its estimated pose in the world."""
+    """A sole's percept and estimated pose in the world."""
 
     percept: Percept
     position: NDArray[np.float64]
@@ -53,22 +53,21 @@ class Landing(Part, table="landing", given_by={n: f"walk.{n}" for n in ("approac
     """How a foot lands.
 
     Attributes:
-        contact_force: Vertical force in N on the swing foot that counts as touchdown (the papers' 70 N).
-        press_force: Vertical force in N up to which a foot that has touched is pressed down.
-        depth: Depth in m below the expected ground that the swing aims for, so that the foot rests on it.
-        speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
+        contact_force: Vertical touchdown force in N (the papers' 70 N).
+        press_force: Vertical force in N up to which a touching foot is pressed down.
+        depth: Aimed depth in m below the expected ground, so that the foot rests on it.
+        speed: Downwards in m/s while no ground is met.
         acceleration: Its acceleration in m/s^2.
-        reach: Distance in m that it goes down at most.
-        relax_time: Time constant in s with which, once the robot stands, the last foot's commanded height approaches
-            its estimated one; 0 leaves it.
-        ground_share: Share of a new foothold's height in the expected height of the next one, 0..1.
-        levelling: Rate in 1/s at which a foot that does not see the ground turns parallel to the stance foot; 0 leaves
+        reach: Most that it goes down in m.
+        relax_time: Time constant in s with which a standing robot's last foot approaches its estimated height; 0 leaves
             it.
-        probing: Whether such a foot, once loaded, turns until its centre of pressure is in the middle of its believed
-            foothold, to test it before it gets the body's weight.
-        approach_height: Height in m above the expected ground from which such a foot goes down slowly for some steps
-            after unexpected ground (see `SwingTrajectory`); 0 comes down in one move.
-        approach_speed: Speed of that in m/s.
+        ground_share: Share of a new foothold's height expected for the next, 0..1.
+        levelling: Rate in 1/s at which a blind foot turns parallel to the stance foot; 0 leaves it.
+        probing: Whether such a foot, once loaded, turns until its center of pressure is amid its believed foothold, a
+            test before the body's weight.
+        approach_height: Height in m above expected ground from which it descends slowly for some steps after unexpected
+            ground (`SwingTrajectory`); 0 is one move.
+        approach_speed: Its speed in m/s.
     """
 
     contact_force: float = share(0.083, "weight", 0, 10000)
@@ -89,18 +88,18 @@ class FootMotion:
     """Commanded footholds over time.
 
     Attributes:
-        footholds: Position (3,) in m and heading in rad of each sole in the command frame.
-        landed: Whether the foot that swung last has touched the ground.
-        comes_down: Whether the foot that swung last is in the second half of its swing, or past it.
-        surprise: Height in m of the ground that a swing sees or has met, less the expected one.
+        footholds: Sole's (3,) in m and heading in rad, command frame.
+        landed: Whether the last swing foot has touched.
+        comes_down: Whether it is past half of its swing.
+        surprise: Ground height seen or met, less the expected, in m.
 
     Args:
-        feet: Pose of the feet at the start.
-        period: Control period in s.
-        swing_height: Clearance of the swing foot in m.
-        landing: How a foot lands.
-        compliance: Preemptive compliance of each foot; None lands blindly.
-        swing: Kind of swing; None takes polynomials of the time.
+        feet: Initial feet.
+        period: Of control in s.
+        swing_height: Swing foot clearance in m.
+        landing: Of a foot.
+        compliance: Preemptive, of each foot; None lands blindly.
+        swing: Its kind; None takes time polynomials.
     """
 
     def __init__(
@@ -142,18 +141,18 @@ class FootMotion:
 
     @property
     def last_side(self) -> Side | None:
-        """The foot that swings or swung last; None before the first step."""
+        """Foot of the current or last swing; None before."""
         return None if self._swing is None else self._side
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
-        """Sides whose proximity is needed: the one in the air, with preemptive compliance."""
+        """Sides needing proximity: in the air, with preemptive compliance."""
         side = self.last_side
         return () if self._compliance is None or self.landed or side is None else (side,)
 
     @property
     def ahead(self) -> NDArray[np.float64]:
-        """Horizontal distance (2,) in m to the swing foot's target, command frame; zero before the first step."""
+        """Horizontal distance (2,) in m to the swing target, command frame; zero before the first step."""
         if self._swing is None:
             return np.zeros(2)
         (x, y, _), (here_x, here_y, _) = self._swing.end.tolist(), self.footholds[self._side][0].tolist()
@@ -161,7 +160,7 @@ class FootMotion:
 
     @property
     def view(self) -> FeetView:
-        """The feet at this tick, as a value."""
+        """Feet at this tick, as a value."""
         footholds = self.footholds
         close(footholds["left"][0])
         close(footholds["right"][0])
@@ -177,7 +176,7 @@ class FootMotion:
         )
 
     def rotation(self, side: Side) -> NDArray[np.float64]:
-        """Rotation (3, 3) from a sole at its foothold to the command frame: its heading, and the ground's slope."""
+        """Sole to command frame (3, 3): its heading, and the ground's slope."""
         yaw, tilt = self.footholds[side][1], self._tilts[side]
         known = self._rotations.get(side)
         if known is None or known[0] != yaw or known[1] is not tilt:
@@ -188,12 +187,12 @@ class FootMotion:
         return known[2]
 
     def turn_standing(self, side: Side, turn: NDArray[np.float64], pivot: NDArray[np.float64]) -> None:
-        """Turn the sole of a standing foot.
+        """Turn a standing sole.
 
         Args:
             side: Which foot.
-            turn: Turn (2,) about the sole's x and y axes in rad.
-            pivot: Point (2,) in the sole frame in m that keeps its height.
+            turn: (2,) about the sole's x and y axes in rad.
+            pivot: Point (2,), sole frame, in m that keeps its height.
         """
         before = self.rotation(side)
         self._tilts[side] = self._tilts[side] @ rotation_from_vector(np.array([turn[0], turn[1], 0.0]))
@@ -202,7 +201,7 @@ class FootMotion:
         self.footholds[side] = (position + np.array([0.0, 0.0, rise]), yaw)
 
     def outward_rise(self, side: Side) -> float:
-        """Slope in rad across a standing foot, positive where its outer edge is higher."""
+        """Slope in rad across a standing foot, positive with the outer edge higher."""
         return math.asin(float(self._tilts[side][1, 2])) * (-1.0 if side == "left" else 1.0)
 
     def update(
@@ -216,17 +215,17 @@ class FootMotion:
         press: float | None = None,
         heights: Mapping[Side, float] | None = None,
     ) -> None:
-        """Advance the swing foot; stop it at touchdown, lower it further while it has met no ground or bounced off.
+        """Advance the swing foot; stop at touchdown, lower it while no ground is met.
 
         Args:
-            phase: Phase of the walk.
-            time: Time in s.
-            target: The footstep that is being taken, in single support.
-            loads: Vertical force on each foot in N.
-            frame: Frame that the footholds are commanded in.
-            senses: What the soles sense, for preemptive compliance.
-            press: Force in N that a foot that sees the ground holds in single support; its gains' own where None.
-            heights: Estimated height of each sole in the world in m, for feet that relax.
+            phase: The walk's.
+            time: In s.
+            target: Footstep being taken, in single support.
+            loads: Vertical on each foot in N.
+            frame: Command frame.
+            senses: Percepts, for preemptive compliance.
+            press: Force in N that a seeing foot holds in single support; None for its gains'.
+            heights: Soles' estimated, world frame, in m, for feet that relax.
         """
         if self._compliance is not None and senses is not None:
             for side, compliance in self._compliance.items():
@@ -249,7 +248,7 @@ class FootMotion:
         self._touchdown = self.landed and not before
 
     def _relax(self, heights: Mapping[Side, float]) -> None:
-        """Command the foot that landed last as much above the other one as it is estimated to be."""
+        """Command the landed foot as high above the other as estimated."""
         side, other = self._side, other_side(self._side)
         position, yaw = self.footholds[side]
         stands = self.footholds[other][0].item(2) + heights[side] - heights[other]
@@ -257,11 +256,11 @@ class FootMotion:
         self.footholds[side] = (position + np.array([0.0, 0.0, share * (stands - position.item(2))]), yaw)
 
     def stand_at(self, side: Side, place: NDArray[np.float64], yaw: float) -> None:
-        """Move the commanded place of a foot that has landed.
+        """Move a landed foot's commanded place.
 
         Args:
             side: Which foot.
-            place: Its place (3,) in the command frame in m.
+            place: Its (3,), command frame, in m.
             yaw: Its heading in rad.
         """
         self.footholds[side] = (place.copy(), yaw)
@@ -281,13 +280,13 @@ class FootMotion:
         self._press(self._side, load)
 
     def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame) -> None:
-        """Follow a plan that has changed in the swing; a foot that has landed lifts again and retakes its step.
+        """Follow a plan changed in the swing; a landed foot lifts and steps again.
 
         Args:
-            phase: Phase of the walk.
-            time: Time in s.
-            target: The footstep that is being taken.
-            frame: Frame that the footholds are commanded in.
+            phase: The walk's.
+            time: In s.
+            target: Footstep being taken.
+            frame: Command frame.
         """
         if self._swing is None or phase.swing is None or phase.step != self._step:
             return
@@ -345,7 +344,7 @@ class FootMotion:
             self._lifted_tilt = vector_from_rotation(self._tilts[side])
 
     def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
-        """Lift a foot that has landed and repeat its step, to another place."""
+        """Lift a landed foot and repeat its step elsewhere."""
         expected, height = self._expected, self._height
         self._wary = _WARY
         # It has to clear only what it has just met, in what is left of the step.
@@ -365,7 +364,7 @@ class FootMotion:
         frame: CommandFrame,
         press: float | None,
     ) -> None:
-        """Advance a foot that sees the ground: soften its swing, turn it to the slope, hand over to the real load."""
+        """Advance a seeing foot: soften its swing, turn it to the slope, hand over to real load."""
         assert self._swing is not None
         swing, period = self._swing, self._period
         position, yaw = self.footholds[side]
@@ -418,7 +417,7 @@ class FootMotion:
         self.footholds[side] = (position - vector(0.0, 0.0, drop), yaw)
 
     def _may_touch(self, compliance: SwingCompliance, view: GroundView | None, load: float) -> bool:
-        """Whether a load can be a touch: the farther the ground that it sees, the likelier the load is noise."""
+        """Whether a load can be a touch: the farther the ground, the likelier noise."""
         blind = self._landing.contact_force
         if load > blind:
             return True
@@ -430,7 +429,7 @@ class FootMotion:
         return far <= 0.0 or compliance.force > least + far * (blind - least)
 
     def _turn(self, compliance: SwingCompliance, side: Side, view: GroundView) -> None:
-        """Turn the sole towards the ground's slope, or back to level where too little is seen."""
+        """Turn the sole to the ground's slope, or level if too little is seen."""
         gains = compliance.gains
         share = min(1.0, self._period / gains.turning)
         if view.slope is None:
@@ -440,7 +439,7 @@ class FootMotion:
             self._tilts[side] = turned_to_ground(self._tilts[side], view.slope, share, largest)
 
     def _press(self, side: Side, load: float) -> None:
-        """Press down more gently the more the foot carries; a switch at one force would make it tap."""
+        """Press down less the more the foot carries; a switch would make it tap."""
         landing = self._landing
         missing = 1.0 - load / landing.press_force
         wanted = landing.speed * missing if missing > 0.0 and self._lowered < landing.reach else 0.0

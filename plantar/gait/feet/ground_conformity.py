@@ -1,9 +1,9 @@
-"""Feet that take the ground's shape: the commanded sole turns with its centre of pressure's error (Caron et al. 2019).
+"""Ground conformity: the sole turns with its center of pressure's error (Caron et al. 2019).
 
     w = k ((p - c) x e_z),     [w_x, w_y] = k [p_y - c_y, -(p_x - c_x)]
 
-An incoming foot turns until its contacts enclose its middle c, the stance foot where the desired ZMP c is beyond them.
-On ground that carries a part of the sole, c is that part's middle, and a stance foot does not turn over its edge.
+An incoming foot turns until contacts enclose its middle c, the stance foot if the desired ZMP c is beyond them. On
+partial ground c is that part's middle, and a stance foot does not turn over its edge.
 """
 
 from __future__ import annotations
@@ -33,17 +33,17 @@ _ORIGIN = np.zeros(2)
 
 
 class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "control.conform": (True,)}):
-    """Gains of feet that take the ground's shape.
+    """Gains of ground conformity.
 
     Attributes:
-        firm: k on firm ground, in rad/s per m for each newton that the foot carries.
-        rolling: k of a foot that rolls over an edge in rad/s per m.
-        nearly: Distance in m from its target at which an incoming foot does not turn.
-        largest_rate: Largest rate of a turn in rad/s.
-        press: Force in N that a landed foot holds before it takes the weight over.
-        watch: Number of control ticks over which that is judged.
-        carries: Running mean in N from which a cell touches the ground.
-        gap: Rise in m from which a cell that has touched has lifted off.
+        firm: k on firm ground, in rad/s per m for each newton carried.
+        rolling: k of a foot rolling over an edge in rad/s per m.
+        nearly: Distance in m from its target within which an incoming foot is not turned.
+        largest_rate: Turn's largest in rad/s.
+        press: Force in N of a landed foot before it takes weight over.
+        watch: Control ticks over which rolling is judged.
+        carries: Running mean in N of a touching cell.
+        gap: Rise in m of a lifted cell.
     """
 
     firm: float = share(0.289, "rad/beat/sole/weight", 0, 1)
@@ -61,18 +61,18 @@ class ConformityGains(Part, table="conformity", needs={"control.pfc": (True,), "
 
 
 class SoleTurn(NamedTuple):
-    """A turn of a standing sole: (2,) about its x and y axes in rad, and the point (2,) in m that keeps its height."""
+    """A standing sole's turn: (2,) about x, y in rad, and the fixed-height point (2,) in m."""
 
     turn: NDArray[np.float64]
     pivot: NDArray[np.float64]
 
 
 class FootTurn:
-    """How one foot turns.
+    """Turning of one foot.
 
     Args:
-        gains: The gains.
-        period: Control period in s.
+        gains: Gains.
+        period: Of control in s.
     """
 
     def __init__(self, gains: ConformityGains, period: float) -> None:
@@ -85,18 +85,18 @@ class FootTurn:
         self._past.clear()
 
     def hold(self, center_of_pressure: NDArray[np.float64]) -> None:
-        """One control tick without a turn; `center_of_pressure` (2,) in the sole frame in m."""
+        """A tick without turn; `center_of_pressure` (2,), sole frame, in m."""
         self._past.append((center_of_pressure.copy(), 0.0))
 
     def incoming(
         self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Turn (2,) in rad about the sole's x and y axes of a foot that takes the weight over, at one tick.
+        """Turn (2,) in rad about x, y of a foot taking weight over, in a tick.
 
         Args:
-            load: Vertical force on it in N.
-            center_of_pressure: Where that acts (2,) in the sole frame in m.
-            target: Where it should act (2,) in the sole frame in m.
+            load: Vertical on it in N.
+            center_of_pressure: (2,), sole frame, in m.
+            target: Its wanted place (2,), sole frame, in m.
 
         Returns:
             The turn.
@@ -113,12 +113,12 @@ class FootTurn:
     def stance(
         self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Turn (2,) in rad about the sole's x and y axes of the foot that carries the body, at one tick.
+        """Turn (2,) in rad about x, y of the carrying foot, in a tick.
 
         Args:
-            load: Vertical force on it in N.
-            center_of_pressure: Where that acts (2,) in the sole frame in m.
-            target: The desired ZMP (2,) in the sole frame in m.
+            load: Vertical on it in N.
+            center_of_pressure: (2,), sole frame, in m.
+            target: Desired ZMP (2,), sole frame, in m.
 
         Returns:
             The turn.
@@ -126,14 +126,12 @@ class FootTurn:
         return self._turn(self._rate(load, center_of_pressure, target), center_of_pressure, target)
 
     def _rate(self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> float:
-        """k in rad/s per m, in proportion to the load, since a servo's stiffness K moves it by K / force for each
-        rad.
-        """
+        """k in rad/s per m, in proportion to load: a servo's stiffness K moves it by K / force a rad."""
         g = self.gains
         return g.rolling if self._rolls(center_of_pressure, target) else min(g.rolling, g.firm * load)
 
     def _rolls(self, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> bool:
-        """Whether the turns of the last ticks have not moved the centre of pressure."""
+        """Whether the last turns left the center of pressure unmoved."""
         g, past = self.gains, self._past
         away = math.dist(center_of_pressure, target)
         if len(past) != past.maxlen or away <= g.nearly:
@@ -160,11 +158,11 @@ class GroundConformity:
     """Both feet of a walk.
 
     Args:
-        gains: The gains.
-        layouts: Sole layout of each side.
-        middles: Best place (2,) to load each whole sole in its frame in m.
-        period: Control period in s.
-        turns_stance: Whether it turns the stance foot, too; not where the balance law does.
+        gains: Gains.
+        layouts: Of each side.
+        middles: Best place (2,) to load each whole sole, own frame, in m.
+        period: Of control in s.
+        turns_stance: Whether stance feet turn too; not where the balance law turns them.
     """
 
     def __init__(
@@ -193,19 +191,19 @@ class GroundConformity:
         landed: bool,
         parts: Mapping[Side, NDArray[np.float64]] = MappingProxyType({}),
     ) -> dict[Side, SoleTurn]:
-        """Turns of the standing soles at one control tick.
+        """Standing soles' turns at a tick.
 
         Args:
-            phase: Phase of the walk.
-            incoming: The standing foot that takes the weight over now; None at the two ends of the walk.
-            zmp_desired: Desired ZMP (2,) in the world in m.
-            state: Estimated state.
-            percepts: What each sole senses.
-            landed: Whether the swing foot has touched the ground.
-            parts: Middle (2,) in m, in the sole frame, of the part that carries of a sole that stands on a part.
+            phase: The walk's.
+            incoming: Standing foot taking weight over; None at both ends of the walk.
+            zmp_desired: (2,), world frame, in m.
+            state: Estimate.
+            percepts: Of each sole.
+            landed: Whether the swing foot has touched.
+            parts: Carrying part's middle (2,), sole frame, in m, of partially standing soles.
 
         Returns:
-            Turn of each sole that turns.
+            For each turning sole.
         """
         turned: dict[Side, SoleTurn] = {}
         for side in SIDES:

@@ -1,8 +1,8 @@
-"""After touchdown a foot turns until the ground carries it evenly (T 4.4.1, Fig. 49-d; damping of Caron et al. 2019).
+"""After touchdown a foot turns until evenly carried (T 4.4.1, Fig. 49-d; damping of Caron et al. 2019).
 
     w = A ((p - c) x f),     [w_x, w_y] = A f_z [p_y - c_y, -(p_x - c_x)]
 
-c is the sole's centre while a line of cells carries, then the centroid of what carries.
+c is the sole's center while a line of cells carries, then the carrying part's centroid.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ __all__ = ["DampingGains", "LandingCompliance"]
 
 
 class DampingGains(Settings):
-    """Gains of foot damping at touchdown.
+    """Foot damping at touchdown.
 
     Attributes:
-        admittance: A in rad/s for each N m.
-        largest_rate: Largest rate in rad/s.
-        largest_turn: Largest turn in rad, the error of a levelled sole.
-        largest_force: Vertical force in N from which the foot carries the body and no longer yields.
+        admittance: A in rad/s per N m.
+        largest_rate: In rad/s.
+        largest_turn: In rad, the error of a levelled sole.
+        largest_force: Vertical force in N of a foot that carries the body and no longer yields.
     """
 
     admittance: float = share(0.241, "rad/beat/weight/sole", 0, 10)
@@ -36,12 +36,12 @@ class DampingGains(Settings):
 
 @dataclass
 class LandingCompliance:
-    """Turn of one landed foot.
+    """Turn of a landed foot.
 
     Attributes:
-        period: Control period in s.
+        period: Of control in s.
         gains: Gains.
-        turn: Turn (2,) about the sole's x and y axes in rad.
+        turn: (2,) about the sole's x and y axes in rad.
     """
 
     period: float
@@ -49,16 +49,16 @@ class LandingCompliance:
     turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2))
 
     def reset(self) -> None:
-        """The foot lifts off: the next landing begins level."""
+        """Lift-off: the next landing begins level."""
         self.turn = np.zeros(2)
 
     def update(self, force: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> None:
-        """One control tick of a loaded foot.
+        """A tick of a loaded foot.
 
         Args:
-            force: Vertical force on it in N.
-            center_of_pressure: Where that acts (2,) in the sole frame in m.
-            target: Where it should act (2,) in the sole frame in m.
+            force: Vertical on it in N.
+            center_of_pressure: (2,), sole frame, in m.
+            target: Its wanted place (2,), sole frame, in m.
         """
         # The foot carries the body now: turning it would push the body, and its edge no longer hides the ground.
         g = self.gains
@@ -70,12 +70,12 @@ class LandingCompliance:
         self._turn(np.array([gain * dy, -gain * dx]))
 
     def level(self, force: float, slope: NDArray[np.float64], gain: float) -> None:
-        """One control tick of a foot that comes down, or has just landed: turn it parallel to the expected ground.
+        """A tick of a foot landing or just landed: turn it parallel to expected ground.
 
         Args:
-            force: Vertical force on it in N.
-            slope: Rise of the sole against that ground (2,) along its x and y axes in m/m.
-            gain: Rate of the turn for a slope of 1 in 1/s.
+            force: Vertical on it in N.
+            slope: Sole's rise against it (2,) along x, y in m/m.
+            gain: Turn rate for a slope of 1 in 1/s.
         """
         if force > self.gains.largest_force:
             return

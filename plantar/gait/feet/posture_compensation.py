@@ -1,4 +1,4 @@
-"""Keeps the swing foot at its wanted place in the world while the body leans and sags on its stance leg.
+"""Keeps the swing foot's place in the world while the body leans and sags.
 
 X_command = c_command + R_command R_estimated^T (X_world - c_estimated),    c: CoM
 """
@@ -21,14 +21,14 @@ _LARGEST_SHIFT = 0.1  # leg
 
 @dataclass
 class PostureCompensation:
-    """Filtered correction of one foot's commanded pose.
+    """Filtered correction of a foot's commanded pose.
 
     Attributes:
-        period: Control period in s.
-        time_constant: Of the low-pass on the correction in s.
-        fade: Time in s in which the correction comes in and goes out.
-        largest_shift: Largest correction of the position in m.
-        largest_turn: Largest correction of the orientation in rad.
+        period: Of control in s.
+        time_constant: Correction's low-pass in s.
+        fade: Time in s of its coming and going.
+        largest_shift: Position correction's limit in m.
+        largest_turn: Orientation correction's limit in rad.
     """
 
     period: float
@@ -43,12 +43,12 @@ class PostureCompensation:
 
     @classmethod
     def for_body(cls, body: BodyScale, period: float, fade: float) -> PostureCompensation:
-        """No correction yet, limited to a share of a robot's leg.
+        """No correction yet, limited to shares of a robot's leg.
 
         Args:
-            body: Dimensions of the robot.
-            period: Control period in s.
-            fade: Time in s in which the correction fades in and out.
+            body: Robot's dimensions.
+            period: Of control in s.
+            fade: Time in s of its coming and going.
 
         Returns:
             The compensation.
@@ -56,12 +56,11 @@ class PostureCompensation:
         return cls(period, _TIME_CONSTANT * body.beat, fade, _LARGEST_SHIFT * body.leg)
 
     def start(self) -> None:
-        """Begin with no correction: the foot lifts off."""
+        """Lift-off without correction."""
         self.shift, self.turn, self._weight, self._kept = np.zeros(3), np.zeros(3), 0.0, np.zeros(3)
 
     def keep(self, shift: NDArray[np.float64]) -> None:
-        """Add what a foot that landed off its place was commanded farther, so that its target does not jump; it fades
-        out.
+        """Add a landed foot's farther command, so that its target does not jump; it fades.
 
         Args:
             shift: Old less new commanded place (3,) in m, command frame.
@@ -79,16 +78,16 @@ class PostureCompensation:
         rotation_command: NDArray[np.float64],
         rotation_estimated: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Corrections of the sole's position (3,) in m and orientation (rotation vector (3,) in rad), command frame.
+        """Sole's corrections: position (3,) in m, rotation vector (3,) in rad, command frame.
 
         Args:
-            swings: Whether it is still the foot's single support.
-            position: Wanted sole position (3,) in the command frame in m.
-            position_in_world: The same point in the world frame in m.
-            com_command: CoM reference (3,) in the command frame in m.
-            com_estimated: Estimated CoM (3,) in the world frame in m.
-            rotation_command: Commanded torso orientation (3, 3).
-            rotation_estimated: Estimated torso orientation (3, 3), heading as commanded.
+            swings: Whether still in its single support.
+            position: Wanted sole (3,), command frame, in m.
+            position_in_world: The same point, world frame, in m.
+            com_command: CoM reference (3,), command frame, in m.
+            com_estimated: Estimated CoM (3,), world frame, in m.
+            rotation_command: Commanded torso (3, 3).
+            rotation_estimated: Estimated torso (3, 3), heading as commanded.
 
         Returns:
             The corrections at this tick.

@@ -1,6 +1,4 @@
-"""Swing foot trajectory: a minimum-jerk path from lift-off to touchdown (T 4.1.3, Fig. 33), with a slow approach at its
-end.
-"""
+"""Swing: minimum-jerk path from lift-off to touchdown (T 4.1.3, Fig. 33), with slow final approach."""
 
 from __future__ import annotations
 
@@ -36,23 +34,23 @@ _SKEW = 0.8
 
 @dataclass(frozen=True)
 class SwingTrajectory:
-    """Path of one swing foot.
+    """Path of a swing foot.
 
     Attributes:
-        start: Sole position (3,) at lift-off in m.
-        end: Planned sole position (3,) at touchdown in m.
+        start: Sole (3,) at lift-off in m.
+        end: Planned sole (3,) at touchdown in m.
         yaw_start: Heading at lift-off in rad.
         yaw_end: Heading at touchdown in rad.
-        height: Clearance in m of the highest point above the higher end.
-        duration: Single support time in s.
-        lift_share: Share of the duration spent rising, 0..1.
-        lateral_hold: Share of the duration at its begin in which the foot moves only up.
-        lateral_end: The same at its end, in which it moves only down.
-        spare: Share of the duration left when the foot is down.
-        approach_height: Height in m above the end at which a slow approach begins, 0.44 of the duration before its end;
-            0 comes down in one move.
-        approach_speed: Speed in m/s of the approach, also below the end; raised where it would not reach it.
-        rises_first: Whether the foot is up before it moves horizontally, because of an obstacle next to it.
+        height: Clearance in m above the higher end.
+        duration: Single support in s.
+        lift_share: Share of rising, 0..1.
+        lateral_hold: First share of the duration, upwards only.
+        lateral_end: Last share, downwards only.
+        spare: Share left when the foot is down.
+        approach_height: Height in m above the end of slow approach, begun 0.44 of the duration before its end; 0 is one
+            move.
+        approach_speed: Its speed in m/s, also below the end; raised if it would not reach it.
+        rises_first: Whether the foot rises before it moves horizontally, for an obstacle.
     """
 
     start: NDArray[np.float64]
@@ -71,18 +69,18 @@ class SwingTrajectory:
 
     @property
     def lifted(self) -> float:
-        """Time in s since lift-off from which the foot comes down."""
+        """Time in s since lift-off of descent."""
         return self.duration * (self.lift_share if self.approach_height == 0.0 else min(self.lift_share, _HIGH_SHARE))
 
     @property
     def arrived(self) -> float:
-        """Time in s since lift-off at which the foot is above its place and moves only downwards."""
+        """Time in s since lift-off at which the foot only descends."""
         if self.approach_height == 0.0:
             return self.duration * (1.0 - self.lateral_end)
         return self.duration * _ARRIVED_SHARE
 
     def at(self, time: float) -> tuple[NDArray[np.float64], float]:
-        """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside 0..duration."""
+        """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside."""
         time = min(self.duration, max(0.0, time))
         slow = self.approach_height > 0.0
         first = self.duration * (_FIRST_SHARE if self.rises_first else 0.0 if slow else self.lateral_hold)

@@ -1,7 +1,7 @@
-"""Preemptive foot compliance: a swing that sees the ground before it touches it (T 4.4.1, Fig. 49).
+"""Preemptive foot compliance: a swing that sees the ground (T 4.4.1, Fig. 49).
 
-Law "wrench" damps the swing by the force of w_sole (T 4.30, corrected), turns the sole by its moment and stops at
-epsilon_stop (T 4.31). Law "plane" slows down with the distance of a fitted plane and ends at a crawl.
+Law "wrench" damps the swing by w_sole's force (T 4.30, corrected), turns by its moment and stops at epsilon_stop (T
+4.31). Law "plane" slows with a fitted plane's distance to a crawl.
 """
 
 from __future__ import annotations
@@ -31,19 +31,19 @@ _SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to ha
 
 
 class SwingCompliance:
-    """How one sole comes down, and the load on it, from lift-off to the end of its landing.
+    """A sole's descent and load, from lift-off to landed.
 
     Attributes:
-        ground: What the sole sees of the ground.
-        force: Vertical force in N on the sole, filtered.
+        ground: As the sole sees it.
+        force: Vertical in N on the sole, filtered.
         by_wrench: Whether its law is "wrench".
-        stopped: Whether the virtual force has stopped the swing (T 4.31).
+        stopped: Whether virtual force has stopped the swing (T 4.31).
 
     Args:
-        layout: The sole.
-        gains: How it comes down.
-        touchdown: Loads of and after touchdown.
-        ground: How the map of the ground is kept.
+        layout: Of the sole.
+        gains: Of its descent.
+        touchdown: Loads at and after it.
+        ground: Settings of its map.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class SwingCompliance:
         self._wrench, self.stopped = np.zeros(6), False
 
     def update_load(self, load: float) -> bool:
-        """Touchdown detection: whether the foot has landed (T 4.30 corrected), by `load` in N, less its tare."""
+        """Whether the foot has landed (T 4.30 corrected), by `load` in N, less its tare."""
         self.force += 0.5 * (load - self.force)
         up = np.array([0.0, 0.0, self.force, 0.0, 0.0, 0.0])
         if self.by_wrench:
@@ -86,14 +86,14 @@ class SwingCompliance:
         return self.switch.landed
 
     def damped(self, planned: float, time_left: float, period: float) -> float:
-        """Distance in m that the foot goes down in one control tick: its plan, damped by the virtual force (T 4.4.1).
+        """Descent in m in a tick: its plan, damped by the virtual force (T 4.4.1).
 
-        Once that force has stopped the swing (T 4.31), the foot goes down by what it lacks of a sole that touches.
+        A stopped foot (T 4.31) descends by what it lacks of a touching sole.
 
         Args:
-            planned: Speed downwards in m/s of the swing's own plan.
-            time_left: Time in s until the plan puts weight on the foot.
-            period: Control period in s.
+            planned: Swing plan's downward speed in m/s.
+            time_left: Until the plan puts weight on it, in s.
+            period: Of control in s.
 
         Returns:
             The distance.
@@ -112,14 +112,14 @@ class SwingCompliance:
     def descent(
         self, view: GroundView | None, planned: float, remaining: float, time_left: float, period: float
     ) -> float:
-        """Distance in m that the foot goes down in one control tick; negative: up.
+        """Descent in m in a tick; negative: up.
 
         Args:
-            view: What the sole sees.
-            planned: Speed downwards in m/s of the swing's own plan, used while no ground is seen.
-            remaining: Remaining horizontal distance in m.
-            time_left: Time in s until the plan puts weight on the foot; negative where it does already.
-            period: Control period in s.
+            view: Of the sole.
+            planned: Swing plan's downward speed in m/s, used without seen ground.
+            remaining: Horizontal distance in m.
+            time_left: Until the plan puts weight on it, in s; negative if it does.
+            period: Of control in s.
 
         Returns:
             The distance.
@@ -147,12 +147,11 @@ class SwingCompliance:
         return period * min(g.top_speed, max(rise, self._speed + behind / g.correction))
 
     def turn_rate(self, distance: float, slope: tuple[float, float]) -> float:
-        """Largest turning rate in rad/s: the edge goes down no faster than the sole, unless the slope exceeds its
-        noise.
+        """Largest turning rate in rad/s: an edge descends no faster than the sole, unless slope exceeds noise.
 
         Args:
-            distance: Distance down in m to the first contact.
-            slope: Rise of the ground along the sole's x and y (tangents).
+            distance: Down to the first contact in m.
+            slope: Ground's rise along the sole's x, y (tangents).
 
         Returns:
             The rate.
@@ -162,18 +161,18 @@ class SwingCompliance:
         return min(g.turn_rate, gentle + max(0.0, math.hypot(*slope) - _SLOPE_OF_NOISE) / g.turning)
 
     def holding(self, since: float) -> float:
-        """Force in N that a foot should carry `since` seconds after it touched, until weight is put on it."""
+        """Force in N of a foot `since` seconds after touchdown, until weight is put on it."""
         t = self.touchdown
         return t.touch_force + min(1.0, since / t.load_time) * (t.hold_force - t.touch_force)
 
     def yielding(self, load: float, target: float, above: float, period: float) -> float:
-        """Distance in m that a foot on the ground goes down in one control tick, for a force; negative: up.
+        """Descent in m in a tick of a foot on ground, for a force; negative: up.
 
         Args:
-            load: Vertical force in N on the sole.
+            load: Vertical in N on the sole.
             target: Desired force in N.
-            above: Height in m above where it touched; a foot that has lost the ground comes back from there.
-            period: Control period in s.
+            above: Height in m above touchdown, from which a lost foot returns.
+            period: Of control in s.
 
         Returns:
             The distance.
@@ -193,13 +192,13 @@ class SwingCompliance:
 def turned_to_ground(
     rotation: NDArray[np.float64], slope: tuple[float, float], share: float, largest: float
 ) -> NDArray[np.float64]:
-    """Rotation (3, 3) of a sole that is turned a share of the way to the ground's slope.
+    """Rotation (3, 3) of a sole turned partly to the ground's slope.
 
     Args:
-        rotation: Rotation (3, 3) of the sole.
-        slope: Rise of the ground along the sole's x and y (tangents).
-        share: Share of the way, 0..1.
-        largest: Largest turn in rad.
+        rotation: Sole's (3, 3).
+        slope: Ground's rise along the sole's x, y (tangents).
+        share: Of the way, 0..1.
+        largest: Turn in rad.
 
     Returns:
         The turned sole.

@@ -1,7 +1,7 @@
-"""The swing foot's path as a polynomial, fitted at every tick to where and when it should land (K 13-16).
+"""Swing path as a polynomial, fitted each tick to its landing (K 13-16).
 
-Ridge regression (K 14) under exact conditions at both ends, unlike K 16, which overwrites two coefficients; time is
-counted in shares of the swing, and the reference is kept monotone (K 2.4).
+Ridge regression (K 14), exact at both ends, unlike K 16, which overwrites two coefficients; time is a share of the
+swing, the reference kept monotone (K 2.4).
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ _LEAST_SHARE = 1e-6  # of a swing: what is left of it at least, for a duration t
 
 
 class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": ("fit",)}):
-    """What the path of a swing foot is fitted to (K Table 1).
+    """What a swing path is fitted to (K Table 1).
 
     Attributes:
-        order: n: order of the polynomial.
-        damping: lambda: weight of the coefficients' squares; the paper's 0.01 lands at 0.15 m/s.
-        position: sigma_pos: weight of conditions on the position; on velocity and acceleration times the control
-            period, counted in swings, and its square.
-        observation: sigma_obs: weight of what is measured of the foot.
+        order: n of the polynomial.
+        damping: lambda on the coefficients' squares; the paper's 0.01 lands at 0.15 m/s.
+        position: sigma_pos on position; on velocity and acceleration times the control period, counted in swings, and
+            its square.
+        observation: sigma_obs on measurements of the foot.
         height_share: gamma: share of the swing after which, and before whose end, it is that high.
     """
 
@@ -44,7 +44,7 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
     height_share: float = number(1.0 / 3.0, "1", 0.01, 0.5)
 
     def begin(self, start: SwingStart) -> Swing:
-        """The fitted swing, or one of polynomials where it has to rise first."""
+        """Fitted swing, or polynomials if it has to rise first."""
         flight = PolynomialSwing().begin(start)
         if start.rises_first:
             return flight
@@ -52,7 +52,7 @@ class SwingFitRules(SwingKind, table="swing_fit", needs={"control.swing_shape": 
 
 
 class SwingPoint(Record, frozen=True):
-    """Desired position (3,) in m, velocity in m/s and acceleration in m/s^2 of the swing foot now."""
+    """Swing foot's desired position (3,) in m, velocity in m/s, acceleration in m/s^2."""
 
     position: NDArray[np.float64]
     velocity: NDArray[np.float64]
@@ -60,16 +60,16 @@ class SwingPoint(Record, frozen=True):
 
 
 class SwingFit:
-    """The path of one swing, from lift-off on.
+    """Path of one swing.
 
     Args:
-        rules: What it is fitted to.
-        start: Position (3,) at lift-off in m.
-        period: Control period in s.
-        height: Delta z: how high in m the foot is lifted.
+        rules: Its fit.
+        start: Sole (3,) at lift-off in m.
+        period: Of control in s.
+        height: Delta z in m.
 
     Raises:
-        InputError: If the position is not three finite numbers, or the period not a finite number above 0.
+        InputError: Non-finite position, disallowed period.
 
     Example:
         A step of 0.2 m whose goal moves by 0.1 m to the side half-way:
@@ -106,19 +106,19 @@ class SwingFit:
         self._conditions, self._work = np.zeros((4, 4)), np.zeros((7 + 2 * (n - 1), n + 1))
 
     def aim(self, goal: ArrayLike, elapsed: float, duration: float, observed: ArrayLike | None = None) -> SwingPoint:
-        """The reference now, of a path to a goal (K 13-16); the goal, at rest, once the duration is over.
+        """Reference now towards a goal (K 13-16); at the goal after the duration.
 
         Args:
-            goal: Where the foot should land (3,) in m.
-            elapsed: T_c: time since lift-off in s; one control period more at each call.
-            duration: T_s in s, from lift-off to touchdown.
-            observed: Measured position (3,) at the tick before in m; None does without.
+            goal: Landing place (3,) in m.
+            elapsed: T_c since lift-off in s; a control period more each call.
+            duration: T_s from lift-off to touchdown in s.
+            observed: Measured (3,) at the last tick in m, or None.
 
         Returns:
-            The desired motion.
+            Desired motion.
 
         Raises:
-            InputError: If goal or observation is not three finite numbers, or a time not a finite number.
+            InputError: Non-finite or misshaped input.
         """
         end = array(goal, "goal of the swing", (3,), finite=True)
         now = checked_number(elapsed, "time since lift-off", finite=True)
@@ -136,7 +136,7 @@ class SwingFit:
     def _fitted(
         self, end: NDArray[np.float64], now: float, lasts: float, seen: NDArray[np.float64] | None
     ) -> NDArray[np.float64]:
-        """The reference now (3, 3), a row for each derivative."""
+        """Reference now (3, 3), a row a derivative."""
         rules, n, start, conditions = self._rules, self._rules.order, self._start, self._conditions
         tick, way = self._period / lasts, end - start
         units = np.array(((1.0,), (lasts,), (lasts * lasts,)))
@@ -164,7 +164,7 @@ class SwingFit:
         return found
 
     def _keep_monotone(self, found: NDArray[np.float64], end: NDArray[np.float64], s: float) -> None:
-        """Limit a reference that would turn round or pass its goal."""
+        """Limit a reference that would turn or pass its goal."""
         self._falls = self._falls or s >= 0.5
         for k, (at, was, to) in enumerate(zip(found[0].tolist(), self._state[0].tolist(), end.tolist(), strict=True)):
             if k == 2:
@@ -178,7 +178,7 @@ class SwingFit:
 
 @dataclass
 class _FittedSwing:
-    """A fitted swing, with the heading and slow approach of its flight."""
+    """Fitted swing with its flight's heading and slow approach."""
 
     flight: SwingFlight
     fit: SwingFit
@@ -222,7 +222,7 @@ class _FittedSwing:
 
 
 def _rows(s: float, order: int) -> tuple[list[float], list[float], list[float]]:
-    """Basis [1, s, ..., s^n] (K 13, corrected), and its first and second derivative."""
+    """Basis [1, s, ..., s^n] (K 13, corrected) and two derivatives."""
     powers = _powers(s, order)
     first = [0.0] + [k * p for k, p in enumerate(powers[:-1], 1)]
     return powers, first, [0.0] + [k * p for k, p in enumerate(first[:-1], 1)]
@@ -237,5 +237,5 @@ def _powers(s: float, order: int) -> list[float]:
 
 
 def _reduced(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Conditions (m, n + 1) on all coefficients as those (m, n - 1) on the free ones."""
+    """Conditions (m, n + 1) as those (m, n - 1) on free coefficients."""
     return np.asarray(rows[:, 1:-1] - rows[:, -1:])

@@ -1,7 +1,7 @@
-"""A swing whose place and time of touchdown can change in the air, without a jump up to its acceleration.
+"""Swing with changeable touchdown, smooth up to acceleration.
 
-Horizontally and in heading a polynomial of fifth order goes on to rest at the new place; vertically the clock of the
-trajectory runs faster or slower.
+Horizontally and in heading a fifth-order polynomial goes to rest at the new place; vertically the trajectory's clock
+changes rate.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _LATE = 0.85  # of the time left in which a foot that is above its old place alr
 
 @dataclass(frozen=True)
 class _Clock:
-    """Trajectory time over flight time; its rate goes smoothly to another one."""
+    """Trajectory time over flight time, with smooth rate."""
 
     since: float
     shown: float
@@ -38,7 +38,7 @@ class _Clock:
 
     @classmethod
     def to(cls, since: float, shown: float, rate: float, until: float, shows: float) -> _Clock:
-        """The clock through a time and rate at one moment, and another time at a later one."""
+        """Clock through a time and rate at one moment, and a later time."""
         left = until - since
         last = (shows - shown - rate * left) / (left * (1.0 - 0.5 * _RAMP)) + rate
         return cls(since, shown, rate, last, until, shows)
@@ -55,7 +55,7 @@ class _Clock:
 
 @dataclass(frozen=True)
 class _Course:
-    """Horizontal position and heading (3,) as a polynomial of fifth order that ends at rest."""
+    """Horizontal position and heading (3,), fifth order, ending at rest."""
 
     since: float
     until: float
@@ -91,11 +91,11 @@ class SwingFlight:
     """Motion of a swing foot.
 
     Attributes:
-        path: The trajectory that it began with.
-        duration: Time in s from lift-off to the planned touchdown.
-        end: Planned sole position (3,) at touchdown in m.
+        path: Its initial trajectory.
+        duration: From lift-off to planned touchdown in s.
+        end: Planned sole (3,) at touchdown in m.
         yaw_end: Heading in rad at touchdown.
-        period: Control period in s.
+        period: Of control in s.
         least_time: Time in s to touchdown below which it is not aimed again.
 
     Example:
@@ -115,24 +115,24 @@ class SwingFlight:
     _course: _Course | None = None
 
     def progress(self, time: float) -> float:
-        """Time in s on the trajectory's own clock, at a time in s since lift-off."""
+        """Time in s on the trajectory's clock, at a time in s since lift-off."""
         return time if self._clock is None else self._clock.at(time)
 
     def risen(self, time: float) -> float:
-        """Share 0..1 of the rise that is over."""
+        """Share 0..1 of the rise done."""
         progress, lifted = self.progress(time), self.path.lifted
         return minimum_jerk(progress / lifted)[0] if progress < lifted else 1.0
 
     def falling(self, time: float, height: float) -> float:
-        """Returns the speed downwards in m/s at a time at which it is at a height in m."""
+        """Returns the downward speed in m/s at a time and height in m."""
         return (height - self.at(time + self.period)[0].item(2)) / self.period
 
     def comes_down(self, time: float) -> bool:
-        """Whether more than half of the swing is over at a time in s since lift-off."""
+        """Whether half of the swing is over at a time in s since lift-off."""
         return self.progress(time) > 0.5 * self.path.duration
 
     def at(self, time: float) -> tuple[NDArray[np.float64], float]:
-        """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside 0..duration."""
+        """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside."""
         position, yaw = self.path.at(self.progress(time))
         if self._course is not None and time >= self._course.since:
             x, y, yaw = self._course.at(time).tolist()
@@ -140,13 +140,13 @@ class SwingFlight:
         return position, yaw
 
     def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> SwingFlight:
-        """Returns the flight with another end, from a moment on; the same where too little time is left.
+        """Returns the flight with a new end from now; unchanged if too late.
 
         Args:
-            time: That moment in s since lift-off.
-            place: Sole position (2,) at touchdown in m.
-            yaw: Heading at touchdown in rad.
-            duration: Time in s from lift-off to touchdown.
+            time: Now in s since lift-off.
+            place: Sole (2,) at touchdown in m.
+            yaw: At touchdown in rad.
+            duration: From lift-off to touchdown in s.
         """
         old, new = self.duration - time, duration - time
         if min(old, new) < self.least_time:
@@ -172,10 +172,10 @@ class SwingFlight:
 
 
 class PolynomialSwing(SwingKind):
-    """Swings along polynomials of the time, which change only with the plan."""
+    """Swings by time polynomials, which change only with the plan."""
 
     def begin(self, start: SwingStart) -> SwingFlight:
-        """The flight at its beginning."""
+        """Flight at its begin."""
         path = SwingTrajectory(
             start.position,
             start.end,

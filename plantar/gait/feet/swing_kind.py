@@ -1,6 +1,4 @@
-"""What a kind of swing has to offer; a kind of your own is one new file, an entry point of the group
-"plantar.swings".
-"""
+"""Kinds of swing: interface; own kinds use the entry points "plantar.swings"."""
 
 from __future__ import annotations
 
@@ -16,21 +14,21 @@ __all__ = ["Swing", "SwingKind", "SwingStart"]
 
 
 class SwingStart(Record, frozen=True):
-    """How a swing begins, command frame.
+    """Start of a swing, command frame.
 
     Attributes:
-        position: Sole position (3,) in m at lift-off.
-        yaw: Heading in rad at lift-off.
-        end: Planned sole position (3,) in m at touchdown.
-        yaw_end: Heading in rad at touchdown.
-        height: Clearance in m of the highest point above the higher end.
-        duration: Time in s from lift-off to touchdown.
-        period: Control period in s.
-        least_time: Time in s before touchdown from which the foot cannot reach another place.
-        sees_ground: Whether the sole sees the ground before it touches it, and should be near to it early.
-        approach_height: Height in m above the end from which it goes down slowly; 0 for one move.
-        approach_speed: Speed of that in m/s.
-        rises_first: Whether an obstacle is next to the foot, which therefore rises before it moves horizontally.
+        position: Sole (3,) in m at lift-off.
+        yaw: At lift-off in rad.
+        end: Planned sole (3,) in m at touchdown.
+        yaw_end: At touchdown in rad.
+        height: Clearance in m above the higher end.
+        duration: From lift-off to touchdown in s.
+        period: Of control in s.
+        least_time: Time in s before touchdown from which the place is fixed.
+        sees_ground: Whether the sole sees the ground, and should be near it early.
+        approach_height: Height in m above the end from which it descends slowly; 0 for one move.
+        approach_speed: Its speed in m/s.
+        rises_first: Whether the foot rises before it moves horizontally, for an obstacle.
     """
 
     position: NDArray[np.float64]
@@ -48,12 +46,12 @@ class SwingStart(Record, frozen=True):
 
 
 class Swing(Protocol):
-    """Path of one swing; times are in s since lift-off.
+    """Path of a swing; times in s since lift-off.
 
     Attributes:
-        end: Planned sole position (3,) in m at touchdown.
-        yaw_end: Heading in rad at touchdown.
-        duration: Time in s from lift-off to touchdown.
+        end: Planned sole (3,) in m at touchdown.
+        yaw_end: At touchdown in rad.
+        duration: From lift-off to touchdown in s.
     """
 
     @property
@@ -66,29 +64,29 @@ class Swing(Protocol):
     def duration(self) -> float: ...
 
     def at(self, time: float) -> tuple[NDArray[np.float64], float]:
-        """Sole position (3,) in m and heading in rad; asked for once a tick."""
+        """Sole position (3,) in m and heading in rad; once a tick."""
         ...
 
     def falling(self, time: float, height: float) -> float:
-        """Returns the speed downwards in m/s at a time for which `at` has returned a height in m."""
+        """Returns the downward speed in m/s at a time for which `at` gave a height in m."""
         ...
 
     def risen(self, time: float) -> float:
-        """Share 0..1 of the rise that is over."""
+        """Share 0..1 of the rise done."""
         ...
 
     def comes_down(self, time: float) -> bool:
-        """Whether more than half of the swing is over."""
+        """Whether half of the swing is over."""
         ...
 
     def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> Swing:
-        """Returns the swing that goes at a time to another place (2,) in m, yaw and duration."""
+        """Returns the swing to another place (2,) in m, yaw and duration from a time."""
         ...
 
 
 class SwingKind(Part):
-    """Settings of a kind of swing, which begin one; `control.swing_shape` names the kind."""
+    """Settings of a kind of swing; `control.swing_shape` names it."""
 
     def begin(self, start: SwingStart) -> Swing:
-        """The swing from lift-off on."""
+        """The swing from lift-off."""
         raise NotImplementedError

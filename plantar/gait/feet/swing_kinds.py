@@ -1,4 +1,4 @@
-"""The kinds of swing: those of this package, and entry points of other packages (`plantar.swings`)."""
+"""Kinds of swing: built in, and entry points `plantar.swings`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["swing_kinds"]
 
 @cache
 def swing_kinds() -> dict[str, type[SwingKind]]:
-    """Kinds of swing by the name that `control.swing_shape` gives; the first is the default.
+    """Kinds by their `control.swing_shape` names; the first is the default.
 
     Example:
         >>> list(swing_kinds())[:2]

@@ -1,1 +1,1 @@
-"""Where to step, when, and where the CoM goes: footsteps, phases, VRPs."""
+"""The plan: footsteps, phases, VRPs."""

@@ -1,4 +1,4 @@
-"""Bridge a sudden move of the plan's DCM by a temporary shift of the VRP, within the support polygon (T 4.4.2)."""
+"""Bridges a DCM jump of the plan by a temporary VRP shift in the support polygon (T 4.4.2)."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ def bridged(
     region: NDArray[np.float64],
     kept: tuple[int, NDArray[np.float64], float],
 ) -> tuple[VrpPlan, NDArray[np.float64]]:
-    """The plan from now on over other knots, with a bridge in a window of time.
+    """The plan over other knots, bridged in a time window.
 
     Args:
-        plan: The plan until now.
-        knots: Times in s and VRPs (2,) in m of the stances that are built again.
-        now: The time in s, and the plan at it.
-        window: Beginning and end in s of the bridge; None for no bridge.
-        region: Convex polygon (k, 2) in the world in m for the VRP in the bridge; empty does not limit it.
-        kept: Index of the first kept knot of the old plan, and the shift (2,) in m and delay in s of the kept knots.
+        plan: Until now.
+        knots: Times in s and VRPs (2,) in m of rebuilt stances.
+        now: Time in s, and the plan then.
+        window: Bridge's begin and end in s; None for no bridge.
+        region: Convex (k, 2), world, in m for the bridge's VRP; empty for no limit.
+        kept: First kept knot's index, and the kept knots' shift (2,) in m and delay in s.
 
     Returns:
-        The plan, and the DCM (2,) in m by which it jumps because of the region.
+        The plan, and its DCM jump (2,) in m by the region.
     """
     (time, state), (first, shift, delay) = now, kept
     times, points, bridge = _with_bridge(knots, (time, state.vrp), window, plan.vrps[-1])
@@ -57,7 +57,7 @@ def bridged(
 def _with_bridge(
     knots: Knots, now: tuple[float, NDArray[np.float64]], window: tuple[float, float] | None, end: NDArray[np.float64]
 ) -> tuple[list[float], list[NDArray[np.float64]], list[int]]:
-    """Knots from now on including the bridge's, and the indices of the two that may move."""
+    """Knots from now with the bridge's, and the movable two's indices."""
     times, points = list(knots[0]), list(knots[1])
     head_times, head = [now[0]], [now[1]]
     bridge: list[int] = []
@@ -82,7 +82,7 @@ def _with_bridge(
 
 
 def _response(times: list[float], omega: float) -> float:
-    """DCM at the first knot by 1 m of VRP at the last two knots but one."""
+    """DCM at the first knot by 1 m of VRP at the two before the last."""
     dcm = 0.0
     vrp = [0.0] * (len(times) - 3) + [1.0, 1.0, 0.0]
     for i in range(len(times) - 2, -1, -1):

@@ -1,4 +1,4 @@
-"""Commanded feet at one tick, as a value for the other parts."""
+"""Commanded feet at a tick, as a value."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ _THERE.flags.writeable = False
 
 
 class FeetView(Record, frozen=True):
-    """Commanded feet at one tick.
+    """Commanded feet at a tick.
 
     Attributes:
-        footholds: Position (3,) in m and heading in rad of each sole in the command frame, read-only.
-        side: The foot that swings or swung last; None before the first step.
-        landed: Whether that foot has touched the ground.
-        lift_off: Whether its swing begins at this tick.
-        touchdown: Whether it touches the ground at this tick.
-        ahead: Horizontal distance (2,) in m to its target, command frame.
-        surprise: Height in m of the ground that it sees or has met, less the expected one.
-        distance: Distance (n,) in m of its taxels from the ground at touchdown; None where none is measured.
+        footholds: Sole's (3,) in m and heading in rad, command frame, read-only.
+        side: Foot of the current or last swing; None before.
+        landed: Whether it has touched.
+        lift_off: Whether its swing begins now.
+        touchdown: Whether it touches now.
+        ahead: Horizontal (2,) in m to its target, command frame.
+        surprise: Ground height seen or met, less the expected, in m.
+        distance: Taxels' (n,) in m from the ground at touchdown; None if unmeasured.
     """
 
     footholds: Mapping[Side, tuple[NDArray[np.float64], float]]

@@ -1,4 +1,4 @@
-"""Footstep plans: where and in which order the soles are put down (T 4.1.3, step 1)."""
+"""Footsteps: where and in which order soles are put down (T 4.1.3, step 1)."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ __all__ = ["Footstep", "other_side", "straight_plan"]
 
 @dataclass(frozen=True)
 class Footstep:
-    """A planned pose of one sole in the world frame.
+    """Planned sole pose, world frame.
 
     Attributes:
         side: Which foot.
-        x: Sole frame origin, forward, in m.
-        y: Sole frame origin, left, in m.
+        x: Sole origin forward in m.
+        y: Left in m.
         yaw: Heading in rad.
-        z: Height of the ground that the plan expects in m.
+        z: Expected ground height in m.
     """
 
     side: Side
@@ -35,12 +35,12 @@ class Footstep:
 
     @property
     def position(self) -> NDArray[np.float64]:
-        """Sole frame origin (3,) in m."""
+        """Sole origin (3,) in m."""
         return np.array([self.x, self.y, self.z])
 
     @property
     def rotation_sole_to_world(self) -> NDArray[np.float64]:
-        """Rotation (3, 3) of a level sole with this heading."""
+        """Rotation (3, 3) of a level sole."""
         return level_rotation(self.yaw)
 
 
@@ -59,22 +59,22 @@ def straight_plan(
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
     height: float = 0.0,
 ) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
-    """A straight walk: forward, backward, sideways or in place; the last step closes the feet.
+    """Straight walk in any direction or in place; the last step closes the feet.
 
     Args:
-        steps: Number of steps, 0 or more.
-        length: Distance in m by which a step leads the other foot, negative for backward.
-        sideways: Lateral distance in m by which each opening step leads, positive to the left.
-        width: Distance in m of the sole frames' origins when the feet stand side by side.
-        first: The foot that moves first; a sideways walk starts with the foot it moves towards.
-        start: Pose (x, y, yaw) in m, m, rad of the midpoint between the feet at the start.
-        height: Height of the ground in m.
+        steps: 0 or more.
+        length: Lead over the other foot in m, negative for backward.
+        sideways: Lateral lead of opening steps in m, positive left.
+        width: Between sole origins side by side in m.
+        first: First foot; sideways, the one on that side.
+        start: Initial midpoint (x, y, yaw) of the feet in m, m, rad.
+        height: Of the ground in m.
 
     Returns:
-        The standing feet at the start, and the steps in order.
+        Initial feet, and steps in order.
 
     Raises:
-        InputError: If a number is not finite or outside what is allowed.
+        InputError: Non-finite or disallowed number.
 
     Example:
         >>> feet, plan = straight_plan(3, length=0.2)

@@ -1,4 +1,4 @@
-"""Walking state machine: which foot carries, which one swings, and when (T 4.16)."""
+"""Walking state machine: carrying foot, swing foot, times (T 4.16)."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ class PhaseKind(IntEnum):
 
 
 class Timing(Settings):
-    """Durations of a walk in s.
+    """Durations in s.
 
     Attributes:
         single_support: t_ss.
         double_support: t_ds.
-        start: First double support, in which the weight shifts from both feet to the first stance foot.
-        end: Last double support, in which the weight returns between the feet.
-        settle: Standing time after the last step.
+        start: First double support, shifting weight to the first stance foot.
+        end: Last double support, returning weight between the feet.
+        settle: Standing after the last step.
     """
 
     single_support: float = number(0.9, "s", 0.2, 10)
@@ -44,15 +44,15 @@ class Timing(Settings):
 
 @dataclass(frozen=True)
 class Phase:
-    """A phase of the walk.
+    """Phase of the walk.
 
     Attributes:
-        kind: Standing, double support or single support.
-        step: Index of the footstep that is being taken or comes next; the number of steps at the end.
-        start: Time in s at which the phase begins.
-        end: Time in s at which it ends (inf for the final standing).
-        swing: The swing foot in single support, else None.
-        wait: Time in s before the end of a single support by which the foot has to be down.
+        kind: Standing, double or single support.
+        step: Index of the current or next footstep; their number at the end.
+        start: In s.
+        end: In s; inf for final standing.
+        swing: Foot in single support, else None.
+        wait: Time in s before a single support's end by which the foot is down.
     """
 
     kind: PhaseKind
@@ -64,22 +64,22 @@ class Phase:
 
     @property
     def stance(self) -> Side | None:
-        """The only carrying foot in single support, else None."""
+        """Carrying foot of single support, else None."""
         return None if self.swing is None else other_side(self.swing)
 
     @property
     def touchdown(self) -> float:
-        """Time in s of the planned touchdown in a single support."""
+        """Planned touchdown in s of a single support."""
         return self.end - self.wait if self.wait else self.end
 
 
 @dataclass(frozen=True)
 class WalkSchedule:
-    """Phases of a walk without gaps; a value: a change makes another schedule.
+    """A walk's phases without gaps, as a value.
 
     Attributes:
-        phases: The phases in order; the last one is the standing at the end.
-        timing: The durations.
+        phases: In order, ending with standing.
+        timing: Durations.
 
     Example:
         >>> schedule = WalkSchedule.of(("left", "right"), Timing())
@@ -92,12 +92,12 @@ class WalkSchedule:
 
     @classmethod
     def of(cls, sides: Sequence[Side], timing: Timing, begin: float = 0.0) -> WalkSchedule:
-        """The schedule of a walk that begins from standing.
+        """Schedule of a walk from standing.
 
         Args:
-            sides: The foot of each step in order.
-            timing: The durations.
-            begin: Time in s at which the first double support begins; before it the robot stands.
+            sides: Each step's foot in order.
+            timing: Durations.
+            begin: First double support's start in s, after standing.
 
         Returns:
             The schedule.
@@ -107,17 +107,17 @@ class WalkSchedule:
 
     @property
     def walking_end(self) -> float:
-        """Time in s at which the last double support ends."""
+        """End in s of the last double support."""
         return self.phases[-1].start
 
     @cached_property
     def end(self) -> float:
-        """Time in s at which the robot has walked and settled."""
+        """Time in s at which the robot is settled."""
         return self.walking_end + self.timing.settle
 
     @property
     def steps(self) -> int:
-        """Number of steps of the walk, from its beginning on."""
+        """Number of steps of the whole walk."""
         return self.phases[-1].step
 
     @cached_property
@@ -129,20 +129,20 @@ class WalkSchedule:
         return self.phases[self.index(time)]
 
     def index(self, time: float) -> int:
-        """Index in `phases` of the phase at a time in s; of the first one that is kept before that."""
+        """Index in `phases` at a time in s; the first kept one before."""
         return max(0, bisect_right(self._starts, time) - 1)
 
     def following(self, phase: Phase) -> Phase:
-        """The phase after one of `phases`; the last one for itself."""
+        """The phase after one of `phases`; the last for itself."""
         return self.phases[min(self.phases.index(phase) + 1, len(self.phases) - 1)]
 
     def delayed(self, phase: Phase, by: float, wait: float | None = None) -> WalkSchedule:
-        """The schedule with the end of a phase, and all after it, moved.
+        """The schedule with a phase's end, and all after, moved.
 
         Args:
             phase: One of `phases`.
             by: Delay in s; negative: sooner.
-            wait: Time in s before its end by which the foot has to be down; unchanged where None.
+            wait: Time in s before its end by which the foot is down; None for unchanged.
 
         Returns:
             The schedule.
@@ -155,14 +155,14 @@ class WalkSchedule:
         return replace(self, phases=(*self.phases[:i], longer, *later))
 
     def followed_by(self, step: int, sides: Sequence[Side], time: float) -> WalkSchedule:
-        """The schedule with other steps after one; with none the walk ends with it.
+        """The schedule with other steps after one; none ends the walk.
 
-        A double support that has begun keeps its length, unless it ended the walk or begins the end; a standing robot
-        shifts its weight first.
+        A begun double support keeps its length, unless it ended the walk or begins the end; a standing robot shifts
+        weight first.
 
         Args:
-            step: Index of the last step that stays; -1 where none does.
-            sides: The foot of each step after it.
+            step: Last kept step's index; -1 for none.
+            sides: Each later step's foot.
             time: Now in s.
 
         Returns:
@@ -188,12 +188,12 @@ class WalkSchedule:
         return replace(self, phases=(*self.phases[:i], *_walked(sides, first, phase.start, timing, length)))
 
     def since(self, time: float) -> WalkSchedule:
-        """The schedule without the phases that ended before a time in s."""
+        """The schedule without phases ended before a time in s."""
         return replace(self, phases=self.phases[self.index(time) :])
 
 
 def _walked(sides: Sequence[Side], step: int, time: float, timing: Timing, first: float) -> list[Phase]:
-    """Phases of some steps, with the double support before them and the standing after them."""
+    """Phases of steps, with the double support before and standing after."""
     phases = []
     for k, side in enumerate(sides, step):
         length = first if k == step else timing.double_support
@@ -205,7 +205,7 @@ def _walked(sides: Sequence[Side], step: int, time: float, timing: Timing, first
 
 
 def _ending(steps: int, time: float, timing: Timing) -> list[Phase]:
-    """The last phases of a walk: the weight returns between the feet, and the robot stands."""
+    """Last phases: weight returns between the feet, then standing."""
     phases = []
     if steps:
         phases.append(Phase(PhaseKind.DOUBLE_SUPPORT, steps, time, time + timing.end))

@@ -1,4 +1,4 @@
-"""Proposed and applied changes of a plan, as values; only `plantar.gait.plan.walk_plan` applies them."""
+"""Proposed and applied plan changes; only `plantar.gait.plan.walk_plan` applies them."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class PlanChange:
-    """A proposed change of footsteps, timing and VRPs. What is None stays.
+    """Proposed change of footsteps, timing and VRPs; None keeps.
 
     Attributes:
-        reason: Why, in a few words; recorded, and used by the decision.
-        step: Index of the footstep concerned.
+        reason: In a few words; recorded, and used by the decision.
+        step: Its index.
         foothold: Its new place.
-        vrp: VRP over it in m; at its place in the sole where None and the foothold moves.
-        shift: Move of the footsteps after it in m.
-        vrp_shift: Move of the VRPs over those in m; as the footsteps where None.
-        following: New footsteps after it; an empty tuple ends the walk with it.
-        longer: Delay in s of the end of the current single support (negative: sooner).
-        wait: Time in s before that end by which the foot has to be down; unchanged where None.
-        resets: Whether the reference jumps to the changed plan, which is nearer to the body, without a bridge.
-        because: Reason recorded for the footsteps after it, where it differs.
+        vrp: Over it in m; None with a moved foothold: at its place in the sole.
+        shift: Later footsteps' move in m.
+        vrp_shift: Their VRPs' move in m; None for the same.
+        following: New later footsteps; empty ends the walk.
+        longer: Delay in s of the current single support's end (negative: sooner).
+        wait: Time in s before that end by which the foot is down; None for unchanged.
+        resets: Whether the reference jumps to the changed plan, nearer to the body, without a bridge.
+        because: Reason for later footsteps, if different.
     """
 
     reason: str
@@ -49,11 +49,11 @@ class MovedStep:
 
     Attributes:
         step: Its index.
-        x: New place of its sole's origin, forward, in m.
-        y: The same, left, in m.
+        x: Sole origin's new place, forward, in m.
+        y: Left in m.
         yaw: Heading in rad.
-        reason: Why it was moved.
-        before: Its place before; None for a new footstep.
+        reason: Of the move.
+        before: Old place; None for a new footstep.
     """
 
     step: int
@@ -66,14 +66,14 @@ class MovedStep:
 
 @dataclass(frozen=True)
 class AppliedChange:
-    """A change that the plan has applied.
+    """An applied plan change.
 
     Attributes:
         time: When in s.
         change: The change.
-        moved: The footsteps that it moved or added.
-        gap: DCM in m by which the reference jumps, because the support polygon limits the bridge.
-        delay: Time in s by which the next double support became longer for the bridge.
+        moved: Moved or added footsteps.
+        gap: Reference's DCM jump in m, as the support polygon limits the bridge.
+        delay: Next double support's extension in s for the bridge.
     """
 
     time: float

@@ -1,12 +1,12 @@
-"""VRP plan: piecewise linear virtual repellent points, and the resulting DCM and CoM (T 4.9-4.16).
+"""Piecewise linear virtual repellent points, with DCM and CoM (T 4.9-4.16).
 
-On a segment of duration T the pendulum x'' = w^2 (x - p) and the DCM xi' = w (xi - p) have the closed solutions
+On a segment of duration T, x'' = w^2 (x - p) and xi' = w (xi - p) have the solutions
 
     xi(t) = p(t) + p'/w + A e^(w t)              x(t) = p(t) + A/2 e^(w t) + B e^(-w t)
 
-DCM waypoints are computed backward from the last knot (T 4.14 corrected: xi_i = r + e^(-w T) (xi_(i+1) - r) for a
-constant VRP), the CoM forward, and segments evaluated from their end, so that no exponential grows. Later knots that
-move together keep a segment's A e^(w T), so `replanned` solves only the new knots.
+DCM waypoints go backward from the last knot (T 4.14 corrected: xi_i = r + e^(-w T) (xi_(i+1) - r) for a constant VRP),
+the CoM forward; segments are evaluated from their end, so no exponential grows. Later knots moved together keep A e^(w
+T), so `replanned` solves only new knots.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ __all__ = ["LipReference", "VrpPlan"]
 
 
 class LipReference(Record, frozen=True):
-    """The plan at one time, in the horizontal plane of the world frame.
+    """The plan at a time, horizontal, world frame.
 
     Attributes:
-        vrp: Reference VRP, which is the reference ZMP on the ground, (2,) in m.
-        dcm: Reference DCM (2,) in m.
+        vrp: And ZMP on the ground (2,) in m.
+        dcm: (2,) in m.
         dcm_velocity: Its rate (2,) in m/s.
-        com: Reference CoM (2,) in m.
+        com: (2,) in m.
         com_velocity: Its rate (2,) in m/s.
-        com_acceleration: Its second rate (2,) in m/s^2.
+        com_acceleration: (2,) in m/s^2.
     """
 
     vrp: NDArray[np.float64]
@@ -46,16 +46,16 @@ class LipReference(Record, frozen=True):
 
 
 class VrpPlan:
-    """DCM and CoM trajectories over a piecewise linear VRP.
+    """DCM and CoM over a piecewise linear VRP.
 
     Args:
-        times: Knot times (k,) in s, strictly increasing, k >= 2.
-        vrps: VRP (k, 2) at each knot in m.
-        omega: Pendulum frequency in rad/s.
-        com: CoM (2,) at the first knot in m; the first VRP where None.
+        times: Knots' (k,) in s, strictly increasing, k >= 2.
+        vrps: At knots (k, 2) in m.
+        omega: Pendulum's in rad/s.
+        com: At the first knot (2,) in m; None for the first VRP.
 
     Raises:
-        InputError: If the knots are not finite, not increasing, or of other shapes.
+        InputError: Disallowed knots.
 
     Example:
         >>> plan = VrpPlan([0.0, 1.0, 1.3, 3.0], [[0, 0], [0, 0], [0, 0.1], [0, 0.1]], omega=3.5)
@@ -96,7 +96,7 @@ class VrpPlan:
         self._end_offset = end_offset  # A e^(w T) of each segment
 
     def _solve(self, segments: int) -> None:
-        """Backward pass: rates, offsets and DCM waypoints of the first segments, from the waypoint at their end."""
+        """Backward pass: first segments' rates, offsets and DCM waypoints from their end's."""
         omega, times = self.omega, self.times
         x, y = self.dcm_waypoints[segments].tolist()
         points = self.vrps[: segments + 1].tolist()
@@ -137,20 +137,20 @@ class VrpPlan:
         shift: ArrayLike = (0.0, 0.0),
         delay: float = 0.0,
     ) -> VrpPlan:
-        """The plan continued over other knots; kept knots are not solved again.
+        """The plan over other knots, without solving kept ones again.
 
         Args:
-            times: Times (m,) of the new knots in s, strictly increasing; the first is now.
-            vrps: VRP (m, 2) at each in m.
-            first: Index of the first kept knot of this plan; the number of knots keeps none.
-            shift: Move (2,) in m of the kept knots.
-            delay: Their delay in s.
+            times: New knots' (m,) in s, strictly increasing, from now.
+            vrps: Theirs (m, 2) in m.
+            first: First kept knot's index; the number of knots keeps none.
+            shift: Kept knots' (2,) in m.
+            delay: Theirs in s.
 
         Returns:
-            The plan; its CoM starts at this plan's CoM now.
+            The plan, from the CoM now.
 
         Raises:
-            InputError: If the knots are not finite, not increasing or of other shapes.
+            InputError: Disallowed knots.
 
         Example:
             >>> plan = VrpPlan([0.0, 1.0, 1.3, 3.0], [[0, 0], [0, 0], [0, 0.1], [0, 0.1]], omega=3.5)
@@ -194,13 +194,11 @@ class VrpPlan:
 
     @property
     def duration(self) -> float:
-        """Time in s from the first to the last knot."""
+        """From the first to the last knot in s."""
         return self.times[-1] - self.times[0]
 
     def at(self, time: float) -> LipReference:
-        """VRP, DCM and CoM with their rates at a `time` in s; before the start the first knot holds, after the end the
-        last VRP.
-        """
+        """VRP, DCM and CoM with rates at a `time` in s; first knot before, last VRP after."""
         omega = self.omega
         if time >= self.times[-1]:
             vrp = self.vrps[-1]

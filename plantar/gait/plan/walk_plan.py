@@ -1,7 +1,7 @@
-"""The plan of a walk and its one owner: footsteps, timing and VRPs (T 4.1.3, steps 2 and 3; T 4.4.2).
+"""A walk's plan and its owner: footsteps, timing, VRPs (T 4.1.3, steps 2 and 3; T 4.4.2).
 
-Only `WalkPlan.apply` changes the plan, and records it. A sudden move of the DCM is bridged, or the double support
-becomes longer (`plantar.gait.plan.bridge`).
+Only `WalkPlan.apply` changes and records it. DCM jumps are bridged, or double support extended
+(`plantar.gait.plan.bridge`).
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ _RECORDED = 1000  # changes that the record keeps
 
 
 def vrp_of_step(step: Footstep, vrp_in_sole: ArrayLike) -> NDArray[np.float64]:
-    """VRP (2,) in m, world frame, over a footstep (T 4.13).
+    """Footstep's VRP (2,) in m, world frame (T 4.13).
 
     Args:
-        step: The footstep.
-        vrp_in_sole: Its place (2,) in the sole frame in m.
+        step: Footstep.
+        vrp_in_sole: Its place (2,), sole frame, in m.
 
     Returns:
         The VRP.
@@ -52,11 +52,11 @@ def vrp_of_step(step: Footstep, vrp_in_sole: ArrayLike) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class PlannedStep:
-    """A footstep with the VRP over it.
+    """Footstep with its VRP.
 
     Attributes:
-        foothold: Planned pose of the sole.
-        vrp: VRP (2,) over it in the world in m, read-only.
+        foothold: Planned sole pose.
+        vrp: Over it (2,), world frame, in m, read-only.
     """
 
     foothold: Footstep
@@ -71,11 +71,11 @@ class PlanView:
     """The plan now, as a value.
 
     Attributes:
-        first: Index of the first kept step; above 0 only in a walk without an end.
-        steps: The steps from that one on.
+        first: First kept step's index; above 0 only in endless walks.
+        steps: From that one on.
         schedule: The phases.
         standing: VRP (2,) over each foot in m before the first kept step.
-        last: The change that was applied last.
+        last: Last applied change.
     """
 
     first: int
@@ -86,22 +86,22 @@ class PlanView:
 
     @property
     def count(self) -> int:
-        """Number of steps of the whole walk."""
+        """Steps of the whole walk."""
         return self.first + len(self.steps)
 
     def foothold(self, step: int) -> Footstep:
-        """Planned pose of a step's foot."""
+        """A step's planned pose."""
         return self.steps[step - self.first].foothold
 
     def vrp(self, step: int) -> NDArray[np.float64]:
-        """VRP (2,) in m over the foothold of a step."""
+        """VRP (2,) in m over a step's foothold."""
         return self.steps[step - self.first].vrp
 
     def vrp_before(self, step: int, side: Side) -> NDArray[np.float64]:
-        """VRP (2,) in the world in m over a foot before a step.
+        """VRP (2,), world frame, in m over a foot before a step.
 
         Args:
-            step: Index of the step.
+            step: Its index.
             side: Which foot.
 
         Returns:
@@ -113,22 +113,22 @@ class PlanView:
         return self.standing[side]
 
     def stance_vrp(self, step: int) -> NDArray[np.float64]:
-        """VRP (2,) in m over the carrying foot of a step."""
+        """VRP (2,) in m over a step's carrying foot."""
         return self.vrp_before(step, other_side(self.foothold(step).side))
 
     def middle(self, step: int) -> NDArray[np.float64]:
-        """Midpoint (2,) in m of the feet's VRPs before a step."""
+        """Midpoint (2,) in m of both VRPs before a step."""
         return np.asarray(0.5 * (self.vrp_before(step, "left") + self.vrp_before(step, "right")))
 
     def knots(self, time: float, last: int) -> tuple[list[float], list[NDArray[np.float64]]]:
-        """Times in s and VRPs (2,) in m after a time, up to the stance before a step; and those of the final standing.
+        """Times in s and VRPs (2,) in m after a time, up to a step's stance; and the final standing's.
 
         Args:
-            time: Time in s.
-            last: Index of that step.
+            time: In s.
+            last: That step's index.
 
         Returns:
-            Both sequences of knots.
+            Both knot sequences.
         """
         times: list[float] = []
         points: list[NDArray[np.float64]] = []
@@ -148,15 +148,15 @@ class PlanView:
 
 
 class WalkPlan:
-    """Footsteps, timing and VRPs of a walk.
+    """A walk's footsteps, timing and VRPs.
 
     Args:
-        feet: Poses of the feet at the start.
-        steps: The footsteps in order.
-        timing: The durations.
-        vrp_in_sole: VRP (2,) in each sole's frame in m, usually the sole's centroid.
-        omega: Pendulum frequency in rad/s.
-        begin: Time in s at which the first double support begins; before it the robot stands.
+        feet: Initial feet.
+        steps: In order.
+        timing: Durations.
+        vrp_in_sole: (2,) in each sole's frame in m, usually its centroid.
+        omega: Pendulum's in rad/s.
+        begin: First double support's start in s, after standing.
     """
 
     def __init__(
@@ -207,7 +207,7 @@ class WalkPlan:
         return tuple(self._record)
 
     def at(self, time: float) -> LipReference:
-        """The plan at a time in s (see `VrpPlan.at`)."""
+        """The plan at a time in s (`VrpPlan.at`)."""
         last, vrps, reference = self._asked
         if last != time or vrps is not self._vrps:  # a tick asks more than once, and seldom changes the plan in between
             reference = self._vrps.at(time)
@@ -215,7 +215,7 @@ class WalkPlan:
         return reference
 
     def dcm_after(self, phase: Phase) -> NDArray[np.float64]:
-        """Planned DCM (2,) in m at the end of one of its phases."""
+        """Planned DCM (2,) in m at a phase's end."""
         end, vrps, dcm = self._next
         if end != phase.end or vrps is not self._vrps:  # asked at each tick of the phase
             dcm = self._vrps.at(phase.end).dcm
@@ -228,16 +228,15 @@ class WalkPlan:
         return np.asarray(self._vrps.vrps[-1])
 
     def apply(self, change: PlanChange, time: float, region: NDArray[np.float64]) -> AppliedChange:
-        """Change the plan from now on; returns what it did, as recorded.
+        """Change the plan from now; returns the record.
 
         Args:
             change: The change.
             time: Now in s.
-            region: Convex polygon (k, 2) in the world in m, counter-clockwise, for the VRP in a bridge; empty does not
-                limit it.
+            region: Convex (k, 2), world, in m, counter-clockwise, for a bridge's VRP; empty for no limit.
 
         Raises:
-            InputError: If the change concerns a step that the plan does not have, or ends a phase before it begins.
+            InputError: Unknown step, disallowed phase end.
         """
         before = self._view
         if not before.first <= change.step < max(before.count, 1) and change.following is None:
@@ -286,7 +285,7 @@ class WalkPlan:
         region: NDArray[np.float64],
         shift: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], float]:
-        """Solve the bridged VRPs; the DCM (2,) in m left unbridged, and the extension of a double support in s."""
+        """Solve bridged VRPs; unbridged DCM (2,) in m, and a double support's extension in s."""
         step, phase, beat = change.step, self.schedule.at(time), self._body.beat
         anew = change.following is not None
         if change.longer is not None or anew:
@@ -332,7 +331,7 @@ class WalkPlan:
         late: float = 0.0,
         anew: bool = False,
     ) -> NDArray[np.float64]:
-        """Solve the VRPs with a bridge in a window of time; the DCM (2,) in m that stays unbridged."""
+        """Solve VRPs bridged in a time window; unbridged DCM (2,) in m."""
         n = self._view.count
         last = n if anew else min(self.schedule.at(time).step + _REBUILT, n)
         if last >= n - 1:
@@ -352,7 +351,7 @@ class WalkPlan:
         return gap
 
     def _forget(self, time: float) -> None:
-        """Drop what lies far behind, in a walk without an end."""
+        """Drop what lies far behind in an endless walk."""
         view = self._view
         first = max(view.first, min(view.schedule.at(time).step - _REMEMBERED, view.count))
         gone = view.steps[: first - view.first]
