@@ -1,5 +1,4 @@
-"""Whole-body skin tasks for any torque-, velocity- or position-controlled robot: a small companion of `plantar`.
+"""Whole-body skin tasks for torque-, velocity- or position-controlled robots: a companion of `plantar`.
 
-Independent of walking and of any simulator: a model library supplies `RobotDynamics`, a skin supplies `SkinReading`,
-and the result is joint torques.
+Independent of walking and simulators: a model gives `RobotDynamics`, a skin `SkinReading`; the result is joint torques.
 """

@@ -1,4 +1,4 @@
-"""A robot's tasks in order, and their torques."""
+"""A robot's ordered tasks, and their torques."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["Fusion", "TaskStack"]
 
 
 class Fusion(Protocol):
-    """Makes one torque of many demands, as `plantar.wholebody.fusion.hierarchy.fuse`."""
+    """Demands to one torque, as `plantar.wholebody.fusion.hierarchy.fuse`."""
 
     def __call__(
         self,
@@ -33,12 +33,12 @@ class TaskStack:
     """Tasks by priority.
 
     Args:
-        levels: Tasks of each level, the highest priority first. May be assigned at any time.
-        support: Task of the support, above all levels; None for a fixed base.
-        fusion: How demands are fused.
+        levels: Each level's tasks, highest priority first; assignable at any time.
+        support: Its task, above all levels; None for a fixed base.
+        fusion: Of demands.
 
     Attributes:
-        silent: Number of skipped tasks, those without a demand, so far.
+        silent: Skipped tasks, without a demand, so far.
     """
 
     def __init__(self, levels: Sequence[Sequence[Task]], support: Task | None = None, fusion: Fusion = fuse) -> None:
@@ -53,12 +53,12 @@ class TaskStack:
         """Ask every task, and fuse.
 
         Args:
-            robot: Kinematics and dynamics of this instant.
-            skin: The latest reading of the skin.
-            external: Known generalized force (n,); None for none.
+            robot: Its dynamics now.
+            skin: Latest reading.
+            external: Known generalized (n,); None for none.
 
         Returns:
-            Torques, acceleration and support force.
+            Torques, acceleration, support force.
         """
         demands = [[task.demand(robot, skin) for task in level] for level in self.levels]
         self.silent += sum(demand is None for level in demands for demand in level)

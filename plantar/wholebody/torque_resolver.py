@@ -1,6 +1,6 @@
-"""A virtual admittance for robots that take velocities or positions (A 26, T 3.2.3).
+"""Virtual admittance for robots taking velocities or positions (A 26, T 3.2.3).
 
-The torques of a stack drive a virtual robot, M_v q'' + D_v q' = tau - bias, whose motion is the servos' set-points.
+The stack's torques drive M_v q'' + D_v q' = tau - bias, whose motion is the servos' set-points.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ __all__ = ["ResolverSettings", "SetPoint", "TorqueResolver"]
 
 
 class ResolverSettings(Settings):
-    """The virtual robot, and its coupling to the real one.
+    """The virtual robot's coupling to the real one.
 
     Attributes:
-        damping: D_v as a rate in 1/s: D_v = damping M_v.
-        velocity_pull: Rate in 1/s at which the virtual velocity is drawn to the measured one (the inner loop of A 3.4).
-        largest_lag: Largest difference in rad or m between the position set-point and the measured position.
-        largest_acceleration: Limit in rad/s^2 or m/s^2 of every joint.
+        damping: Rate in 1/s: D_v = damping M_v.
+        velocity_pull: Rate in 1/s of virtual towards measured velocity (inner loop of A 3.4).
+        largest_lag: Set-point's largest difference from the measured position in rad or m.
+        largest_acceleration: Every joint's, in rad/s^2 or m/s^2.
     """
 
     damping: float = number(2.0, "1/s", 0.0, 1e3)
@@ -41,15 +41,15 @@ class SetPoint(NamedTuple):
 
 
 class TorqueResolver:
-    """The virtual robot, limited so that the servos can follow.
+    """Virtual robot, limited so that servos can follow.
 
     Args:
-        velocity_limits: Largest speed (k,) of each joint in rad/s or m/s.
+        velocity_limits: Each joint's (k,) in rad/s or m/s.
         settings: Damping, pull and limits.
-        mass: M_v (k, k) in kg m^2 or kg; the robot's own current mass matrix if None.
+        mass: M_v (k, k) in kg m^2 or kg; None for the robot's current.
 
     Raises:
-        InputError: If a limit is not above 0, or the mass is not positive definite.
+        InputError: Disallowed limit or mass.
     """
 
     def __init__(
@@ -68,13 +68,12 @@ class TorqueResolver:
         self._state: SetPoint | None = None
 
     def step(self, robot: RobotDynamics, torque: NDArray[np.float64], period: float) -> SetPoint:
-        """Set-points after the torques have moved the virtual robot for one control period, at first from the real
-        state.
+        """Set-points after a control period of the torques, at first from the real state.
 
         Args:
-            robot: The measured robot, whose bias is subtracted and whose motion draws the virtual one.
-            torque: Torques (k,) of a stack in N m or N, bias included.
-            period: Control period in s.
+            robot: As measured; its bias is subtracted, its motion draws the virtual one.
+            torque: Stack's (k,) in N m or N, with bias.
+            period: Of control in s.
 
         Returns:
             The set-points.

@@ -1,1 +1,1 @@
-"""What changes the plan: footholds found or refused, the shape of the ground, pushes and commands."""
+"""Plan changes by footholds, ground shape, pushes and commands."""

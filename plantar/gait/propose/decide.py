@@ -1,4 +1,4 @@
-"""Decide which change of the plan is applied: one a tick, of the first `Priority`; among equals, of the first asked."""
+"""Decide which plan change is applied."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def decide(proposers: Sequence[Proposer], tick: Tick) -> PlanChange | None:
 
     Args:
         proposers: Proposers in order.
-        tick: What they receive.
+        tick: Their input.
 
     Returns:
         The change.

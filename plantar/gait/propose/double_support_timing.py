@@ -1,6 +1,4 @@
-"""End a double support sooner or later, where no VRP of the support polygon brings the DCM to its goal (K 4.3,
-`dsp_opt`).
-"""
+"""End double support sooner or later if no VRP brings the DCM to its goal (K 4.3, `dsp_opt`)."""
 
 from __future__ import annotations
 
@@ -28,12 +26,12 @@ class DoubleSupportTimingRules(
     table="double_support_timing",
     needs={"control.step_adjustment": (True,), "step_adjustment.double_support": (True,)},
 ):
-    """When a double support ends sooner or later than planned.
+    """When a double support's end moves.
 
     Attributes:
-        least_error: Distance in m by which the DCM is off the plan, below which the timing stays.
-        least_left: Time in s until its end from which it stays; none ends sooner.
-        pause: Time in s between two changes.
+        least_error: DCM error in m below which the timing stays.
+        least_left: Time in s before its end from which it stays; none ends sooner.
+        pause: Between two changes in s.
     """
 
     least_error: float = share(0.0867, "sole", 0, 0.2)
@@ -42,14 +40,14 @@ class DoubleSupportTimingRules(
 
 
 class DoubleSupportTiming:
-    """Proposes another end of the double support.
+    """Proposes another double support end.
 
     Args:
         rules: When.
-        weights: What a change is weighed by.
+        weights: Of a change.
         confidence: c of K 37.
-        period: Control period in s, the unit of a change.
-        ankle: Share of the support polygon that the VRP uses (K 27), with law "regulation"; else all of it.
+        period: Of control in s, the unit of a change.
+        ankle: VRP's share of the support polygon (K 27), with law "regulation"; else all of it.
     """
 
     priority = Priority.TIMING
@@ -70,7 +68,7 @@ class DoubleSupportTiming:
         self._changed = -math.inf
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """Another end of the double support, where that helps."""
+        """Another double support end, where that helps."""
         phase, pendulum, rules, plan = tick.phase, tick.pendulum, self._rules, tick.plan
         if pendulum is None or phase.kind != PhaseKind.DOUBLE_SUPPORT or not plan.first < phase.step < plan.count:
             return None
@@ -91,7 +89,7 @@ class DoubleSupportTiming:
         return PlanChange("double support adjusted", phase.step - 1, longer=change, resets=True)
 
     def _best(self, tick: Tick, pendulum: Pendulum) -> float | None:
-        """Best length of the double support in s; None where the VRP suffices."""
+        """Best double support in s; None if the VRP suffices."""
         phase, plan = tick.phase, tick.plan
         end, begun, length = plan.stance_vrp(phase.step), tick.time - phase.start, phase.end - phase.start
         wanted = double_support_vrp(pendulum.dcm, pendulum.goal, end, length, begun, pendulum.offset, pendulum.omega)

@@ -1,10 +1,10 @@
-"""DSP-Opt: how long a double support lasts, so that the DCM is where the next single support begins (K 34-38).
+"""DSP-Opt: double support's length for the DCM to reach the next single support's start (K 34-38).
 
-The DCM at its end T (K 34; x = T - T_c, u* the VRP now, p the pull of `ankle_strategy.double_support_pull`) is
+The DCM at its end T (K 34; x = T - T_c, u* the VRP now, p of `ankle_strategy.double_support_pull`) is
 
     xi(T) = u_e - u_w + e^(w x) (xi_c - u_e + u_w + (u_e - u*) p(x, T)).
 
-The cost need not be convex: it is sampled, and the zero of its exact derivative is bracketed.
+The cost need not be convex: it is sampled, and its derivative's zero bracketed.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ _TURNS = 100  # far more than any bracket takes, halved now and then, to come to
 class DspWeights(
     Part, table="dsp_weights", needs={"control.step_adjustment": (True,), "step_adjustment.double_support": (True,)}
 ):
-    """Weights of a change of the double support (K Table 1).
+    """Weights of a double support change (K Table 1).
 
     Attributes:
-        dynamics: w_d, of the DCM error at its end.
-        nominal: w_n, of the difference from the nominal duration, times the confidence.
-        smooth: w_s, of the difference from the tick before, times the rest of the confidence.
-        longer: w_+, factor on a longer duration.
-        shorter: w_-, factor on a shorter one.
-        least: gamma_min, shortest duration as a share of the nominal one.
-        most: gamma_max, longest duration as a share of the nominal one.
+        dynamics: w_d of the final DCM error.
+        nominal: w_n of the difference from nominal, times confidence.
+        smooth: w_s of the difference from the last tick, times 1 - confidence.
+        longer: Factor w_+ on longer durations.
+        shorter: Factor w_- on shorter ones.
+        least: gamma_min, share of the nominal duration.
+        most: gamma_max, share of the nominal duration.
     """
 
     dynamics: float = number(15.0, "1", 1e-3, 1e6)
@@ -54,19 +54,19 @@ class DspWeights(
 
 
 class DspProblem(NamedTuple):
-    """A double support now, in the world.
+    """A double support now, world frame.
 
     Attributes:
-        omega: Pendulum frequency in rad/s.
+        omega: Pendulum's in rad/s.
         dcm: xi_c (2,) in m.
-        goal: xi_d (2,) in m, where the next single support begins.
-        vrp: u* (2,) in m, the VRP now, cut to the support.
-        end: u_e (2,) in m, the middle of the foot that comes to carry.
-        offset: u_w (2,) in m by which a push is expected to move the VRP.
-        elapsed: T_c in s since the double support began.
-        target: T_d of the tick before in s.
-        nominal: Nominal T_d in s, above 0.
-        confidence: c: 1 keeps the nominal duration, 0 that of the tick before.
+        goal: xi_d (2,) in m at the next single support's start.
+        vrp: u* (2,) in m now, cut to the support.
+        end: u_e (2,) in m, middle of the next carrying foot.
+        offset: Push's u_w (2,) on the VRP in m.
+        elapsed: T_c since its start in s.
+        target: Last tick's T_d in s.
+        nominal: T_d in s, above 0.
+        confidence: c: 1 keeps the nominal duration, 0 the last tick's.
     """
 
     omega: float
@@ -86,9 +86,9 @@ class DspSolution(NamedTuple):
 
     Attributes:
         time: T_d in s.
-        missed: DCM error (2,) in m at its end.
-        at_bound: -1 at the shortest duration, 1 at the longest, else 0.
-        residual: Slope of the cost in an allowed direction, relative to its largest term.
+        missed: Final DCM error (2,) in m.
+        at_bound: -1 at the shortest, 1 at the longest, else 0.
+        residual: Cost slope in an allowed direction, relative to its largest term.
     """
 
     time: float
@@ -98,17 +98,17 @@ class DspSolution(NamedTuple):
 
 
 def solve_dsp(problem: DspProblem, weights: DspWeights) -> DspSolution:
-    """The best duration of a double support (K 37-38); one that has lasted as long as it may ends now.
+    """Best double support duration (K 37-38); past the longest it ends now.
 
     Args:
-        problem: The double support.
-        weights: What a change is weighed by.
+        problem: Double support.
+        weights: Of a change.
 
     Returns:
         The solution.
 
     Raises:
-        InputError: If a place is not two finite numbers, or frequency or nominal duration not above 0.
+        InputError: Misshaped place, disallowed number.
 
     Example:
         The DCM lags behind: the double support lasts longer.
@@ -151,7 +151,7 @@ def _solution(cost: _Cost, time: float, bound: int) -> DspSolution:
 
 
 def _zero(cost: _Cost, low: float, high: float, at_low: float, at_high: float) -> float:
-    """Zero of the slope between two ends of opposite sign (Chandrupatla, Advances in Engineering Software 28, 1997)."""
+    """Zero of the slope between ends of opposite sign (Chandrupatla, Advances in Engineering Software 28, 1997)."""
     a, b, fa, fb = low, high, at_low, at_high
     share = fa / (fa - fb)
     best = b
@@ -196,7 +196,7 @@ class _Cost:
         self._longer, self._shorter = weights.longer, weights.shorter
 
     def slope(self, time: float) -> tuple[float, float, tuple[float, float]]:
-        """Derivative of the cost by the duration, the size of its largest term, and the DCM that is missed."""
+        """Cost's derivative, its largest term's size, and the missed DCM."""
         w, (ax, ay), (bx, by) = self._omega, self._begun, self._ahead
         left = time - self._elapsed
         grown = math.exp(min(w * left, MOST_GROWTH))
@@ -234,7 +234,7 @@ class _Cost:
 
 
 def _pull_and_rate(omega: float, time: float, left: float) -> tuple[float, float]:
-    """Pull of a VRP over the rest of a double support, and its derivative by the duration."""
+    """A VRP's pull over the rest of a double support, and its derivative by duration."""
     rate = 0.5 * math.pi / time
     angle = rate * left
     turning = rate * (1.0 - left / time)  # of the angle, by the duration

@@ -1,4 +1,4 @@
-"""A foot that lands with a side over an edge: the steps to come move away from it, as dead reckoning drifts."""
+"""A foot lands over an edge: later steps move away from it."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _MOST_OVER = 0.5
 
 
 class EdgeBeside:
-    """Proposes footsteps that lie further on the ground that a foot was seen to land on.
+    """Proposes footsteps farther on the ground that a landed foot saw.
 
-    An edge along a side that cuts off a share f of a sole of width w moves the steps by f w / 2.
+    An edge cutting off a share f of a sole of width w moves steps by f w / 2.
 
     Args:
-        layouts: Sole layout of each side.
-        drop: Distance in m from the sole from which there is no ground.
-        largest: Largest distance in m by which one landing moves the steps.
+        layouts: Of each side.
+        drop: Distance in m from the sole of absent ground.
+        largest: Largest move in m by one landing.
     """
 
     priority = Priority.FOOTHOLD
@@ -43,7 +43,7 @@ class EdgeBeside:
         self._moved = (-1, 0.0)
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The steps to come, moved across, at touchdown."""
+        """Later steps, moved across, at touchdown."""
         if self._proposed is not None and (was_applied(self._proposed, tick) or self._begun(self._proposed.step, tick)):
             self._proposed = None
         if tick.feet.touchdown:
@@ -52,7 +52,7 @@ class EdgeBeside:
 
     @staticmethod
     def _begun(step: int, tick: Tick) -> bool:
-        """Whether the step after one is being taken already."""
+        """Whether the step after one has begun."""
         return tick.phase.step > step and tick.phase.kind == PhaseKind.SINGLE_SUPPORT
 
     def _off_the_edge(self, tick: Tick) -> PlanChange | None:
@@ -71,7 +71,7 @@ class EdgeBeside:
         return PlanChange("an edge beside", step, shift=(dx, dy), because="off the edge beside")
 
     def _across(self, side: Side, distance: NDArray[np.float64]) -> float:
-        """Distance in m to the sole's left of the middle of its ground; 0 without an edge along a side."""
+        """Middle of its ground in m to the sole's left; 0 without an edge along a side."""
         places = self._places[side]
         known = ~np.isnan(distance)
         over = known & (distance > self._drop)

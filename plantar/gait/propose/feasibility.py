@@ -1,11 +1,11 @@
-"""Is it safe to step on what the foot has met? (T 4.3.2, Fig. 44-46)
+"""Is stepping on what the foot met safe? (T 4.3.2, Fig. 44-46)
 
-The foot presses on unexpected ground with a part of the weight, and one of two rules decides:
+The foot presses on unexpected ground with part of the weight, and one of two rules decides:
 
     a) force_torque: a flat foot on flat ground makes no moment;   |eta_s| >= epsilon_t refuses the foothold
     b) skin: a foothold has to support most of the sole;           A_p / A_s <= epsilon_A refuses it
 
-A refused foothold moves sideways, back or forward until the sole clears the obstacle's box (Fig. 45).
+A refused foothold moves sideways, back or forward, clear of the obstacle's box (Fig. 45).
 """
 
 from __future__ import annotations
@@ -31,26 +31,26 @@ class FeasibilityRules(
     needs={"control.pfc": (True,), "control.feasibility": ("skin", "force_torque")},
     given_by={"rule": "control.feasibility"},
 ):
-    """Rules of step feasibility.
+    """Step feasibility.
 
     Attributes:
         rule: "skin" or "force_torque".
-        at: "probe" presses on the foothold before it decides; "impact" decides by what the touch shows (T Table 3).
-        area_ratio: epsilon_A: footholds that support no larger share of the sole are refused; above 1 all are.
-        surprise: Height in m above the expected ground from which ground is checked.
-        hold: Time in s by which the single support is extended for that.
-        probe_force: Force in N that the foot presses with.
-        reserve: Least time in s of single support after that.
-        active_force: Mean force in N of a taxel that carries, above its noise.
-        near: Distance in m of a taxel from the ground at touchdown that counts as supported.
-        clearance: Distance in m between sole and obstacle.
-        swing_time: Duration in s of the swing around it.
-        outward: Largest move of a foothold outwards in m.
+        at: "probe" presses before deciding; "impact" decides by the touch (T Table 3).
+        area_ratio: epsilon_A: footholds of no larger share are refused; above 1 all are.
+        surprise: Height in m above expected ground from which it is checked.
+        hold: Single support's extension in s for that.
+        probe_force: Pressing force in N.
+        reserve: Least single support after that in s.
+        active_force: Mean force in N of a carrying taxel, above noise.
+        near: Taxel's distance in m at touchdown that counts as supported.
+        clearance: Between sole and obstacle in m.
+        swing_time: Of the swing around it in s.
+        outward: Largest move in m.
         inward: Largest move inwards.
         forward: Largest move forward.
-        sideways_cost: Factor on the length of a move sideways, which loads the stance hip most.
+        sideways_cost: Length factor of sideways moves, which load the stance hip most.
         backward: Largest move backward.
-        attempts: How often one step is planned again before the robot stops.
+        attempts: Tries of a step before the robot stops.
     """
 
     rule: str = choice("skin", "force_torque")
@@ -85,8 +85,8 @@ class Foothold:
     Attributes:
         feasible: Whether the rule accepts it.
         area_ratio: A_p / A_s.
-        moment: Moment at the ankle in N m while it pressed; None without a sensor.
-        polygon_in_sole: Supporting polygon (k, 2) in the sole frame in m.
+        moment: At the ankle in N m while pressing; None without sensor.
+        polygon_in_sole: Support (k, 2), sole frame, in m.
     """
 
     feasible: bool
@@ -96,7 +96,7 @@ class Foothold:
 
 
 class FootholdProbe:
-    """Collects what a foot measures that presses on unexpected ground."""
+    """Measurements of a foot pressing on unexpected ground."""
 
     def __init__(self, layout: SoleLayout, rules: FeasibilityRules) -> None:
         self.layout = layout
@@ -107,7 +107,7 @@ class FootholdProbe:
         self._count = self._moments = 0
 
     def update_view(self, distance: NDArray[np.float64]) -> None:
-        """Store the distances (n,) in m of the taxels from the ground at touchdown; inf or NaN where they see none."""
+        """Store taxels' distances (n,) in m at touchdown; inf or NaN if unseen."""
         with np.errstate(invalid="ignore"):
             self._near = distance < self.rules.near
 
@@ -115,8 +115,8 @@ class FootholdProbe:
         """Add a reading.
 
         Args:
-            force: Forces (n,) of the taxels in N; NaN for a dead one.
-            moment: Moment (2,) at the ankle in N m, or None.
+            force: Taxels' (n,) in N; NaN if dead.
+            moment: At the ankle (2,) in N m, or None.
         """
         self._count += 1
         self._force += np.nan_to_num(force)
@@ -141,13 +141,13 @@ class FootholdProbe:
 def way_around(
     obstacle: NDArray[np.float64], outline: NDArray[np.float64], side: Side, rules: FeasibilityRules
 ) -> NDArray[np.float64] | None:
-    """Returns the easiest move (2,) in m of a foothold that clears an obstacle (T Fig. 45), None where none is allowed.
+    """Returns the easiest foothold move (2,) in m clear of an obstacle (T Fig. 45), or None.
 
     Args:
-        obstacle: Points (k, 2) of the obstacle in the sole frame in m.
-        outline: Outline (m, 2) of the sole in its frame in m.
+        obstacle: Points (k, 2), sole frame, in m.
+        outline: Sole's (m, 2), own frame, in m.
         side: Which foot.
-        rules: Largest moves of a foothold.
+        rules: Largest moves.
 
     Example:
         >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
@@ -179,13 +179,13 @@ def way_around(
 def room_ahead(
     obstacle: NDArray[np.float64], outline: NDArray[np.float64], ahead: ArrayLike, rules: FeasibilityRules
 ) -> float:
-    """Returns the move forward in m with which a later foothold of the same foot clears an obstacle; 0 if too far.
+    """Returns a later foothold's forward move in m clear of an obstacle; 0 if too far.
 
     Args:
-        obstacle: Points (k, 2) of the obstacle in the sole frame of the refused foothold, in m.
-        outline: Outline (m, 2) of the sole in its frame in m.
-        ahead: Place (2,) of the later foothold in the same frame in m.
-        rules: Clearance, and largest move forward.
+        obstacle: Points (k, 2), frame of the refused sole, in m.
+        outline: Sole's (m, 2), own frame, in m.
+        ahead: Later foothold (2,), same frame, in m.
+        rules: Clearance, and largest forward move.
 
     Example:
         >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])

@@ -1,4 +1,4 @@
-"""A foothold differs from the plan: the VRP moves over it, the steps to come onto its strip (T 4.4.2-4.4.3)."""
+"""A foothold off the plan: the VRP moves over it, later steps onto its strip (T 4.4.2-4.4.3)."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _BORNE = 0.75
 
 
 class FootholdCarries:
-    """Proposes the VRP over what a foot was found to stand on, and footsteps on the strip that the ground continues as.
+    """Proposes the VRP over a found foothold, and footsteps on the continuing strip.
 
     Args:
         rules: Least and largest moves.
-        middles: Point (2,) at which each whole sole is loaded, in its frame in m.
-        outlines: Outline (k, 2) of each sole in its frame in m.
-        strip: Where the ground continues.
-        reach: Distance in m from the sole frame's origin, along the sole, at which an ankle bears the robot.
+        middles: Loaded point (2,) of each whole sole, own frame, in m.
+        outlines: Each sole's (k, 2), own frame, in m.
+        strip: Continuing ground.
+        reach: Distance in m along the sole, from its origin, at which an ankle bears the robot.
     """
 
     priority = Priority.FOOTHOLD
@@ -62,7 +62,7 @@ class FootholdCarries:
         self._proposed: PlanChange | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The VRP over what was found last."""
+        """VRP over the last found."""
         if self._proposed is not None and was_applied(self._proposed, tick):
             self._waiting = None
         for found in tick.found:
@@ -76,7 +76,7 @@ class FootholdCarries:
         return self._proposed
 
     def _is_news(self, found: FootholdFound, tick: Tick) -> bool:
-        """Add a foothold to the strip; whether it may move the plan now."""
+        """Add a foothold to the strip; whether it can move the plan now."""
         if found.whole:
             self._strip.clear()
         elif not found.seen or self._is_narrow(found, tick):
@@ -85,7 +85,7 @@ class FootholdCarries:
         return rested and not found.as_planned
 
     def _is_narrow(self, found: FootholdFound, tick: Tick) -> bool:
-        """Whether a foothold may be a part of a strip along the walk."""
+        """Whether a foothold can belong to a strip along the walk."""
         turn = level_rotation(tick.plan.foothold(max(found.step, tick.plan.first)).yaw)[:2, :2]
         sole = self._outlines[found.side] @ turn.T @ self._strip.across
         ground = found.polygon @ self._strip.across
@@ -109,7 +109,7 @@ class FootholdCarries:
         )
 
     def _moved_steps(self, found: FootholdFound, tick: Tick) -> tuple[Point, Point]:
-        """Moves in m of the footsteps to come, limited for one foothold, and of the VRPs over them."""
+        """Moves in m of later footsteps, limited for one foothold, and of their VRPs."""
         upcoming, phase = found.step + 1, tick.phase
         begun = phase.step == upcoming and phase.kind == PhaseKind.SINGLE_SUPPORT
         if begun or upcoming >= tick.plan.count:
@@ -120,7 +120,7 @@ class FootholdCarries:
         return self._onto_strip(upcoming, tick)
 
     def _into_reach(self, found: FootholdFound, tick: Tick) -> Point:
-        """Move of footsteps along the sole that brings the ankle over their ground."""
+        """Footsteps' move along the sole to bring the ankle over their ground."""
         foot = tick.plan.foothold(found.step)
         forward = foot.rotation_sole_to_world[:2, 0]
         near = abs(float((found.vrp - foot.position[:2]) @ forward)) <= _NEAR * self._reach
@@ -132,7 +132,7 @@ class FootholdCarries:
         return x, y
 
     def _onto_strip(self, upcoming: int, tick: Tick) -> tuple[Point, Point]:
-        """Moves in m onto the strip, of the footsteps to come and of the VRPs over them."""
+        """Moves in m onto the strip, of later footsteps and their VRPs."""
         strip = self._strip
         foot = tick.plan.foothold(upcoming)
         center = vrp_of_step(foot, self._middles[foot.side])

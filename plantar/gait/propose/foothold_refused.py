@@ -1,4 +1,4 @@
-"""Keeps a walk off bad footholds, before weight is transferred (T 4.3.2).
+"""Keeps walks off bad footholds, before weight transfer (T 4.3.2).
 
 walking --(ground higher than expected)--> doubting: the single support is extended, the foot lands softly doubting
 --(touchdown)--> probing: the foot presses, the rule decides probing --(feasible)--> walking on over it probing
@@ -40,12 +40,12 @@ class _State(Enum):
 
 @dataclass(frozen=True)
 class CheckedStep:
-    """A foothold that was checked.
+    """A checked foothold.
 
     Attributes:
-        step: Index of the step.
+        step: Its index.
         foothold: What was found.
-        shift: Its move (2,) along the planned foot's axes in m; None where it stayed or had no way around.
+        shift: Its move (2,) along the planned foot's axes in m; None if it stayed or had no way.
     """
 
     step: int
@@ -54,13 +54,13 @@ class CheckedStep:
 
 
 class StepGuard:
-    """Checks the footholds of a walk.
+    """Checks a walk's footholds.
 
     Attributes:
-        checked: The checked footholds, in order.
-        stopped: Whether it ended the walk because there was no way on.
-        press: Force in N that a probing foot should press with; None while none probes.
-        rules: The rules.
+        checked: Footholds in order.
+        stopped: Whether it ended the walk without a way on.
+        press: Force in N of a probing foot; None without.
+        rules: Its rules.
     """
 
     priority = Priority.SAFETY
@@ -84,7 +84,7 @@ class StepGuard:
         self._reading_time = -1.0
 
     def summary(self) -> dict[str, object]:
-        """What was checked, for a run's summary."""
+        """Checks, for a run's summary."""
         checks = [
             {
                 "step": c.step,
@@ -103,7 +103,7 @@ class StepGuard:
         return self._state is _State.PROBING
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """A longer single support for a foothold that is doubted, another place for one that is refused.
+        """A longer single support for a doubted foothold, another place for a refused one.
 
         Its changes, of `Priority.SAFETY`, are always applied.
         """
@@ -129,7 +129,7 @@ class StepGuard:
         return self._judge(phase, side, tick)
 
     def _begin(self, phase: Phase, side: Side, tick: Tick) -> None:
-        """A step begins, next to which the foot can come back."""
+        """A step begins; its start is where the foot can return."""
         self._step, self._tries, self._state = phase.step, 0, _State.WALKING
         origin, stance = tick.place(side), tick.place(other_side(side))
         ahead = origin.rotation_sole_to_world[:2, 0]
@@ -138,7 +138,7 @@ class StepGuard:
         self._refuge = replace(origin, x=origin.x + dx, y=origin.y + dy)
 
     def _touch(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
-        """The foot touches: it presses, and the stance foot carries for long enough."""
+        """Touchdown: the foot presses, and the stance foot carries long enough."""
         rules = self.rules
         self._state = _State.PROBING
         self._began, self._since, self._reading_time = tick.time, math.inf, -1.0
@@ -202,7 +202,7 @@ class StepGuard:
     def _shift_of_later(
         self, step: Footstep, shift: NDArray[np.float64], found: Foothold, side: Side, tick: Tick
     ) -> Point:
-        """Move in m of the steps to come."""
+        """Later steps' move in m."""
         longer, following = float(shift[0]), tick.phase.step + 2
         if following < tick.plan.count:
             ahead = tick.plan.foothold(following).position - step.position
@@ -213,7 +213,7 @@ class StepGuard:
 
     @staticmethod
     def _wait(duration: float, phase: Phase, tick: Tick) -> tuple[float, float]:
-        """Extension in s of a single support for a swing, and the time that the foot is down by then."""
+        """Single support's extension in s for a swing, and the time that the foot is down by then."""
         missing = tick.time + duration - phase.end
         return max(0.0, missing), max(0.0, -missing)
 

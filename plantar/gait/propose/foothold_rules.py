@@ -1,4 +1,4 @@
-"""Limits of the plan's moves by unexpected footholds."""
+"""Limits of plan moves by unexpected footholds."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ __all__ = ["FootholdRules"]
 
 
 class FootholdRules(Part, table="foothold", needs={"control.footholds": ("force", "skin")}):
-    """When a foothold that is not what was planned moves the plan, and how far.
+    """When unexpected footholds move the plan, and how far.
 
     Attributes:
-        largest_shift: Distance in m by which one foothold moves the footsteps to come.
-        replan_pause: Time in s between two moves of the plan by one foothold.
+        largest_shift: Footsteps' move in m by one foothold.
+        replan_pause: Between two such moves in s.
     """
 
     # Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved

@@ -1,4 +1,4 @@
-"""Plan with a foothold that is seen before the foot is on it, while the stance foot has most room."""
+"""Plan with a foothold seen before touchdown, when the stance foot has most room."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ __all__ = ["FootholdSeenAhead"]
 
 
 class FootholdSeenAhead:
-    """Proposes the VRP over the foothold that a swing foot is coming down on.
+    """Proposes the VRP over a descending foot's foothold.
 
     Args:
-        rules: How far a foothold has to lie off the plan.
+        rules: Least distance off the plan.
     """
 
     priority = Priority.FOOTHOLD
@@ -24,7 +24,7 @@ class FootholdSeenAhead:
         self._rules = rules
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The VRP over what is seen, where that is not what was planned."""
+        """VRP over what is seen, if not as planned."""
         seen = tick.seen
         if seen is None or math.dist(seen.vrp, tick.plan.vrp(seen.step)) < self._rules.least_move:
             return None

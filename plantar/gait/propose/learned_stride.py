@@ -1,4 +1,4 @@
-"""Strides that learn from pushes (beyond K 6.1): a partner's repeated pushes lengthen the planned strides.
+"""Learned strides (beyond K 6.1): a partner's repeated pushes lengthen planned strides.
 
 Each pushed step changes two factors, along and across the walk, by a share of its excess.
 """
@@ -27,8 +27,8 @@ class LearnedStrideRules(
     """How fast strides learn.
 
     Attributes:
-        rate: Share of a step's excess over its stride that the next ones take over.
-        largest: Largest factor on strides.
+        rate: Share of a step's excess that later ones take over.
+        largest: Largest factor.
     """
 
     rate: float = number(0.3, "1", 0, 1)
@@ -39,7 +39,7 @@ class LearnedStrideRules(
 
 
 class LearnedStride:
-    """Proposes the footsteps to come with the strides that were learned.
+    """Proposes footsteps with learned strides.
 
     Args:
         rules: How fast.
@@ -57,11 +57,11 @@ class LearnedStride:
 
     @property
     def factor(self) -> NDArray[np.float64]:
-        """Factors (2,) on strides along and across the walk."""
+        """On strides along and across the walk (2,)."""
         return self._factor.copy()
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """The footsteps from the next one on, where the factors have changed."""
+        """Footsteps from the next on, if factors changed."""
         plan, swings = tick.plan, tick.phase.swing is not None
         if self._strides is None:
             self._strides = _strides(plan)
@@ -90,7 +90,7 @@ class LearnedStride:
                 self._factor[axis] = min(self._rules.largest, max(1.0, self._factor[axis] + more))
 
     def _following(self, plan: PlanView) -> tuple[Footstep, ...]:
-        """Later footsteps with the learned strides; none where they are unchanged."""
+        """Later footsteps with learned strides; none if unchanged."""
         assert self._strides is not None
         later = [k for k in range(self._step + 1, plan.count) if k in self._strides]
         change = self._factor - self._planned_with
@@ -109,7 +109,7 @@ class LearnedStride:
 
 
 def _strides(plan: PlanView) -> dict[int, NDArray[np.float64]]:
-    """The way (2,) in m from a foot's foothold to its next one, of each step that has one before it."""
+    """Way (2,) in m from a foot's foothold to its next, of each step with one before."""
     last: dict[Side, NDArray[np.float64]] = {}
     found: dict[int, NDArray[np.float64]] = {}
     for k in range(plan.first, plan.count):

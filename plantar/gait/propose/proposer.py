@@ -1,7 +1,6 @@
-"""Proposers of plan changes: what they receive, what they return, and whose change comes first.
+"""Proposers of plan changes: input, result and priority.
 
-At each tick a proposer receives a frozen `Tick` and returns a `PlanChange` or None; `Tick.plan.last` is the applied
-one.
+Each tick a proposer receives a frozen `Tick` and returns a `PlanChange` or None; `Tick.plan.last` is the applied one.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ __all__ = ["Pendulum", "Priority", "Proposer", "Tick", "nearest_place", "was_app
 
 
 class Priority(IntEnum):
-    """Whose change is applied where several propose one, the first one first."""
+    """Rank of proposed changes, the first applied."""
 
     SAFETY = 0
     """A foothold that is not trusted: nothing may put weight on it."""
@@ -46,16 +45,16 @@ class Priority(IntEnum):
 
 
 class Pendulum(Record, frozen=True):
-    """The pendulum at one tick.
+    """The pendulum at a tick.
 
     Attributes:
         omega: Frequency in rad/s.
-        dcm: Estimated DCM (2,) in m.
+        dcm: Estimate (2,) in m.
         reference: The plan now.
-        goal: Planned DCM (2,) in m at the end of the phase.
-        zmp_region: Convex polygon (k, 2) in the world in m in which the ZMP may lie, counter-clockwise.
-        offset: u_w (2,) in m by which a push is expected to move the VRP off the ZMP until the phase ends (K 18).
-        pushed: Distance (2,) in m by which recent pushes would have moved an unbalanced DCM.
+        goal: Planned DCM (2,) in m at the phase's end.
+        zmp_region: Allowed ZMP: convex (k, 2), world, in m, counter-clockwise.
+        offset: Push's u_w (2,) in m of the VRP off the ZMP until the phase ends (K 18).
+        pushed: Distance (2,) in m that recent pushes would move an unbalanced DCM.
     """
 
     omega: float
@@ -67,12 +66,11 @@ class Pendulum(Record, frozen=True):
     pushed: NDArray[np.float64] = read_only(np.zeros(2))
 
     def beyond_zmp(self, left: float) -> tuple[float, tuple[float, float], tuple[float, float]]:
-        """What keeps the DCM from its goal after `left` seconds T, for the best ZMP in the region (K 25-27), in plain
-        numbers.
+        """DCM's miss of its goal after `left` seconds T, for the best ZMP (K 25-27), in plain numbers.
 
         Returns:
-            e^(w T) - 1; the ZMP (x, y) in m that would bring the DCM to its goal; the nearest one of `zmp_region`,
-            which is not empty. The DCM misses its goal by the first times the distance between these two.
+            e^(w T) - 1; ZMP (x, y) in m that reaches the goal; the nearest of `zmp_region`, not empty. The miss is the
+            first times the distance of these two.
         """
         growth = math.expm1(self.omega * left)
         (x, y), (gx, gy), (wx, wy) = self.dcm.tolist(), self.goal.tolist(), self.offset.tolist()
@@ -81,22 +79,22 @@ class Pendulum(Record, frozen=True):
 
 
 class Tick(Record, frozen=True):
-    """What proposers receive at one tick.
+    """Input of proposers at a tick.
 
     Attributes:
-        time: Time in s.
-        phase: Phase of the walk.
-        plan: The current plan.
-        feet: Commanded feet.
-        frame: The frame that they are commanded in.
-        readings: Reading of each sole.
-        loads: Vertical force on each foot in N.
-        moments: Moment (2,) at each ankle in N m, where there are force-torque sensors.
-        found: What feet have been found to stand on at this tick.
-        seen: What the swing foot has been seen to stand on soon.
-        inward: Distance in m along its y axis by which a foot that touches down now should carry further inside.
-        pendulum: The pendulum, where balance is fed back.
-        firm: Whether the ground has lately carried every sole as a whole, so that a foot may be put down anywhere.
+        time: In s.
+        phase: The walk's.
+        plan: Current.
+        feet: Commanded.
+        frame: Command frame.
+        readings: Of each sole.
+        loads: Vertical on each foot in N.
+        moments: (2,) at each ankle in N m, with force-torque sensors.
+        found: Footholds found now.
+        seen: Swing foot's coming foothold.
+        inward: Distance in m along its y axis that a landing foot should carry farther inside.
+        pendulum: With balance fed back.
+        firm: Whether ground has lately carried whole soles, so that feet can go anywhere.
     """
 
     time: float
@@ -114,17 +112,17 @@ class Tick(Record, frozen=True):
     firm: bool = True
 
     def place(self, side: Side) -> Footstep:
-        """Where a foot is commanded, as a level place in the world without its height."""
+        """A commanded foot as a level place in the world without height."""
         position, yaw = self.feet.footholds[side]
         x, y, _ = self.frame.to_world(position).tolist()
         return Footstep(side, x, y, yaw + self.frame.turn)
 
 
 class Proposer(Protocol):
-    """Proposes changes of the plan.
+    """Proposes plan changes.
 
     Attributes:
-        priority: Its rank among proposers.
+        priority: Rank among proposers.
     """
 
     priority: Priority
@@ -135,12 +133,12 @@ class Proposer(Protocol):
 
 
 def nearest_place(region: NDArray[np.float64], x: float, y: float) -> tuple[float, float]:
-    """Returns the place of a region that is nearest to a wanted one, in plain numbers.
+    """Returns a region's nearest place to a wanted one, in plain numbers.
 
     Args:
         region: Convex polygon (k, 2) in m, not empty.
-        x: Wanted place in m.
-        y: The same.
+        x: Wanted in m.
+        y: Wanted in m.
 
     Example:
         >>> nearest_place(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), 2.0, 0.5)
@@ -151,5 +149,5 @@ def nearest_place(region: NDArray[np.float64], x: float, y: float) -> tuple[floa
 
 
 def was_applied(change: PlanChange, tick: Tick) -> bool:
-    """Returns whether a change, proposed at the tick before `tick`, was applied."""
+    """Returns whether a change proposed the tick before `tick` was applied."""
     return tick.plan.last is not None and tick.plan.last.change is change

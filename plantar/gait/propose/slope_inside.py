@@ -1,4 +1,4 @@
-"""On a slope that rises outwards more than the ankle can follow, stand further inside."""
+"""On slopes rising outwards beyond the ankle, stand farther inside."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ __all__ = ["SlopeInside", "SlopeRules", "inward_distance"]
 
 
 def inward_distance(side: Side, outward_rise: float, ankle_reach: float, com_height: float) -> float:
-    """Returns how far in m along the sole's y axis a foot on a slope should carry nearer to the robot's middle.
+    """Returns how far in m along its y axis a foot on a slope should carry inwards.
 
     Args:
         side: Which foot.
-        outward_rise: Slope in rad across its stand, positive where its outer edge is higher.
-        ankle_reach: Slope in rad that the ankle can follow.
-        com_height: Height of the CoM above the foot in m.
+        outward_rise: Slope in rad across it, positive with the outer edge higher.
+        ankle_reach: Slope in rad that the ankle follows.
+        com_height: CoM over the foot in m.
 
     Example:
         >>> round(inward_distance("left", 0.145, 0.095, 0.8), 3)
@@ -29,18 +29,18 @@ def inward_distance(side: Side, outward_rise: float, ankle_reach: float, com_hei
 
 
 class SlopeRules(Part, table="slope", needs={"control.pfc": (True,)}):
-    """What slope across a foot an ankle can follow.
+    """Slopes that an ankle can follow.
 
     Attributes:
-        ankle_reach: Slope across the foot, rising outwards, in rad that an ankle can follow on one leg; on a steeper
-            one the body stays further inside.
+        ankle_reach: Slope across the foot, rising outwards, in rad that an ankle follows on one leg; on a steeper one
+            the body stays inside.
     """
 
     ankle_reach: float = number(0.095, "rad", 0, 0.7)
 
 
 class SlopeInside:
-    """Proposes the VRP over a foot that has just touched down on such a slope."""
+    """Proposes the VRP over a foot just landed on such a slope."""
 
     priority = Priority.FOOTHOLD
 

@@ -1,12 +1,12 @@
-"""SSP-Opt: where and when the swing foot lands, so that the DCM is where the next phase begins (K 28-33).
+"""SSP-Opt: swing foot's place and time for the DCM to reach the next phase's start (K 28-33).
 
-With tau = e^(w t) the DCM at touchdown and the wanted one are both linear (K 28, K 23-24), so footstep and time are a
-convex quadratic program of three numbers: the footstep in a convex polygon, tau between bounds.
+With tau = e^(w t) the DCM at touchdown and the wanted one are linear (K 28, K 23-24): a convex quadratic program of
+three numbers, the footstep in a convex polygon, tau in bounds.
 
     w_d |xi_s(u_e) - xi(tau)|^2 + c w_n (w_u |u_e - u_n|^2 + w_tau (tau - tau_n)^2) + (1 - c) w_s (same, u_s, tau_s)
 
-In closed form: the footstep is the closest point of the polygon in the metric of the cost reduced by the best tau, or
-by the bound that tau passes. tau is a share of its upper bound, and w t cut at `ankle_strategy.MOST_GROWTH`.
+In closed form: the polygon's closest point in the metric of the cost reduced by the best tau, or the bound that it
+passes. tau is a share of its upper bound, w t cut at `ankle_strategy.MOST_GROWTH`.
 """
 
 from __future__ import annotations
@@ -40,14 +40,14 @@ __all__ = [
 class StepWeights(
     Part, table="step_weights", needs={"control.step_adjustment": (True,), "step_adjustment.method": ("ssp_opt",)}
 ):
-    """Weights of a change of a footstep (K Table 1).
+    """Weights of a footstep change (K Table 1).
 
     Attributes:
-        dynamics: w_d, of the DCM error at touchdown.
-        nominal: w_n, of the difference from the nominal footstep, times the confidence.
-        smooth: w_s, of the difference from the tick before, times the rest of the confidence.
+        dynamics: w_d of the DCM error at touchdown.
+        nominal: w_n of the difference from nominal, times confidence.
+        smooth: w_s of the difference from the last tick, times 1 - confidence.
         location: Factor on w_u = 1 / (s_max - s_min) of the region.
-        time: Factor on w_tau = 1 / (tau_max - tau_min) of the time's bounds.
+        time: Factor on w_tau = 1 / (tau_max - tau_min).
     """
 
     dynamics: float = number(15.0, "1", 1e-3, 1e6)
@@ -58,15 +58,15 @@ class StepWeights(
 
 
 class StepRegionRules(Part, table="step_region", needs={"control.step_adjustment": (True,)}):
-    """Where the swing foot may land next to the stance foot (K 32).
+    """Where the swing foot can land beside the stance foot (K 32).
 
     The paper's 0.2 m forward and 0.12 m outwards for a leg of 0.6 m cannot lengthen steps of 0.2 m.
 
     Attributes:
         forward: Farthest forward in m.
         backward: Farthest backward in m.
-        clearance: Least gap in m between the soles' inner edges, side by side.
-        outside: Largest distance between the soles' middle lines in m.
+        clearance: Least gap in m between inner sole edges, side by side.
+        outside: Largest distance in m between sole middle lines.
     """
 
     forward: float = share(0.417, "leg", 0, 1)
@@ -82,14 +82,14 @@ def footstep_region(
     touching: float,
     half_planes: tuple[tuple[float, float, float], ...] = (),
 ) -> NDArray[np.float64]:
-    """Returns where the swing foot may land (K 32): convex polygon (k, 2) in the world in m, or an empty one.
+    """Returns the landing region (K 32): convex polygon (k, 2), world, in m, or empty.
 
     Args:
-        rules: The box next to the stance foot.
+        rules: Box beside the stance foot.
         swing: Which foot swings.
-        stance: Place and heading (x, y, yaw) of the stance foot in the world in m, m, rad.
-        touching: Distance in m between the sole frames at which the soles' inner edges touch.
-        half_planes: Lines (nx, ny, h) in the world: what has n . u > h is cut off.
+        stance: (x, y, yaw), world frame, in m, m, rad.
+        touching: Distance in m between sole origins with touching inner edges.
+        half_planes: Lines (nx, ny, h), world frame: n . u > h is cut off.
 
     Example:
         >>> rules = StepRegionRules(forward=0.2, backward=0.2, clearance=0.01, outside=0.27)
@@ -110,8 +110,7 @@ def footstep_region(
 
 
 def touching_distance(outlines: Mapping[Side, NDArray[np.float64]]) -> float:
-    """Distance in m between the sole frames of feet side by side, whose inner edges touch, by their `outlines` (k, 2)
-    in m.
+    """Distance in m between sole origins with touching inner edges, by `outlines` (k, 2) in m.
 
     Example:
         >>> square = np.array([(-0.1, -0.05), (0.1, -0.05), (0.1, 0.06), (-0.1, 0.06)])
@@ -122,24 +121,24 @@ def touching_distance(outlines: Mapping[Side, NDArray[np.float64]]) -> float:
 
 
 class SspProblem(NamedTuple):
-    """A single support now, in the world.
+    """A single support now, world frame.
 
     Attributes:
-        omega: Pendulum frequency in rad/s.
+        omega: Pendulum's in rad/s.
         dcm: xi_c (2,) in m.
         vrp: u* (2,) in m until touchdown, cut to the support.
-        offset: u_w (2,) in m by which a push is expected to move the VRP.
-        stance: u_i (2,) in m, the middle of the stance foot.
-        elapsed: T_c in s since the single support began.
-        target: Footstep and T_s in s of the tick before: (x, y, time).
-        nominal: The nominal ones: (x, y, time).
-        region: Convex polygon (k, 2) in m of the footstep, counter-clockwise (`footstep_region`).
+        offset: Push's u_w (2,) on the VRP in m.
+        stance: u_i (2,) in m, stance foot's middle.
+        elapsed: T_c since its start in s.
+        target: Last tick's footstep and T_s in s: (x, y, time).
+        nominal: The same, nominal.
+        region: Footstep's convex (k, 2) in m, counter-clockwise (`footstep_region`).
         shortest: Least T_s in s.
         longest: Largest T_s in s.
-        next_stride: s_n (2,) in m to the footstep after it.
-        next_duration: T_n in s of the single support after it.
+        next_stride: s_n (2,) in m to the next footstep.
+        next_duration: T_n of the next single support in s.
         double_support: T_d in s, 0 or more.
-        confidence: c: 1 keeps the nominal footstep, 0 that of the tick before.
+        confidence: c: 1 keeps the nominal footstep, 0 the last tick's.
     """
 
     omega: float
@@ -165,10 +164,10 @@ class SspSolution(NamedTuple):
     Attributes:
         place: u_e (2,) in m.
         time: T_s in s.
-        missed: DCM error (2,) in m where the next phase begins: xi(T_s) - xi_s.
-        at_edge: Whether the footstep lies on the edge of its region.
+        missed: DCM error (2,) in m at the next phase's start: xi(T_s) - xi_s.
+        at_edge: Whether on its region's edge.
         at_bound: -1 at the shortest time, 1 at the longest, else 0.
-        residual: Largest violation of the KKT conditions, relative to the largest term of the gradient.
+        residual: Largest KKT violation, relative to the gradient's largest term.
     """
 
     place: NDArray[np.float64]
@@ -180,7 +179,7 @@ class SspSolution(NamedTuple):
 
 
 class _Program(NamedTuple):
-    """The cost in (u_x, u_y, s), s = tau / tau_max: a sum of weights on squares."""
+    """Cost in (u_x, u_y, s), s = tau / tau_max: weighted squares."""
 
     dynamics: float
     slope: float
@@ -193,7 +192,7 @@ class _Program(NamedTuple):
     low: float
 
     def reduced(self, ux: float, uy: float) -> float:
-        """The best s of a footstep, without bounds."""
+        """A footstep's best s, unbounded."""
         (fx, fy), (gx, gy) = self.fixed, self.grown
         lead = gx * (self.slope * ux + fx) + gy * (self.slope * uy + fy)
         return (self.dynamics * lead + self.time_weight * self.time) / (
@@ -201,7 +200,7 @@ class _Program(NamedTuple):
         )
 
     def gradient(self, ux: float, uy: float, s: float) -> tuple[float, float, float, float, float]:
-        """The cost's gradient, and the size of its largest term for a place and for s."""
+        """Cost's gradient, and its largest term for place and s."""
         (fx, fy), (gx, gy), (wx, wy), (px, py) = self.fixed, self.grown, self.place_weights, self.places
         rx, ry = self.slope * ux + fx - gx * s, self.slope * uy + fy - gy * s
         pull = self.dynamics * self.slope
@@ -217,18 +216,17 @@ class _Program(NamedTuple):
 
 
 def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
-    """The best footstep and time (K 31-33); None where the region is empty.
+    """Best footstep and time (K 31-33); None for an empty region.
 
     Args:
-        problem: The single support.
-        weights: What a change is weighed by.
+        problem: Single support.
+        weights: Of a change.
 
     Returns:
         The solution.
 
     Raises:
-        InputError: If a place is not two finite numbers, the region not (k, 2), the frequency not above 0, or the
-            shortest time longer than the longest.
+        InputError: Misshaped place or region, disallowed number, shortest above longest.
 
     Example:
         A robot that steps in place is pushed to the left; the left foot lands farther out, and sooner.
@@ -272,7 +270,7 @@ def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
 
 
 def _program(problem: SspProblem, weights: StepWeights, region: list[list[float]], high: float) -> _Program:
-    """The cost of a problem, with tau as a share of what it is at the time `high`."""
+    """A problem's cost, with tau as a share of that at `high`."""
     w, c = problem.omega, min(max(problem.confidence, 0.0), 1.0)
     x, y = array(problem.dcm, "DCM", (2,), finite=True).tolist()
     px, py = array(problem.vrp, "VRP", (2,), finite=True).tolist()
@@ -309,7 +307,7 @@ def _program(problem: SspProblem, weights: StepWeights, region: list[list[float]
 
 
 def _place_of_best_time(program: _Program, region: list[list[float]]) -> tuple[tuple[float, float], list[int]]:
-    """The best footstep with the best time of each, and its edges of the region."""
+    """Best footstep with each one's best time, and its region edges."""
     d, k, (gx, gy), (fx, fy) = program.dynamics, program.slope, program.grown, program.fixed
     (wx, wy), (px, py) = program.place_weights, program.places
     # What is missed along `grown` can be made up for by time, and costs only what the time's weight leaves of it.
@@ -332,7 +330,7 @@ def _place_of_best_time(program: _Program, region: list[list[float]]) -> tuple[t
 
 
 def _place_of_time(program: _Program, region: list[list[float]], s: float) -> tuple[tuple[float, float], list[int]]:
-    """The best footstep of one time, and its edges of the region."""
+    """Best footstep of one time, and its region edges."""
     d, k, (wx, wy), (px, py) = program.dynamics, program.slope, program.place_weights, program.places
     (fx, fy), (gx, gy) = program.fixed, program.grown
     sxx, syy = d * k * k + wx, d * k * k + wy
@@ -343,7 +341,7 @@ def _place_of_time(program: _Program, region: list[list[float]], s: float) -> tu
 def _nearest(
     region: list[list[float]], free: tuple[float, float], metric: tuple[float, float, float]
 ) -> tuple[tuple[float, float], list[int]]:
-    """The closest point of a convex polygon in a metric, and its edges; no edge inside."""
+    """Closest point of a convex polygon in a metric, and its edges; none inside."""
     x, y = free
     sxx, sxy, syy = metric
     count, inside = len(region), len(region) > 2
@@ -372,7 +370,7 @@ def _nearest(
 def _residual(
     program: _Program, solution: tuple[float, float, float], bound: int, edges: list[int], region: list[list[float]]
 ) -> float:
-    """Slope of the cost in the best allowed direction, relative to the largest term of its gradient."""
+    """Cost slope in the best allowed direction, relative to the gradient's largest term."""
     gx, gy, gs, size, time_size = program.gradient(*solution)
     by_time = abs(gs) if bound == 0 else max(0.0, -gs if bound < 0 else gs)
     if not edges:

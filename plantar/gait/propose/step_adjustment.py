@@ -1,11 +1,11 @@
-"""Step elsewhere, or sooner, when the ZMP alone cannot bring the DCM to where the next step begins (K 4.1-4.2).
+"""Step elsewhere, or sooner, if the ZMP alone cannot bring the DCM to the next step's start (K 4.1-4.2).
 
-With the ZMP at p for the rest T of a single support the DCM xi comes to p + e^(w T) (xi - p). The wanted one, xi_s,
-moves by (1 - a) d where the footstep and all after it move by d; a is the VRP's share in the double support (K 23-24).
-A push that is expected to continue moves p by -u_w (K 9).
+With the ZMP at p for a single support's rest T, the DCM xi comes to p + e^(w T) (xi - p). The wanted xi_s moves by (1 -
+a) d with the footstep and later ones by d; a is the VRP's share in double support (K 23-24). A lasting push moves p by
+-u_w (K 9).
 
-- "search" scans the time; for each, the ZMP and then the footstep make up for the DCM.
-- "ssp_opt" solves K 31 (`plantar.gait.propose.ssp_opt`), with the place that the foot can reach in the planned time.
+- "search" scans the time; ZMP, then footstep, make up for the DCM.
+- "ssp_opt" solves K 31 (`plantar.gait.propose.ssp_opt`), with the place reachable in the planned time.
 """
 
 from __future__ import annotations
@@ -41,23 +41,23 @@ _COARSE, _FINE = 10, 4  # times that are tried first, and how often the best one
 
 
 class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_adjustment": (True,)}):
-    """When a footstep moves for balance, and how far.
+    """When footsteps move for balance, and how far.
 
     Attributes:
-        method: How the footstep is found: "search" or "ssp_opt".
-        confidence: c of K 2.5: 1 keeps the nominal footsteps as far as balance lets it, 0 follows pushes.
-        yielding: Share of a push's DCM motion that the steps of a robot without confidence follow, even where its
-            ankles could resist; 0 steps for balance alone.
-        double_support: Whether double supports end sooner or later, too (`double_support_timing`).
-        least_error: DCM error in m at the end below which the plan stays.
-        acceleration: Largest acceleration in m/s^2 of the swing foot.
-        sideways: Share of it to the side; all of it makes h1's hips sink.
-        shortest: Largest share of the rest of a single support by which it is shortened.
-        longest: Largest share of a single support by which it is extended.
-        least_left: Time in s until touchdown from which a foot is not aimed any more.
-        pause: Time in s between two changes.
+        method: "search" or "ssp_opt".
+        confidence: c of K 2.5: 1 keeps nominal footsteps if balance allows, 0 follows pushes.
+        yielding: Share of a push's DCM motion that steps without confidence follow, even if ankles could resist; 0
+            steps for balance alone.
+        double_support: Whether double supports' ends move, too (`double_support_timing`).
+        least_error: Final DCM error in m below which the plan stays.
+        acceleration: Swing foot's largest in m/s^2.
+        sideways: Its share sideways; all of it makes h1's hips sink.
+        shortest: Largest shortening, share of a single support's rest.
+        longest: Largest extension, share of a single support.
+        least_left: Time in s before touchdown from which a foot is not aimed.
+        pause: Between two changes in s.
         price_time: Cost of a second earlier in m/s of DCM error.
-        price_place: Cost of a metre of footstep in metres of DCM error, with confidence 1; without, a tenth of it.
+        price_place: Cost of a metre of footstep in metres of DCM error, with confidence 1; a tenth without.
     """
 
     method: str = choice("search", "ssp_opt")
@@ -80,7 +80,7 @@ class StepAdjustmentRules(Part, table="step_adjustment", needs={"control.step_ad
 
 
 class _Foot(NamedTuple):
-    """The swing foot: its step, place (x, y) in m, heading in rad and velocity (x, y) in m/s."""
+    """Swing foot: step, place (x, y) in m, heading in rad, velocity (x, y) in m/s."""
 
     step: int
     place: tuple[float, float]
@@ -96,7 +96,7 @@ class _Along(NamedTuple):
 
 
 class _Choice(NamedTuple):
-    """A footstep: the time in s until it, its move (x, y) in m, and its cost in m."""
+    """A footstep: time in s until it, move (x, y) in m, cost in m."""
 
     left: float
     move: tuple[float, float]
@@ -104,16 +104,16 @@ class _Choice(NamedTuple):
 
 
 class StepAdjustment:
-    """Proposes another footstep, and another time of it.
+    """Proposes another footstep or time.
 
     Args:
         rules: When, and how far.
-        region: Where a foot may land next to the other one.
-        touching: Distance in m between the sole frames at which the soles' inner edges touch.
-        weights: Weights of "ssp_opt".
-        ankle: Which part of the support polygon a changed footstep is planned with.
-        period: Control period in s, the unit of a change of time.
-        timing: Changes only the time of a step, for ground that does not carry everywhere.
+        region: Where a foot can land beside the other.
+        touching: Distance in m between sole origins with touching inner edges.
+        weights: Of "ssp_opt".
+        ankle: Polygon's part for planning a changed footstep.
+        period: Of control in s, the unit of a time change.
+        timing: Changes step times only, for ground that does not carry everywhere.
     """
 
     priority = Priority.TIMING
@@ -173,7 +173,7 @@ class StepAdjustment:
     def _step_elsewhere(
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, swing: Side
     ) -> PlanChange | None:
-        """Another footstep for what the ankles' share of the support polygon cannot make up for."""
+        """Another footstep for what the ankles' polygon share cannot make up for."""
         pendulum = pendulum.changed(zmp_region=self._relied_on(tick, pendulum.zmp_region))
         find = self._solved if self._rules.method == "ssp_opt" else self._searched
         return self._change(tick, find(tick, pendulum, foot, left, self._region(tick, swing)), left)
@@ -191,7 +191,7 @@ class StepAdjustment:
         return self._step_elsewhere(tick, pendulum, foot, left, swing)
 
     def _go_along(self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float) -> PlanChange | None:
-        """The step farther along a push, as far as it has not moved already; it never comes back by itself."""
+        """The step farther along a push, beyond its moves so far; it never returns by itself."""
         step, planned = tick.phase.step, tick.plan.foothold(tick.phase.step)
         if self._along is None or self._along.step != step:
             self._along = _Along(step, (0.0, 0.0))
@@ -215,7 +215,7 @@ class StepAdjustment:
         return _moved(planned, step, (dx, dy), "goes along with a push", 0.0)
 
     def _relied_on(self, tick: Tick, support: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The part (k, 2) in m of the support polygon that a changed footstep is planned with: f(c) S (K 27)."""
+        """Support polygon's part (k, 2) in m for planning a changed footstep: f(c) S (K 27)."""
         swing = tick.phase.swing
         assert swing is not None
         return shrunk_support(support, self._ankle, support.mean(axis=0), tick.place(other_side(swing)).yaw)
@@ -240,7 +240,7 @@ class StepAdjustment:
         return _moved(tick.plan.foothold(step), step, move, "step adjusted", longer)
 
     def _landed(self, tick: Tick, side: Side) -> PlanChange | None:
-        """The end of the single support with the landing of a step that was adjusted, and its place."""
+        """End the single support with an adjusted step's landing, and its place."""
         phase = tick.phase
         step = phase.step if phase.swing == side else phase.step - 1
         if step < tick.plan.first or step == self._stands or tick.plan.foothold(step).side != side:
@@ -258,7 +258,7 @@ class StepAdjustment:
         return _moved(replace(planned, yaw=place.yaw), step, move, reason, longer)
 
     def _region(self, tick: Tick, swing: Side) -> NDArray[np.float64]:
-        """Where the swing foot may land (k, 2) in the world in m, its planned place included."""
+        """Where the swing foot can land (k, 2), world frame, in m, its planned place included."""
         stance, planned = tick.place(other_side(swing)), tick.plan.foothold(tick.phase.step).position[:2]
         region = footstep_region(self._box, swing, (stance.x, stance.y, stance.yaw), self._touching)
         # A walk may have longer steps than are allowed for balance; those it keeps.
@@ -266,7 +266,7 @@ class StepAdjustment:
         return region if inside else convex_hull(np.vstack([region.reshape(-1, 2), planned]))
 
     def _bounds(self, tick: Tick, left: float) -> tuple[float, float]:
-        """Soonest and latest time in s from now at which the single support may end."""
+        """Soonest and latest single support end in s from now."""
         rules = self._rules
         usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
         soonest = min(left, max(rules.least_left, (1.0 - rules.shortest) * (usual - begun)))
@@ -302,7 +302,7 @@ class StepAdjustment:
     def _solved(
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
     ) -> _Choice | None:
-        """The best footstep by K 31, in VRPs."""
+        """Best footstep by K 31, in VRPs."""
         plan, step, rules = tick.plan, tick.phase.step, self._rules
         vrp, target = plan.vrp(step), plan.foothold(step).position[:2]
         following = plan.schedule.following(tick.phase)
@@ -340,13 +340,13 @@ class StepAdjustment:
     def _landing(
         self, foot: _Foot, wanted: tuple[float, float], time: float, region: NDArray[np.float64]
     ) -> tuple[tuple[float, float], float]:
-        """The landing place in a region for a wanted one, and how far that is outside the region."""
+        """Landing place in a region for a wanted one, and its distance outside."""
         x, y = self._reached(foot, nearest_place(region, *wanted), time)
         inside = nearest_place(region, x, y)
         return inside, math.dist(inside, (x, y))
 
     def _reached(self, foot: _Foot, wanted: tuple[float, float], time: float) -> tuple[float, float]:
-        """The place (x, y) in m nearest to a wanted one that the swing foot can reach, at rest, in some time in s."""
+        """Place (x, y) in m nearest to a wanted one, reachable at rest in a time in s."""
         most, (vx, vy), (x, y) = self._rules.acceleration, foot.velocity, foot.place
         c, s, narrow = math.cos(foot.yaw), math.sin(foot.yaw), self._rules.sideways
         # In the foot's axes, those to the side stretched: what it reaches is a circle then.
@@ -371,7 +371,7 @@ def _moved(planned: Footstep, step: int, move: tuple[float, float], reason: str,
 
 
 def _missed(pendulum: Pendulum, left: float) -> tuple[float, float]:
-    """DCM error (x, y) in m after some time in s with the best ZMP of the support polygon."""
+    """DCM error (x, y) in m after a time in s with the best ZMP."""
     (px, py), (wx, wy) = pendulum.beyond_zmp(left)[2], pendulum.offset.tolist()
     (x, y), (gx, gy), grown = pendulum.dcm.tolist(), pendulum.goal.tolist(), math.exp(pendulum.omega * left)
     ux, uy = px - wx, py - wy
@@ -379,7 +379,7 @@ def _missed(pendulum: Pendulum, left: float) -> tuple[float, float]:
 
 
 def _slope(tick: Tick, pendulum: Pendulum) -> float:
-    """Change of the wanted DCM at the end of the single support with the footstep."""
+    """Wanted final DCM's change with the footstep."""
     following = tick.plan.schedule.following(tick.phase)
     growth = pendulum.omega * (following.end - following.start)
     return -math.expm1(-growth) / growth

@@ -1,7 +1,7 @@
-"""End a single support when the DCM is where the next one begins, if the ZMP alone cannot bring it there in time.
+"""End a single support as the DCM reaches the next one's start, if the ZMP alone cannot.
 
-A wanted DCM xi_e takes the ZMP p(T) = xi + (xi - xi_e) / (e^(w T) - 1) for the rest T. At a distance d outside the
-support polygon the DCM ends off by (e^(w T) - 1) d, which another T reduces (T 4.9-4.14).
+A wanted DCM xi_e takes the ZMP p(T) = xi + (xi - xi_e) / (e^(w T) - 1) for the rest T. At d outside the support polygon
+the DCM is off by (e^(w T) - 1) d, which another T reduces (T 4.9-4.14).
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ __all__ = ["StepTiming", "StepTimingRules"]
 
 
 class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (True,)}):
-    """When a single support ends sooner or later than planned.
+    """When a single support's end moves.
 
     Attributes:
-        least_error: DCM error in m at the end below which the timing stays.
-        price: Cost of a second in m/s of DCM error.
-        longest: Largest share of a single support by which it is extended; with half of it, h1 withstands less.
-        shortest: Largest share by which it is shortened.
-        least_left: Time in s until touchdown from which a foot is not hurried any more.
-        pause: Time in s between two changes.
+        least_error: Final DCM error in m below which the timing stays.
+        price: Of a second in m/s of DCM error.
+        longest: Largest extension, share of a single support; with half, h1 withstands less.
+        shortest: Largest shortening, the same share.
+        least_left: Time in s before touchdown from which a foot is not hurried.
+        pause: Between two changes in s.
     """
 
     least_error: float = share(0.0433, "sole", 0, 0.2)
@@ -37,11 +37,11 @@ class StepTimingRules(Part, table="step_timing", needs={"control.step_timing": (
 
 
 class StepTiming:
-    """Proposes another end of the single support.
+    """Proposes another single support end.
 
     Args:
         rules: When.
-        period: Control period in s, the unit of a change.
+        period: Of control in s, the unit of a change.
     """
 
     priority = Priority.TIMING
@@ -52,7 +52,7 @@ class StepTiming:
         self._changed = -math.inf
 
     def propose(self, tick: Tick) -> PlanChange | None:
-        """Another end of the single support, where that helps."""
+        """Another single support end, where that helps."""
         phase, rules, pendulum = tick.phase, self._rules, tick.pendulum
         if pendulum is None or phase.swing is None or phase.wait or tick.time < self._changed + rules.pause:
             return None
@@ -74,7 +74,7 @@ class StepTiming:
         return PlanChange(reason, phase.step, longer=change, resets=True)
 
     def _best_change(self, tick: Tick, pendulum: Pendulum, left: float, error: float) -> float:
-        """Delay in s of the phase's end with the least miss and price."""
+        """Delay in s of the phase's end with least miss and price."""
         rules = self._rules
         usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
         later = (1.0 + rules.longest) * usual - begun - left
@@ -92,6 +92,6 @@ class StepTiming:
 
 
 def _missed(pendulum: Pendulum, left: float) -> float:
-    """DCM error in m after some time in s, wherever its ZMP is kept."""
+    """DCM error in m after a time in s, wherever its ZMP is kept."""
     growth, wanted, nearest = pendulum.beyond_zmp(left)
     return growth * math.dist(wanted, nearest)

@@ -1,7 +1,7 @@
-"""Walk at a commanded velocity until a stop is commanded.
+"""Walk at a commanded velocity until a stop.
 
-At each touchdown two steps that follow the command are planned, and one that closes the feet. Of steps of duration T,
-with a velocity (v_x, v_y, w_z),
+Each touchdown plans two steps by the command, and one that closes the feet. Of steps of duration T, with a velocity
+(v_x, v_y, w_z),
 
     forward      each step leads the other foot by v_x T;
     sideways     the foot on that side opens by 2 v_y T, and the other one closes up to it;
@@ -9,7 +9,7 @@ with a velocity (v_x, v_y, w_z),
                  much wider that heels, or toes where the feet turn in, keep their distance; what is beyond
                  `Stride.turn_in` the other foot turns.
 
-The heading is the mean of the feet's, which follows a command by half a step.
+The heading is the feet's mean, half a step behind a command.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _AHEAD = 2  # steps that follow the command, before the one that closes
 
 @dataclass(frozen=True)
 class Velocity:
-    """A commanded velocity in the frame of the feet.
+    """Commanded velocity, frame of the feet.
 
     Attributes:
         forward: m/s.
@@ -58,11 +58,11 @@ STOP: Velocity | None = None
 
 @dataclass(frozen=True)
 class VelocityTable:
-    """Commands over time: each holds until the next one.
+    """Commands over time, each until the next.
 
     Attributes:
-        times: When each begins in s, increasing.
-        commands: What is commanded from then on; None stops.
+        times: Their starts in s, increasing.
+        commands: Command from then on; None stops.
 
     Example:
         >>> table = VelocityTable((1.0, 5.0), (Velocity(forward=0.1), STOP))
@@ -80,19 +80,19 @@ class VelocityTable:
             raise InputError("the times of velocity commands have to be finite and to increase")
 
     def at(self, time: float) -> Velocity | None:
-        """The command that holds at a time in s; before the first one the robot stands."""
+        """Command at a time in s; standing before the first."""
         k = bisect_right(self.times, time) - 1
         return self.commands[k] if k >= 0 else STOP
 
 
 class Stride(Settings):
-    """Largest step; a command that asks for more is walked slower.
+    """Largest step; larger commands are walked slower.
 
     Attributes:
-        lead: Lead over the other foot, as a share of the CoM's height.
-        opening: Opening to the side, as a share of the CoM's height.
-        turn: Angle by which a foot turns out against the other one, which the two hips share.
-        turn_in: Angle by which a foot turns in against the other one.
+        lead: Lead over the other foot, share of the CoM height.
+        opening: Sideways, share of the CoM height.
+        turn: Angle in rad of a foot outwards from the other, shared by both hips.
+        turn_in: Angle in rad of a foot inwards.
     """
 
     lead: float = number(0.25, "1", 0.01, 0.6)
@@ -103,14 +103,14 @@ class Stride(Settings):
 
 @dataclass(frozen=True)
 class Legs:
-    """Lengths in m that limit a step.
+    """Step limits in m.
 
     Attributes:
-        width: Distance of the sole frames' origins with the feet side by side.
-        com_height: Height of the CoM.
-        heel: Length of the sole behind its frame's origin.
-        toe: Length in front of it.
-        inner: Width to its inner edge.
+        width: Between sole origins side by side.
+        com_height: CoM height.
+        heel: Sole behind its origin.
+        toe: Sole in front of it.
+        inner: Width to the inner edge.
     """
 
     width: float
@@ -120,7 +120,7 @@ class Legs:
     inner: float = 0.07
 
     def room(self, out: float) -> float:
-        """Extra width in m for a foot turned out, or in, by an angle in rad, so that heel or toe keep the inner edge's
+        """Extra width in m for a foot turned out, or in, by an angle in rad, keeping heel or toe at the inner edge's
         distance.
 
         Example:
@@ -136,15 +136,15 @@ class Legs:
 def next_step(
     stance: Footstep, other: Footstep, velocity: Velocity, legs: Legs, stride: Stride, duration: float
 ) -> Footstep:
-    """Returns the next step of a foot.
+    """Returns a foot's next step.
 
     Args:
-        stance: The foot that stands.
-        other: Pose of the foot that goes.
-        velocity: The command.
-        legs: What limits a step.
+        stance: Standing foot.
+        other: Moving foot's pose.
+        velocity: Command.
+        legs: Step limits.
         stride: Largest step.
-        duration: Time in s from step to step.
+        duration: From step to step in s.
 
     Example:
         >>> left, right = Footstep("left", 0.0, 0.085), Footstep("right", 0.0, -0.085)
@@ -182,12 +182,12 @@ def _moved(x: float, y: float, yaw: float, ahead: float, across: float) -> tuple
 
 
 class VelocityCommand:
-    """Proposes the steps of a walk at a commanded velocity.
+    """Proposes steps at a commanded velocity.
 
     Args:
-        table: The commands over time.
-        legs: What decides how far a step may go.
-        stride: How far a step goes at most.
+        table: Commands over time.
+        legs: Step limits.
+        stride: Largest step.
     """
 
     priority = Priority.COMMAND
@@ -220,7 +220,7 @@ class VelocityCommand:
         return self._proposed
 
     def _first(self, tick: Tick, velocity: Velocity | None) -> Side:
-        """The foot that moves next: as planned, or from standing the one on the commanded side."""
+        """Next foot: as planned, or from standing the commanded side's."""
         if tick.phase.step < tick.plan.count:
             return tick.plan.foothold(tick.phase.step).side
         if tick.phase.kind != PhaseKind.STANDING:
@@ -230,7 +230,7 @@ class VelocityCommand:
 
     @staticmethod
     def _standing(side: Side, tick: Tick) -> Footstep:
-        """Planned pose of a foot; the commanded one before its first step."""
+        """A foot's planned pose; the commanded one before its first step."""
         plan = tick.plan
         for k in range(tick.phase.step - 1, max(plan.first, tick.phase.step - 3) - 1, -1):
             if plan.foothold(k).side == side:
@@ -240,7 +240,7 @@ class VelocityCommand:
     def _steps(
         self, stance: Footstep, other: Footstep, velocity: Velocity | None, duration: float
     ) -> tuple[Footstep, ...]:
-        """Steps at a velocity, the other foot first, and the one that closes the feet."""
+        """Steps at a velocity, the other foot first, and the closing one."""
         steps: list[Footstep] = []
         for command in [*([velocity] * _AHEAD if velocity is not None else []), Velocity()]:
             stance, other = next_step(stance, other, command, self.legs, self.stride, duration), stance
@@ -249,14 +249,14 @@ class VelocityCommand:
 
 
 def table_of(rows: Sequence[Sequence[float | str]], begin: float) -> VelocityTable:
-    """Returns a table of commands from rows of a scene.
+    """Returns commands from a scene's rows.
 
     Args:
         rows: Each [time, forward, left, turn] in s, m/s, m/s and rad/s, or [time, "stop"].
-        begin: Time in s from which the rows count.
+        begin: Time in s from which rows count.
 
     Raises:
-        InputError: If a row is neither; the message names it.
+        InputError: Unknown row.
 
     Example:
         >>> table_of([[0.0, 0.1, 0.0, 0.0], [10.0, "stop"]], 1.0).times

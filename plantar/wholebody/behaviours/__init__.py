@@ -1,1 +1,1 @@
-"""Changes of tasks and their order: reflexes, intentional contact, phases of contact."""
+"""Task changes: reflexes, intentional contact, contact phases."""

@@ -1,4 +1,4 @@
-"""The two phases of contact of a hand, and the weight from proximity to force (A Table 1, 3.1)."""
+"""A hand's two contact phases, and the weight from proximity to force (A Table 1, 3.1)."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ __all__ = ["ContactPhases", "PhaseSettings"]
 
 
 class PhaseSettings(Settings):
-    """How fast the weight changes.
+    """Speed of the weight.
 
     Attributes:
-        duration: Time in s in which w of A 6 goes from 0 to 1 along a sigmoid.
+        duration: Sigmoid of w (A 6) from 0 to 1 in s.
     """
 
     duration: float = number(2.0, "s", 0.0, 60.0)
 
 
 class ContactPhases:
-    """Precontact and contact: an arrangement of tasks each, entered when the user reports it.
+    """Precontact and contact: tasks of each, entered when the user reports it.
 
     Args:
-        precontact: Levels before contact: distance, compliant wrist, tactile guidance, base avoidance and posture.
+        precontact: Levels before: distance, compliant wrist, tactile guidance, base avoidance and posture.
         contact: Levels in contact: force, compliant wrist, position, and compliance with base avoidance and posture.
-        settings: How fast the weight changes.
+        settings: Speed of the weight.
 
     Attributes:
-        in_contact: Whether the contact phase counts.
+        in_contact: Whether in the contact phase.
         levels: The current levels.
     """
 
@@ -51,14 +51,14 @@ class ContactPhases:
         return self._arrangements[self.in_contact]
 
     def enter(self, in_contact: bool, time: float) -> bool:
-        """Enter a phase; the weight continues from its current value.
+        """Enter a phase; the weight continues from its value.
 
         Args:
-            in_contact: Whether that is the contact phase.
-            time: Time in s.
+            in_contact: Whether the contact phase.
+            time: In s.
 
         Returns:
-            Whether that changed the phase: then a transition of priorities begins.
+            Whether the phase changed: begin a priority transition.
         """
         if in_contact == self.in_contact:
             return False

@@ -1,6 +1,6 @@
-"""Intentional contact: obstacles may be touched and pushed, with no more than a tolerable force (T 3.4.2).
+"""Intentional contact: obstacles can be touched and pushed with tolerable force (T 3.4.2).
 
-The conditions of T Table 1 overlap, so an arrangement is kept until those of another have held for a while.
+The conditions of T Table 1 overlap: an arrangement stays until another's have held a while.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ Arrangement = Literal["avoid", "approach", "retreat"]
 
 
 class ContactSettings(Settings):
-    """Thresholds of T Table 1 and the times against chattering.
+    """Thresholds of T Table 1, and times against chattering.
 
     Attributes:
-        slow: epsilon_v: speed of the end effector in m/s below which it is stuck.
-        force_limit: epsilon_c: contact force in N from which it retreats.
-        release: Share of the limit below which the force has to fall before it tries again.
-        stuck: Time in s for which it has to be slow before it approaches.
+        slow: epsilon_v in m/s below which the end effector is stuck.
+        force_limit: epsilon_c in N from which it retreats.
+        release: Share of the limit below which it tries again.
+        stuck: Slow time in s before it approaches.
         retreat: Least time in s of a retreat.
-        free: Time in s without contact or proximity, after which it avoids again.
-        shrink: Time in s in which the sensing range shrinks to zero while it approaches, and grows again after.
+        free: Time in s without contact or proximity before it avoids again.
+        shrink: Time in s of the sensing range's shrinking to zero in approach, and growing back.
     """
 
     slow: float = number(0.02, "m/s", 0.0, 10.0)
@@ -45,10 +45,10 @@ class ContactSigns(NamedTuple):
     """Measurements that choose the arrangement.
 
     Attributes:
-        speed: Speed ||x'|| of the end effector in m/s.
-        near: ||f_p||: virtual force of proximity in the whole range in N.
-        contact: ||f_c||: largest contact force that the skin measures in N.
-        arrived: Whether the goal is reached, where the end effector may rest.
+        speed: ||x'|| of the end effector in m/s.
+        near: ||f_p||: proximity's virtual force, whole range, in N.
+        contact: ||f_c||: largest contact force on skin in N.
+        arrived: Whether the goal is reached, where it can rest.
     """
 
     speed: float
@@ -58,17 +58,17 @@ class ContactSigns(NamedTuple):
 
 
 class IntentionalContact:
-    """The current arrangement, and the used share of the sensing range.
+    """Current arrangement, and used share of the sensing range.
 
     Args:
-        goal: Tasks that lead to the goal, tau_g of T 3.40.
-        contact: Tasks that yield to a contact, tau_c of T 3.41.
-        avoidance: Tasks that avoid obstacles, tau_p of T 3.33.
+        goal: Tasks to the goal, tau_g of T 3.40.
+        contact: Tasks yielding to contact, tau_c of T 3.41.
+        avoidance: Tasks avoiding obstacles, tau_p of T 3.33.
 
     Attributes:
-        arrangement: The current one.
-        range_share: Share of the sensing range that avoidance should use, 0 to 1.
-        levels: The current levels, the highest first.
+        arrangement: Current.
+        range_share: Of the sensing range for avoidance, 0 to 1.
+        levels: Current, the highest first.
     """
 
     def __init__(
@@ -98,10 +98,10 @@ class IntentionalContact:
 
         Args:
             signs: The measurements.
-            time: Time in s.
+            time: In s.
 
         Returns:
-            Whether the arrangement has changed: then a transition of priorities begins.
+            Whether the arrangement changed: begin a priority transition.
         """
         s, before = self.settings, self.arrangement
         period = max(0.0, time - self._time) if math.isfinite(self._time) else 0.0
@@ -120,7 +120,7 @@ class IntentionalContact:
         return self.arrangement != before
 
     def _way_on(self, signs: ContactSigns) -> tuple[bool, float, Arrangement]:
-        """Whether the arrangement's end condition holds, its required time, and the next one."""
+        """Whether the arrangement's end condition holds, its time, and the next one."""
         s, near = self.settings, signs.near > 0.0
         touched = signs.contact > 0.0
         if self.arrangement == "avoid":

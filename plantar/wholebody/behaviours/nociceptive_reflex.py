@@ -1,4 +1,4 @@
-"""Nociceptive reflex: tasks are dropped under painful pressure (T 3.4.1)."""
+"""Nociceptive reflex: painful pressure drops tasks (T 3.4.1)."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ __all__ = ["NociceptiveReflex", "ReflexSettings"]
 
 
 class ReflexSettings(Settings):
-    """When the reflex begins and ends.
+    """Begin and end of the reflex.
 
     Attributes:
-        threshold: Virtual force ||f_P|| of T 3.27 in N above which tasks are dropped; 10 N in T.
-        release: Share of the threshold below which the force has to fall before they are taken up again.
-        calm: Time in s that it has to stay there.
+        threshold: Virtual force ||f_P|| of T 3.27 in N that drops tasks; 10 N in T.
+        release: Share of the threshold below which they return.
+        calm: Time in s below it.
     """
 
     threshold: float = number(10.0, "N", 0.0, 1e4)
@@ -26,15 +26,15 @@ class ReflexSettings(Settings):
 
 
 class NociceptiveReflex:
-    """Two arrangements of tasks, and the current one.
+    """Two task arrangements, one current.
 
     Args:
         default: Levels without pain, the highest first.
-        reflex: Levels of the reflex: the default ones without those that hold the body against the pressure.
-        settings: When it begins and ends.
+        reflex: Default levels without those that hold against the pressure.
+        settings: Begin and end.
 
     Attributes:
-        active: Whether the reflex counts; `levels` the current ones.
+        active: Whether the reflex acts; `levels` the current ones.
     """
 
     def __init__(
@@ -53,14 +53,14 @@ class NociceptiveReflex:
         return self._arrangements[self.active]
 
     def update(self, virtual_force: float, time: float) -> bool:
-        """Update with the virtual force; the reflex begins at once and ends after a calm.
+        """Update with the virtual force; the reflex begins at once, ends after calm.
 
         Args:
-            virtual_force: Norm of f_P of T 3.27 in N, the largest of all links.
-            time: Time in s.
+            virtual_force: Norm of f_P of T 3.27 in N, the links' largest.
+            time: In s.
 
         Returns:
-            Whether the arrangement has changed: then a transition of priorities begins.
+            Whether the arrangement changed: begin a priority transition.
         """
         s, before = self.settings, self.active
         if virtual_force > (s.threshold * s.release if self.active else s.threshold):

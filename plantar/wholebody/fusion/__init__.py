@@ -1,1 +1,1 @@
-"""Fusion of many tasks' demands to one torque: weighted, projected, in strict order, or within limits."""
+"""Fusion of task demands to a torque: weighted, projected, strictly ordered, or limited."""

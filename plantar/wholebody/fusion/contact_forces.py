@@ -1,4 +1,4 @@
-"""Contact forces of a standing robot: pressing, inside the contact area, without slipping (T 4.4.4)."""
+"""Contact forces of standing: pressing, within the contact, without slip (T 4.4.4)."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ __all__ = ["ContactForces"]
 
 
 class ContactForces:
-    """Shares the load on a free base among its contacts, as `joint_torques`, but within friction cones.
+    """Shares a free base's load among contacts, as `joint_torques`, within friction cones.
 
     Args:
-        support: The task whose contacts carry.
-        base: Link whose motion is the free coordinates.
-        weight: Weight of the robot in N.
-        least: Least normal force of a contact as a share of that.
-        weights: Weights of the distribution's cost.
+        support: Task of the carrying contacts.
+        base: Link of the free coordinates.
+        weight: Robot's in N.
+        least: Contact's least normal force, share of that.
+        weights: Of the distribution.
 
     Attributes:
-        shares: Desired share of the load of each contact by name; equal if None.
-        last: The last wrench of each contact, in its own frame.
+        shares: Desired load shares by contact name; None for equal.
+        last: Last wrench of each contact, own frame.
     """
 
     def __init__(
@@ -49,9 +49,9 @@ class ContactForces:
     def __call__(
         self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-        """Share a generalized force (see `plantar.wholebody.fusion.hierarchy.joint_torques`).
+        """Share a generalized force (`plantar.wholebody.fusion.hierarchy.joint_torques`).
 
-        Returns joint torques (k,) and the forces (s,) along the support's rows; an InputError without a support.
+        Returns joint torques (k,) and forces (s,) along the support's rows; InputError without support.
         """
         if support is None:
             raise InputError("contact forces need a support")
@@ -65,11 +65,11 @@ class ContactForces:
         return force[robot.joints] - support.jacobian[:, robot.joints].T @ carried, carried
 
     def share(self, robot: RobotDynamics, force: NDArray[np.float64]) -> WrenchShare:
-        """The wrench of each contact, in its own frame, under a generalized force on the base.
+        """Each contact's wrench, own frame, under a generalized force on the base.
 
         Args:
             robot: The robot.
-            force: Generalized force (n,).
+            force: Generalized (n,).
 
         Returns:
             The wrenches.

@@ -1,8 +1,8 @@
-"""The hierarchy of `fusion.hierarchy` as least squares within limits of torques, speeds and positions, level by level.
+"""`fusion.hierarchy` as level-wise least squares within torque, speed and position limits.
 
-Each level is met as well as the limits and the levels above it allow (Escande et al. 2014), in mass-weighted
-coordinates, so that without a limit the motion is that of the hierarchy. Infeasible limits of speed and position are
-widened as little as possible, then those of torque, and the output is cut to them.
+Each level is met as limits and higher levels allow (Escande et al. 2014), in mass-weighted coordinates: without limits,
+the hierarchy's motion. Infeasible speed and position limits are widened least, then torque's, and the output is cut to
+them.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ __all__ = ["HierarchicalQP", "JointLimits"]
 
 @dataclass(frozen=True)
 class JointLimits:
-    """Limits of the joints, in the order of `RobotDynamics.joints`.
+    """Joint limits, in `RobotDynamics.joints` order.
 
     Attributes:
-        torque: Largest torque or force (k,) in N m or N.
-        velocity: Largest speed (k,) in rad/s or m/s.
-        low: Lowest position (k,) in rad or m; -inf for none.
-        high: Highest position (k,).
-        slow_down: Least time in s in which the distance to a position limit may be crossed.
-        reach: Time in s in which a speed beyond its limit is brought back: some control periods.
-        acceleration: Largest acceleration in rad/s^2 or m/s^2 of every joint.
+        torque: Largest (k,) in N m or N.
+        velocity: Largest (k,) in rad/s or m/s.
+        low: Lowest (k,) in rad or m; -inf for none.
+        high: Highest (k,).
+        slow_down: Least time in s to a position limit.
+        reach: Time in s to bring back excess speed: some control periods.
+        acceleration: Every joint's largest in rad/s^2 or m/s^2.
 
     Raises:
-        InputError: If a limit is not above 0, or a range is empty.
+        InputError: Disallowed limit, empty range.
     """
 
     torque: NDArray[np.float64]
@@ -55,7 +55,7 @@ class JointLimits:
             raise InputError(f"a limit of torque, speed or time is {smallest:g}, or a range of positions is empty")
 
     def accelerations(self, robot: RobotDynamics) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Lowest and highest acceleration (k,) within the limits of speed and position."""
+        """Lowest and highest acceleration (k,) by speed and position limits."""
         position, speed = robot.joint_positions, robot.velocity[robot.joints]
         slowest = np.maximum(-self.velocity, (self.low - position) / self.slow_down)
         fastest = np.minimum(self.velocity, (self.high - position) / self.slow_down)
@@ -66,15 +66,14 @@ class JointLimits:
 
 
 class HierarchicalQP:
-    """A fusion, called as `plantar.wholebody.fusion.hierarchy.fuse`.
+    """Fusion, called as `plantar.wholebody.fusion.hierarchy.fuse`.
 
     Args:
-        limits: Limits of the joints.
-        shortcut: Whether to use the hierarchy's motion where it keeps all limits: the same result in a fraction of the
-            time.
+        limits: Joint limits.
+        shortcut: Whether to use the hierarchy's motion if within limits: same result, much faster.
 
     Attributes:
-        limited: Whether a limit acted at the last call.
+        limited: Whether a limit acted last.
     """
 
     def __init__(self, limits: JointLimits, shortcut: bool = True) -> None:
@@ -87,7 +86,7 @@ class HierarchicalQP:
         support: Demand | None = None,
         external: NDArray[np.float64] | None = None,
     ) -> Fused:
-        """Torques, acceleration and support force; see `plantar.wholebody.fusion.hierarchy.fuse` for the arguments."""
+        """Torques, acceleration, support force; arguments as `plantar.wholebody.fusion.hierarchy.fuse`."""
         low, high = self.limits.accelerations(robot)
         if self.shortcut:
             free = fuse(robot, levels, support, external)
@@ -116,7 +115,7 @@ class HierarchicalQP:
 def _sublevels(
     levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64] | None, NDArray[np.float64] | None]]:
-    """Rows met together, with the acceleration along them or the generalized force on them."""
+    """Rows met together, with their acceleration or generalized force."""
     for level in ([support], *levels):
         meant = [d for d in level if d is not None and d.acceleration is not None]
         pushing = [d for d in level if d is not None and d.acceleration is None and d.force is not None]
@@ -131,7 +130,7 @@ def _sublevels(
 def _descend(
     factor: NDArray[np.float64], box: Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> NDArray[np.float64]:
-    """Meet level after level, the support without limits; the rest moves least."""
+    """Meet levels in order, the support unlimited; the rest moves least."""
     y, left = np.zeros(len(factor)), np.eye(len(factor))  # and an orthonormal basis of what is left
     limited = support is None
     for jacobian, wanted, force in _sublevels(levels, support):

@@ -1,11 +1,10 @@
-"""Tasks in strict order, dynamically consistent: A 19-25 and, with a support, T 3.13.
+"""Strictly ordered, dynamically consistent tasks: A 19-25 and, with support, T 3.13.
 
-In mass-weighted coordinates y = L^T q'', M = L L^T, the dynamically consistent inverse (A 25) is the pseudo-inverse and
-the projector (A 24) is orthogonal, so each level needs one QR decomposition, accurate near singularities.
+With y = L^T q'', M = L L^T, the dynamically consistent inverse (A 25) is the pseudo-inverse and the projector (A 24)
+orthogonal: one QR decomposition a level, accurate near singularities.
 
-A direction with a singular value above `RANK` of its rows' size belongs to its level, so that priority is strict; below
-`DAMPED` of that size it is driven by s / (s^2 + lambda^2), lambda^2 = (1 - (s / s_0)^2) s_0^2 / 4, so that torques stay
-bounded and continuous.
+A direction with singular value above `RANK` of its rows' size belongs to its level, for strict priority; below `DAMPED`
+it is driven by s / (s^2 + lambda^2), lambda^2 = (1 - (s / s_0)^2) s_0^2 / 4, for bounded, continuous torques.
 """
 
 from __future__ import annotations
@@ -40,9 +39,9 @@ class Fused(NamedTuple):
     """Result of fused tasks.
 
     Attributes:
-        torque: Torque or force (k,) of each joint of `RobotDynamics.joints` in N m or N, gravity included.
-        acceleration: The resulting generalized acceleration (n,) without other pushes.
-        support_force: Force (s,) along the rows of the support; None without one.
+        torque: (k,) of `RobotDynamics.joints` in N m or N, with gravity.
+        acceleration: Generalized (n,) without other pushes.
+        support_force: (s,) along the support's rows, or None.
     """
 
     torque: NDArray[np.float64]
@@ -63,22 +62,22 @@ def fuse(
     external: NDArray[np.float64] | None = None,
     split: Split | None = None,
 ) -> Fused:
-    """Torques that meet every level as well as the levels above it allow (A 19-25, T 3.8, 3.13).
+    """Torques for every level as higher ones allow (A 19-25, T 3.8, 3.13).
 
-    Within a level accelerations are met first, all together; forces add up and act in the rest (T 3.22).
+    Within a level accelerations are met first, together; forces add up in the rest (T 3.22).
 
     Args:
-        robot: Kinematics and dynamics of this instant.
-        levels: Demands of the tasks, the highest priority first; None for a task without one.
-        support: Rows of the support, above all levels; needed where the base is not driven.
-        external: Known generalized force (n,), such as J^T w of the skin.
-        split: How joints and support share the load; `joint_torques` if None.
+        robot: Its dynamics now.
+        levels: Tasks' demands, highest priority first; None for none.
+        support: Support rows above all levels; needed for an undriven base.
+        external: Known generalized force (n,), such as skin's J^T w.
+        split: Load sharing of joints and support; None for `joint_torques`.
 
     Returns:
         Torques, acceleration and support force.
 
     Raises:
-        InputError: If a demand is not complete, or the mass matrix not positive definite.
+        InputError: Incomplete demand, indefinite mass matrix.
     """
     every = [[d for d in level if d is not None] for level in ([support], *levels)]
     asked = [level for level in every if level]
@@ -100,18 +99,18 @@ def fuse(
 def joint_torques(
     robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Split a generalized force among joints and support: S^T tau + J_s^T f_s (T 3.12), with the least support force.
+    """Split a generalized force: S^T tau + J_s^T f_s (T 3.12), with least support force.
 
     Args:
         robot: The robot.
-        force: Generalized force (n,).
-        support: Rows of the support; None if all coordinates are driven.
+        force: Generalized (n,).
+        support: Its rows; None if all coordinates are driven.
 
     Returns:
         Joint torques (k,) and support force (s,) or None.
 
     Raises:
-        InputError: If coordinates are neither driven nor supported.
+        InputError: Coordinates neither driven nor supported.
     """
     joints = robot.joints
     if support is None:
@@ -133,7 +132,7 @@ def joint_torques(
 
 
 def _least_norm(matrix: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The shortest x with matrix x = wanted, or nearest to it, by QR or, if needed, singular values."""
+    """Shortest x with matrix x = wanted, or nearest, by QR or singular values."""
     rows, columns = matrix.shape
     if rows <= columns:
         factored, scales, _, info = lapack.dgeqrf(matrix.T)
@@ -147,7 +146,7 @@ def _least_norm(matrix: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDA
 
 
 def _add(space: TaskSpace, level: Sequence[Demand], last: bool) -> None:
-    """Meet a level in the free directions, and own its rows unless it is the last."""
+    """Meet a level in free directions, owning its rows unless last."""
     meant = [d for d in level if d.acceleration is not None]
     pushing = [d for d in level if d.acceleration is None]
     if meant and space.used < space.size:
@@ -173,7 +172,7 @@ def _stacked(demands: Sequence[Demand], size: int) -> NDArray[np.float64]:
 
 
 def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float64]) -> None:
-    """Own rows and meet what is wanted in them, damped below `DAMPED`."""
+    """Own rows and meet their demand, damped below `DAMPED`."""
     if wanted.shape != (len(rows),):
         raise InputError(f"a task asks for an acceleration of shape {wanted.shape}; expected one a row, ({len(rows)},)")
     rank, bound = space.own(rows, np.ascontiguousarray(wanted), True, RANK)
@@ -199,5 +198,5 @@ def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float6
 
 @lru_cache(maxsize=8)
 def _space(size: int) -> TaskSpace:
-    """Work arrays for robots of so many coordinates, made once."""
+    """Work arrays for a number of coordinates, made once."""
     return TaskSpace(size)

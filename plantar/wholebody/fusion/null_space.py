@@ -1,7 +1,6 @@
-"""Torques of tasks as printed in T: added (T 3.6), or in the null space of those above (T 3.3-3.4, 3.7-3.13).
+"""Torques as printed in T: added (T 3.6), or in higher tasks' null space (T 3.3-3.4, 3.7-3.13).
 
-For comparison and for tasks that are forces: without the correction of accelerations by higher tasks (A 21). Use
-`fusion.hierarchy` otherwise.
+For comparison and force tasks: higher tasks do not correct accelerations (A 21). Otherwise use `fusion.hierarchy`.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ def mass_factor(mass_matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """Lower Cholesky factor L (n, n) of a mass matrix, M = L L^T.
 
     Raises:
-        InputError: If the matrix is not positive definite.
+        InputError: Indefinite matrix.
     """
     factor, info = lapack.dpotrf(mass_matrix, lower=1, clean=1)
     if info != 0:
@@ -37,11 +36,11 @@ def mass_factor(mass_matrix: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def task_torque(robot: RobotDynamics, demand: Demand) -> NDArray[np.float64]:
-    """Generalized force (n,) of one task: J^T f (T 3.4), with f = Lambda (x''* - J' q') for a motion, without bias.
+    """A task's generalized force (n,): J^T f (T 3.4), f = Lambda (x''* - J' q') for motion, without bias.
 
     Args:
         robot: The robot.
-        demand: The task's demand.
+        demand: Task's.
 
     Returns:
         The force.
@@ -57,17 +56,17 @@ def task_torque(robot: RobotDynamics, demand: Demand) -> NDArray[np.float64]:
 def null_space_projector(
     jacobian: NDArray[np.float64], factor: NDArray[np.float64] | None = None
 ) -> NDArray[np.float64]:
-    """N = I - J^T (J^#)^T (T 3.7): the part of a generalized force that does not affect a task.
+    """N = I - J^T (J^#)^T (T 3.7): generalized force without effect on a task.
 
-    With M = L L^T, the dynamically consistent inverse of J (A 25) is L^-T times the pseudo-inverse of J L^-T, which is
-    defined at singularities too.
+    With M = L L^T, J's dynamically consistent inverse (A 25) is L^-T times the pseudo-inverse of J L^-T, also at
+    singularities.
 
     Args:
-        jacobian: J (m, n) of the task.
-        factor: L (n, n), for the dynamically consistent inverse; the Moore-Penrose inverse if None.
+        jacobian: Task's J (m, n).
+        factor: L (n, n), for the dynamically consistent inverse; None for Moore-Penrose.
 
     Returns:
-        Projector (n, n) of generalized forces.
+        (n, n) of generalized forces.
     """
     rows = jacobian if factor is None else solve_triangular(factor, jacobian.T, lower=True).T
     size = jacobian.shape[1]
@@ -85,13 +84,13 @@ def null_space_torques(
     projection: Projection = "recursive",
     consistent: bool = True,
 ) -> Fused:
-    """Sum of the tasks' torques, each in the null space of those above (T 3.8, 3.11, 3.13).
+    """Sum of task torques, each in higher ones' null space (T 3.8, 3.11, 3.13).
 
-    `robot`, `levels`, `support` and `external` as in `plantar.wholebody.fusion.hierarchy.fuse`; returns the same.
+    `robot`, `levels`, `support`, `external` and result as in `plantar.wholebody.fusion.hierarchy.fuse`.
 
     Args:
         projection: How higher tasks count.
-        consistent: Whether projectors are dynamically consistent; if not, lower tasks push higher ones.
+        consistent: Whether dynamically consistent; if not, lower tasks push higher ones.
     """
     size = len(robot.bias)
     factor = mass_factor(robot.mass_matrix)
@@ -121,12 +120,12 @@ def weighted_sum(
     external: NDArray[np.float64] | None = None,
     weights: Sequence[float | NDArray[np.float64]] | None = None,
 ) -> Fused:
-    """tau = sum W_i tau_i (T 3.6): every task disturbs every other, below the support (T 3.13).
+    """tau = sum W_i tau_i (T 3.6): tasks disturb each other, below the support (T 3.13).
 
-    `robot`, `levels`, `support` and `external` as in `plantar.wholebody.fusion.hierarchy.fuse`; returns the same.
+    `robot`, `levels`, `support`, `external` and result as in `plantar.wholebody.fusion.hierarchy.fuse`.
 
     Args:
-        weights: Weight of each level: a number, or one (n,) for each coordinate; 1 for all if None.
+        weights: Each level's: a number or (n,); None for 1.
     """
     weights = [1.0] * len(levels) if weights is None else weights
     if len(weights) != len(levels):
@@ -145,7 +144,7 @@ def weighted_sum(
 def _fused(
     robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None, external: NDArray[np.float64] | None
 ) -> Fused:
-    """Result of a generalized force (n,) without the robot's bias."""
+    """Result of a generalized force (n,) without bias."""
     acceleration = np.asarray(np.linalg.solve(robot.mass_matrix, force))
     total = force + robot.bias if external is None else force + robot.bias - external
     torque, support_force = joint_torques(robot, total, support)

@@ -1,7 +1,7 @@
-"""Smooth changes of priority between the torques of two arrangements of tasks (T 3.45-3.46).
+"""Smooth priority changes between two arrangements' torques (T 3.45-3.46).
 
-In T 3.46, chi = (1 - tanh(delta_t (t - t_t))) / 2 jumps by a half at the trigger t_t. Here t_t is the middle of the
-change, and chi is scaled to go from 1 to 0.
+In T 3.46, chi = (1 - tanh(delta_t (t - t_t))) / 2 jumps by a half at trigger t_t. Here t_t is mid-change, and chi
+scaled from 1 to 0.
 """
 
 from __future__ import annotations
@@ -20,24 +20,24 @@ STEEPNESS = 2.0
 
 
 class TransitionSettings(Settings):
-    """How priorities change.
+    """Priority change.
 
     Attributes:
-        duration: Time in s from the trigger until the new arrangement acts alone.
+        duration: From trigger to the new arrangement alone in s.
     """
 
     duration: float = number(0.2, "s", 0.0, 10.0)
 
 
 def smooth_share(elapsed: float, duration: float) -> float:
-    """1 - chi of T 3.46 (corrected): a sigmoid that is 0 until the trigger and 1 from the end on.
+    """1 - chi of T 3.46 (corrected): sigmoid, 0 until the trigger, 1 from the end.
 
     Args:
-        elapsed: Time since the trigger in s.
-        duration: Duration of the change in s; 0 for a jump.
+        elapsed: Since the trigger in s.
+        duration: Of the change in s; 0 jumps.
 
     Returns:
-        Share of the new, 0 to 1.
+        New one's share, 0 to 1.
 
     Example:
         >>> [round(smooth_share(t, 0.2), 3) for t in (-1.0, 0.0, 0.05, 0.1, 0.2)]
@@ -52,10 +52,10 @@ def smooth_share(elapsed: float, duration: float) -> float:
 
 
 class PriorityTransition:
-    """Blends torques while priorities change; continuous also when a change begins before the last ended.
+    """Blends torques in priority changes; continuous even for overlapping ones.
 
     Args:
-        settings: Duration of a change.
+        settings: A change's duration.
     """
 
     def __init__(self, settings: TransitionSettings | None = None) -> None:
@@ -65,7 +65,7 @@ class PriorityTransition:
         self._began = -math.inf
 
     def begin(self, time: float) -> None:
-        """Trigger a change at a time in s: the last output is held, and fades (tau_(k-1) of T 3.45)."""
+        """Trigger a change at a time in s: the last output is held and fades (tau_(k-1) of T 3.45)."""
         if self._last is not None:
             self._held, self._began = self._last, time
 
@@ -73,11 +73,11 @@ class PriorityTransition:
         """tau = chi tau_(k-1) + (1 - chi) tau_k (T 3.45).
 
         Args:
-            torque: Torque (k,) of the current arrangement in N m or N.
-            time: Time in s.
+            torque: Current arrangement's (k,) in N m or N.
+            time: In s.
 
         Returns:
-            Output torque (k,): the argument itself without a change.
+            Output (k,): the argument itself without a change.
         """
         share = smooth_share(time - self._began, self.settings.duration)
         if self._held is None or share >= 1.0:

@@ -1,1 +1,1 @@
-"""Tasks, one a file: each gives its Jacobian and the force or acceleration along it."""
+"""Tasks, one a file: Jacobian, and force or acceleration."""

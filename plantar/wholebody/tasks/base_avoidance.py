@@ -1,4 +1,4 @@
-"""A mobile base avoids the obstacles of its distance sensors (A 15-17)."""
+"""A mobile base avoids its distance sensors' obstacles (A 15-17)."""
 
 from __future__ import annotations
 
@@ -18,9 +18,8 @@ class AvoidanceField(Settings):
     """The repulsive field (A 16).
 
     Attributes:
-        force: f_max: force at distance 0, and the largest of all obstacles together: more than the drives have would
-            disturb higher priorities.
-        decay: alpha: distance over which it falls to 37 %.
+        force: f_max at distance 0, and of all obstacles together: more than the drives have disturbs higher priorities.
+        decay: alpha: distance to 37 %.
         reach: Distance from which it is 0.
     """
 
@@ -30,17 +29,17 @@ class AvoidanceField(Settings):
 
 
 class BaseAvoidance(Task):
-    """Pushes the base away from each obstacle by f_max exp(-d / alpha) (A 15-16; the push points from it to the base).
+    """Pushes the base from each obstacle by f_max exp(-d / alpha) (A 15-16; from it to the base).
 
     Args:
-        link: The base; its frame's x and y span the ground.
-        half_size: Half lengths (x, y) of its rectangular footprint in m.
+        link: The base; its x and y span the ground.
+        half_size: Half lengths (x, y) of its rectangle in m.
 
     Attributes:
-        obstacles: Nearest points (m, 2) of the obstacles in the base's frame in m, as its sensors give them.
+        obstacles: Obstacles' nearest points (m, 2), base frame, in m, by its sensors.
 
     Raises:
-        InputError: If a half length is not above 0.
+        InputError: Half length not positive.
     """
 
     def __init__(self, link: str, half_size: tuple[float, float], field: AvoidanceField | None = None) -> None:

@@ -1,4 +1,4 @@
-"""Pose of a link, or its position or orientation alone (T 3.39, 3.42-3.44, A 4)."""
+"""A link's pose, position or orientation (T 3.39, 3.42-3.44, A 4)."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ _ROWS = {"pose": slice(0, 6), "position": slice(0, 3), "orientation": slice(3, 6
 
 
 class PoseGains(Settings):
-    """How a pose is held. With stiffness k and damping d critical damping is d = 2 sqrt(k).
+    """Gains of holding a pose; critical damping is d = 2 sqrt(k).
 
     Attributes:
-        stiffness: K of A 4 for the position, for a unit mass.
-        damping: D of A 4 for the position.
-        turn_stiffness: K for the orientation, for a unit inertia.
-        turn_damping: D for the orientation.
-        speed: V_max of T 3.44: speed at which a far target is approached.
+        stiffness: K of A 4 for position, unit mass.
+        damping: D of A 4 for position.
+        turn_stiffness: K for orientation, unit inertia.
+        turn_damping: D for orientation.
+        speed: V_max of T 3.44 towards a far target.
     """
 
     stiffness: float = number(100.0, "1/s^2", 0, 1e6)
@@ -38,16 +38,16 @@ class PoseGains(Settings):
 
 
 class CartesianPose(Task):
-    """Draws a point of a link to its target, its speed bounded: x''* = x''_d + K e + D (x'_d - x') (A 4, T 3.42-3.44).
+    """Draws a link's point to its target at bounded speed: x''* = x''_d + K e + D (x'_d - x') (A 4, T 3.42-3.44).
 
     Args:
-        point: Point (3,) in the link's frame in m; its origin if None.
-        rows: Which of position and orientation is held.
+        point: (3,), link frame, in m; None for its origin.
+        rows: Position, orientation or both.
 
     Attributes:
-        target_position: Wanted position (3,) in the world in m; the first one until set.
-        target_rotation: Wanted rotation (3, 3) to the world; likewise.
-        target_velocity: Wanted linear velocity (3,) in m/s; `target_acceleration` in m/s^2.
+        target_position: Wanted (3,), world frame, in m; the first one until set.
+        target_rotation: Wanted (3, 3) to the world; likewise.
+        target_velocity: Wanted linear (3,) in m/s; `target_acceleration` in m/s^2.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class CartesianPose(Task):
         self._rows = _ROWS[rows]
 
     def position_error(self, robot: RobotDynamics) -> NDArray[np.float64]:
-        """Distance (3,) to the target position in m in the world; zeros without a target."""
+        """To the target position (3,), world frame, in m; zeros without."""
         if self.target_position is None:
             return np.zeros(3)
         return self.target_position - self._place(robot)[0]

@@ -18,13 +18,13 @@ class CenterOfMass(Task):
     """Draws the center of mass to its target: x''* = K (x_d - x) + D (x'_d - x') (T 3.25 corrected, A 4).
 
     Args:
-        target: Wanted position (3,) in the world in m.
+        target: Wanted (3,), world frame, in m.
         stiffness: K in 1/s^2.
         damping: D in 1/s; critical if None.
-        axes: Which of x, y and z are held.
+        axes: Held of x, y, z.
 
     Attributes:
-        target_velocity: Wanted velocity (3,) in m/s.
+        target_velocity: Wanted (3,) in m/s.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""A wrist that turns a patch of skin to the surface by bringing its moment to zero (A 10)."""
+"""A wrist turns a skin patch to the surface by zeroing its moment (A 10)."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ __all__ = ["CompliantWrist", "WristGains"]
 
 
 class WristGains(Settings):
-    """How the wrist yields (A 10).
+    """Wrist's yielding (A 10).
 
     Attributes:
         inertia: Lambda_2.
         damping: D_2.
         gain: K_2 on the moment.
-        proximity_stiffness: Force of a metre by which a taxel is nearer than its range.
+        proximity_stiffness: Force per metre a taxel is nearer than its range.
     """
 
     inertia: float = number(0.02, "kg m^2", 1e-6, 1e3)
@@ -31,15 +31,15 @@ class WristGains(Settings):
 
 
 class CompliantWrist(Task):
-    """omega'* = (K Gamma - D omega) / Lambda with the moment Gamma on the patch about its middle (A 10 corrected).
+    """omega'* = (K Gamma - D omega) / Lambda, Gamma the patch's moment about its middle (A 10 corrected).
 
     Args:
-        patch: Name of the patch; an InputError if unknown.
-        point: Its middle (3,) in its link's frame in m.
+        patch: By name; InputError if unknown.
+        point: Its middle (3,), link frame, in m.
 
     Attributes:
         weight: w of A 6: 0 for proximity, 1 for force.
-        moment: Gamma (3,) of the last demand in the link's frame in N m.
+        moment: Last demand's Gamma (3,), link frame, in N m.
     """
 
     def __init__(self, skin: BodySkin, patch: str, point: NDArray[np.float64], gains: WristGains | None = None) -> None:

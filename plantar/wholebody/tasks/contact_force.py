@@ -1,4 +1,4 @@
-"""Force on a surface, or distance from it, along the normal of a patch of skin (A 5-9)."""
+"""Force on, or distance from, a surface along a skin patch's normal (A 5-9)."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ _FELT = 0.3
 
 
 class ContactGains(Settings):
-    """How force and distance are controlled (A 9). On a surface of stiffness k_c the loop has the natural frequency
-    sqrt(gain k_c / inertia) and is critically damped by damping = 2 sqrt(gain k_c inertia).
+    """Force and distance control (A 9). On stiffness k_c: natural frequency sqrt(gain k_c / inertia), critical damping
+    = 2 sqrt(gain k_c inertia).
 
     Attributes:
-        inertia: Lambda_1: apparent mass of the hand along the normal.
+        inertia: Lambda_1: hand's apparent mass along the normal.
         damping: D_1.
-        gain: K_1 on the error of the force.
-        integral: Rate at which a lasting error is corrected; 0 for none.
-        distance_stiffness: Force of a metre of distance too much, in place of the error of the force.
-        free_damping: Damping without contact, if more than D_1; all gains grow with it, so that errors of the robot's
-            mass matter less at the same speeds.
+        gain: K_1 on the force error.
+        integral: Correction rate of a lasting error; 0 for none.
+        distance_stiffness: Force per metre of excess distance, in place of the force error.
+        free_damping: Damping without contact, if above D_1; all gains grow with it, so that mass errors matter less at
+            equal speeds.
     """
 
     inertia: float = number(2.0, "kg", 1e-3, 1e3)
@@ -39,18 +39,18 @@ class ContactGains(Settings):
 
 
 class ContactForce(Task):
-    """x''* = (K (w (f_d - f_c) + (1 - w) k (d - d_d)) - D x') / Lambda along the outward normal of a patch (A 6, 9).
+    """x''* = (K (w (f_d - f_c) + (1 - w) k (d - d_d)) - D x') / Lambda along a patch's outward normal (A 6, 9).
 
     Args:
-        patch: Name of the patch that touches; an InputError if unknown.
-        point: Middle (3,) of the patch in its link's frame in m.
-        normal: Direction (3,) out of the body in the link's frame: h_z of A.
+        patch: Touching one by name; InputError if unknown.
+        point: Its middle (3,), link frame, in m.
+        normal: Out of the body (3,), link frame: h_z of A.
 
     Attributes:
-        weight: w of A 6: 0 holds the distance, 1 the force.
-        target_force: f_d in N; `force` f_c of the last demand.
-        target_distance: d_d in m; `distance` the mean of the taxels in range in the last demand, inf without.
-        approach_speed: Speed in m/s without contact: the error is bounded to D v / K. Infinite at first.
+        weight: w of A 6: 0 for distance, 1 for force.
+        target_force: f_d in N; `force` the last demand's f_c.
+        target_distance: d_d in m; `distance` the last demand's mean of taxels in range, inf without.
+        approach_speed: Speed in m/s without contact: the error is bounded to D v / K; infinite at first.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""A given force at a point of the robot (T 3.4, 3.29)."""
+"""Given force at a point (T 3.4, 3.29)."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ class PointForce(Task):
     """Applies a force: tau = J_p^T f (T 3.29).
 
     Args:
-        link: Link on which it acts.
-        point: Point (3,) in the link's frame in m.
+        link: Its link.
+        point: (3,), link frame, in m.
 
     Attributes:
-        force: The force (3,) in the world frame in N; no demand while None or 0.
+        force: (3,), world frame, in N; None or 0 for no demand.
     """
 
     def __init__(self, link: str, point: NDArray[np.float64]) -> None:
@@ -34,11 +34,11 @@ class PointForce(Task):
 
 
 class AlongForce(Task):
-    """Applies the wrenches of another task with one row a link in place of six, so that lower tasks may slide along.
+    """Another task's wrenches with one row a link, not six, so that lower tasks can slide along.
 
     Args:
-        task: The task, whose demand holds six rows for each link.
-        damping: Force in N for each m/s of the motion along the push, either way.
+        task: Its demand has six rows a link.
+        damping: Force in N per m/s along the push, either way.
     """
 
     def __init__(self, task: Task, damping: float = 0.0) -> None:

@@ -1,4 +1,4 @@
-"""A posture of the joints, for the remaining freedom (T 3.2.5.1, A 18)."""
+"""Joint posture, for the remaining freedom (T 3.2.5.1, A 18)."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ __all__ = ["BodyCompliance", "Posture"]
 
 
 class Posture(Task):
-    """Draws joints to a posture: as accelerations q''* = K (q_d - q) + D (q'_d - q'), or as such torques (A 18).
+    """Draws joints to a posture: accelerations q''* = K (q_d - q) + D (q'_d - q'), or such torques (A 18).
 
     Args:
-        target: Wanted joint positions (k,) in rad or m, in the order of `RobotDynamics.joints`.
+        target: Wanted (k,) in rad or m, `RobotDynamics.joints` order.
         stiffness: K, one or (k,): in 1/s^2, with `torques` in N m/rad.
-        damping: D likewise; critical for accelerations if None.
-        joints: Indices of the held joints; all if None.
-        torques: Whether it asks for torques, which add to others of its level.
+        damping: D likewise; None for critical, of accelerations.
+        joints: Held ones' indices; None for all.
+        torques: Whether it asks for torques, which add in its level.
 
     Attributes:
-        target_velocity: Wanted joint velocities q'_d (k,) in rad/s or m/s, 0 at first.
+        target_velocity: Wanted q'_d (k,) in rad/s or m/s, 0 at first.
     """
 
     def __init__(
@@ -56,11 +56,11 @@ class Posture(Task):
 
 
 class BodyCompliance(Task):
-    """tau_c = K (q_d - q) - D q' + tau_skin + tau_oca (A 18 corrected: the body yields to a push).
+    """tau_c = K (q_d - q) - D q' + tau_skin + tau_oca (A 18 corrected: yields to pushes).
 
     Args:
-        posture: The posture, of torques.
-        yields: Tasks that ask for forces: `DirectInteraction` for A 14, `BaseAvoidance` for A 15.
+        posture: Of torques.
+        yields: Force tasks: `DirectInteraction` for A 14, `BaseAvoidance` for A 15.
     """
 
     def __init__(self, posture: Posture, *yields: Task) -> None:

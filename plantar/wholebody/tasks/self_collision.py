@@ -1,4 +1,4 @@
-"""Links avoid each other (T 3.2.3.1): a repulsive field between spheres on them."""
+"""Links avoid each other (T 3.2.3.1): repulsive field between spheres."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class Sphere(NamedTuple):
     """A sphere on a link.
 
     Attributes:
-        center: Centre (3,) in the link's frame in m.
-        radius: Radius in m.
+        center: (3,), link frame, in m.
+        radius: In m.
     """
 
     link: str
@@ -30,13 +30,13 @@ class Sphere(NamedTuple):
 
 
 class SelfCollision(Task):
-    """Pushes two spheres apart along the line of their centers, one row for each near pair.
+    """Pushes spheres apart along their centers' line, a row a near pair.
 
     Args:
-        pairs: Pairs of spheres that must not meet.
-        margin: Gap in m from which a pair is pushed apart; an InputError unless above 0.
-        stiffness: Force in N a metre that the gap is smaller.
-        damping: Force in N a m/s at which the gap closes.
+        pairs: Of spheres that must not meet.
+        margin: Gap in m from which pairs are pushed; InputError unless above 0.
+        stiffness: Force in N per metre of missing gap.
+        damping: Force in N per m/s of closing.
     """
 
     def __init__(

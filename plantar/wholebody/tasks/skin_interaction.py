@@ -1,4 +1,4 @@
-"""Common part of interactions with skin: a force along z of every active taxel, summed by link (T 3.14-3.24)."""
+"""Skin interactions: force along z of active taxels, summed by link (T 3.14-3.24)."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ __all__ = [
 
 
 class SkinInteraction(Task):
-    """Yields to forces on taxels: tau = sum J^T E w over the links that have an active one (T 3.22-3.24).
+    """Yields to taxel forces: tau = sum J^T E w over links with active ones (T 3.22-3.24).
 
     Args:
-        patches: Names of the patches that count; all if None; an InputError for an unknown one.
+        patches: Names that count; None for all; InputError if unknown.
 
     Attributes:
-        counted: Mask (N,) of the taxels that count.
-        damping: Damping (2,) of each link that yields: of its origin in N s/m and of its turning in N m s/rad; none by
-            default. The owner of a link's motion has to damp it.
+        counted: Mask (N,) of counting taxels.
+        damping: (2,) of each yielding link: origin in N s/m, turning in N m s/rad; none by default. A link's motion
+            owner has to damp it.
     """
 
     def __init__(self, skin: BodySkin, patches: Sequence[str] | None = None) -> None:
@@ -39,11 +39,11 @@ class SkinInteraction(Task):
         self.damping = (0.0, 0.0)
 
     def signal(self, skin: SkinReading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-        """Force (N,) along each taxel's z in N, and the active taxels (N,), without NaN."""
+        """Force (N,) along taxels' z in N, and active taxels (N,), without NaN."""
         raise NotImplementedError
 
     def wrenches(self, skin: SkinReading) -> list[LinkWrench]:
-        """Wrench of each link that has an active taxel, about its origin in its frame (T 3.18)."""
+        """Wrench of each link with active taxels, about its origin, own frame (T 3.18)."""
         return link_wrenches(self.skin, *self.signal(skin))
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
@@ -55,11 +55,11 @@ class SkinInteraction(Task):
 
 
 class DirectInteraction(SkinInteraction):
-    """Yields to gain times the force on every taxel at its threshold or above (T 3.23).
+    """Yields to gain times force of taxels at threshold (T 3.23).
 
     Args:
-        gain: Factor on the measured force; 1 acts as on a robot without friction or gears.
-        patches: Names of the patches that count; all if None.
+        gain: On the measured force; 1 acts as without friction or gears.
+        patches: Names that count; None for all.
     """
 
     def __init__(self, skin: BodySkin, gain: float = 1.0, patches: Sequence[str] | None = None) -> None:
@@ -82,8 +82,8 @@ class PressureInteraction(DirectInteraction):
     """Yields to w_P = xi / (sum of active areas) w_f on each link (T 3.27).
 
     Args:
-        sensitivity: xi in m^2: the area with unchanged force.
-        patches: Names of the patches that count; all if None.
+        sensitivity: xi in m^2: area of unchanged force.
+        patches: Names that count; None for all.
     """
 
     def __init__(self, skin: BodySkin, sensitivity: float, patches: Sequence[str] | None = None) -> None:
@@ -91,22 +91,22 @@ class PressureInteraction(DirectInteraction):
         self.sensitivity = sensitivity
 
     def wrenches(self, skin: SkinReading) -> list[LinkWrench]:
-        """The amplified wrench w_P of each touched link, in its frame (T 3.26-3.27)."""
+        """Amplified wrench w_P of each touched link, own frame (T 3.26-3.27)."""
         found = super().wrenches(skin)
         areas = [float(self.skin.areas[w.taxels].sum()) for w in found]
         return [w._replace(wrench=self.sensitivity / a * w.wrench) for w, a in zip(found, areas, strict=True)]
 
 
 class ProximityInteraction(SkinInteraction):
-    """Yields to f_i = k (d_range - d_i) of every taxel in range (T 3.30 corrected: along +z, into the body).
+    """Yields to f_i = k (d_range - d_i) of taxels in range (T 3.30 corrected: along +z, into the body).
 
     Args:
-        stiffness: k_prox of one taxel in N/m.
-        sensing_range: d_range in m, at most the patches' own; theirs if None. May be changed at any time.
-        patches: Names of the patches that count; all if None.
+        stiffness: A taxel's k_prox in N/m.
+        sensing_range: d_range in m, at most the patches'; None for theirs. Changeable at any time.
+        patches: Names that count; None for all.
 
     Raises:
-        InputError: If a patch is unknown, or the range is not above 0.
+        InputError: Unknown patch, range not positive.
     """
 
     def __init__(
@@ -129,12 +129,12 @@ class ProximityInteraction(SkinInteraction):
 
 
 class TemperatureInteraction(SkinInteraction):
-    """Yields to kappa_i = gain (T_i - kappa_0) of every taxel at its threshold or above (T 3.34-3.35).
+    """Yields to kappa_i = gain (T_i - kappa_0) of taxels at threshold (T 3.34-3.35).
 
     Args:
-        gain: Force of one taxel in N a kelvin above the threshold.
+        gain: A taxel's N per kelvin above threshold.
         threshold: kappa_0 in degC.
-        patches: Names of the patches that count; all if None.
+        patches: Names that count; None for all.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""The contacts that support a robot with a free base (T 3.12-3.13)."""
+"""Contacts that support a free base (T 3.12-3.13)."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ _POINT = Rectangle(0.0, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Standing:
-    """A contact that does not move: a link's point, and how much of its motion the ground blocks.
+    """An unmoving contact: a link's point, and what the ground blocks.
 
     Attributes:
-        point: Point (3,) in the link's frame in m, best where the force should be.
-        flat: Whether it blocks the link's turning too, unlike a point contact.
-        area: Carrying area about the point in m, for the distribution of forces.
-        rotation: Rotation (3, 3) from the contact's frame, whose z points into the body, to the link's; None for none.
+        point: (3,), link frame, in m, best where the force should be.
+        flat: Whether turning is blocked too, unlike point contacts.
+        area: Carrying area about the point in m, for force distribution.
+        rotation: Contact (z into the body) to link frame (3, 3); None for none.
         friction: Coefficient of friction, likewise.
     """
 
@@ -41,15 +41,15 @@ class Standing:
 
     @property
     def rows(self) -> int:
-        """Number of its rows in a support."""
+        """Its rows in a support."""
         return 6 if self.flat else 3
 
 
 class Support(Task):
-    """Keeps contacts at rest: J_s q'' + J_s' q' = 0, above all other tasks (T 3.13).
+    """Keeps contacts at rest: J_s q'' + J_s' q' = 0, above all tasks (T 3.13).
 
     Args:
-        contacts: Contacts by name, such as the feet; may be assigned again; an InputError for none.
+        contacts: By name, such as the feet; assignable; InputError if empty.
     """
 
     def __init__(self, contacts: Mapping[str, Standing]) -> None:

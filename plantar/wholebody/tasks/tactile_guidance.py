@@ -1,6 +1,4 @@
-"""Guidance of the hand by touches on the arm (A 11-12); it keeps its place without them, and stays where the arm is
-bent.
-"""
+"""Touches on the arm guide the hand (A 11-12), which stays where the arm is bent."""
 
 from __future__ import annotations
 
@@ -26,14 +24,14 @@ the share s leaves the elbow l sqrt(1 - s^2) of lever along the arm, a half of l
 
 
 class GuidanceGains(Settings):
-    """How the hand follows (A 12), and how it rests.
+    """Hand's following (A 12) and resting.
 
     Attributes:
-        inertia: Lambda_3: apparent mass of the hand.
+        inertia: Lambda_3: hand's apparent mass.
         damping: D_3.
-        gain: K_3 on the forces on the arm.
-        stiffness: Stiffness with which the hand keeps its place without touch; 0 as in A, where errors of the arm's
-            weight make it drift. Critical is D_3^2 / (4 Lambda_3).
+        gain: K_3 on arm forces.
+        stiffness: Hand's hold without touch; 0 as in A, where arm weight errors cause drift. Critical is D_3^2 / (4
+            Lambda_3).
         slack: Length beyond which that spring slips.
     """
 
@@ -45,18 +43,17 @@ class GuidanceGains(Settings):
 
 
 class TactileGuidance(Task):
-    """x''* = (K F_arm + k s - D x') / Lambda of the hand, F_arm the force on the arm (A 11, A 12 corrected).
+    """Hand's x''* = (K F_arm + k s - D x') / Lambda, F_arm the force on the arm (A 11, A 12 corrected).
 
-    The spring k is stretched by s, from the hand to its resting place, which a touch carries along.
+    The spring k spans s, from hand to resting place, which a touch carries along.
 
     Args:
-        patches: Names of the patches on the arm.
-        point: Point (3,) in its frame in m.
-        arm: Three or more links from the shoulder to the wrist; the hand is not guided beyond a straight arm. None for
-            no such end.
+        patches: Names on the arm.
+        point: (3,), own frame, in m.
+        arm: Three or more links, shoulder to wrist, at whose straight arm guidance ends; None for no such end.
 
     Raises:
-        InputError: If a patch is unknown, or an arm has less than three links.
+        InputError: Unknown patch, arm too short.
     """
 
     def __init__(
@@ -88,7 +85,7 @@ class TactileGuidance(Task):
         return Demand(jacobian, acceleration=wanted, drift=robot.drift(self._link, self._point)[:3])
 
     def _within_reach(self, robot: RobotDynamics, force: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The force (3,) without the part that would stretch a straight arm."""
+        """Force (3,) without the part that stretches a straight arm."""
         if self._arm is None:
             return force
         joints = [robot.pose(link)[0] for link in self._arm]
@@ -103,7 +100,7 @@ class TactileGuidance(Task):
         return force - (1.0 - share) * outward / apart**2 * along
 
     def _kept(self, robot: RobotDynamics, touched: bool) -> NDArray[np.float64]:
-        """The stretch (3,) in m from the hand to its resting place."""
+        """Stretch (3,) in m from hand to resting place."""
         origin, rotation = robot.pose(self._link)
         place = origin + rotation @ self._point
         if self._last is not None and not touched:

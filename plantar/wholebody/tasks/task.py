@@ -1,4 +1,4 @@
-"""The interface of a task: a Jacobian, and the force or acceleration along its rows."""
+"""Interface of tasks: Jacobian, and force or acceleration along it."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ __all__ = ["Demand", "Task", "wrench_demand"]
 
 
 class Demand(NamedTuple):
-    """A task's demand at one instant: a force, or an acceleration with its drift.
+    """A task's demand now: a force, or an acceleration with drift.
 
     Attributes:
-        jacobian: J (m, n) of the task (T 3.2, A 2).
-        force: Force f (m,) along its rows, which acts as tau = J^T f (T 3.4), in N, N m.
-        acceleration: Reference acceleration x''* (m,) (A 4-5), in m/s^2, rad/s^2.
-        drift: J' q' (m,) of A 3, with an acceleration.
+        jacobian: Task's J (m, n) (T 3.2, A 2).
+        force: f (m,) along its rows, tau = J^T f (T 3.4), in N, N m.
+        acceleration: Reference x''* (m,) (A 4-5), in m/s^2, rad/s^2.
+        drift: J' q' (m,) of A 3, with acceleration.
     """
 
     jacobian: NDArray[np.float64]
@@ -31,14 +31,14 @@ class Demand(NamedTuple):
 
 
 class Task(Protocol):
-    """A task. A new one is one new file with one class."""
+    """A task; new ones are one file, one class."""
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
-        """The current demand; None for none, which saves its computation (T 3.24).
+        """Current demand; None saves its computation (T 3.24).
 
         Args:
-            robot: Kinematics and dynamics of this instant.
-            skin: The latest reading; None for a robot without skin.
+            robot: Its dynamics now.
+            skin: Latest reading; None without skin.
 
         Returns:
             The demand.
@@ -46,14 +46,14 @@ class Task(Protocol):
 
 
 def wrench_demand(robot: RobotDynamics, wrenches: Sequence[LinkWrench]) -> Demand | None:
-    """Apply wrenches to links: tau = J^T E w, all links' rows in one demand (T 3.20-3.22, 3.24).
+    """Apply wrenches to links: tau = J^T E w, all rows in one demand (T 3.20-3.22, 3.24).
 
     Args:
         robot: The robot.
-        wrenches: Wrench on each link; no demand without any.
+        wrenches: Each link's; none for no demand.
 
     Returns:
-        The demand, in the world frame about each link's origin.
+        World frame, about each link's origin.
     """
     if not wrenches:
         return None
