@@ -57,7 +57,7 @@ class RobotDynamics(Protocol):
         """
 
     def drift(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """J' q' (6,) of `link` and `point` as in `jacobian`: acceleration at q'' = 0, in m/s^2 and rad/s^2."""
+        """Returns J' q' (6,) of a `link` and `point` (`jacobian`) in m/s^2, rad/s^2: acceleration at q'' = 0."""
 
     def com(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Center of mass: position (3,) in m, Jacobian (3, n) and drift (3,) in m/s^2."""

@@ -1,4 +1,4 @@
-"""Where an ankle bears the robot: a center of pressure at x takes torque m g x."""
+"""Where an ankle bears the robot: a center of pressure x ahead takes torque m g x."""
 
 from __future__ import annotations
 

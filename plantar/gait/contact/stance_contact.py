@@ -179,7 +179,7 @@ class StanceContact:
             self._remembered = kept
 
     def update_view(self, reading: Reading) -> None:
-        """Add a descending foot's view; ignored without proximity."""
+        """Add a descending foot's view; a `reading` without proximity is ignored."""
         distance = reading.proximity
         if distance is None or reading.time <= self._seen_time:
             return

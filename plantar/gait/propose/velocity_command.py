@@ -120,8 +120,7 @@ class Legs:
     inner: float = 0.07
 
     def room(self, out: float) -> float:
-        """Extra width in m for a foot turned out, or in, by an angle in rad, keeping heel or toe at the inner edge's
-        distance.
+        """Extra width in m for a foot turned out, or in, by an angle in rad, so that heel or toe keep clear.
 
         Example:
             >>> legs = Legs(0.17, 0.8, heel=0.09, toe=0.13, inner=0.06)

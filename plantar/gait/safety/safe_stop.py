@@ -40,7 +40,7 @@ class SafeStop:
         self._height: float | None = None
 
     def after(self, last: Command, state: str | None) -> Command:
-        """Returns the command after `last`: "fallen" goes limp, "blind" and "lost" sit, others hold."""
+        """Returns the command after `last` in a `state`: "fallen" goes limp, "blind" and "lost" sit, others hold."""
         last = last.changed(footholds=(), moved_steps=())
         if state == "fallen":
             return self._limped(last)

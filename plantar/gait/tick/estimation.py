@@ -95,7 +95,7 @@ class Estimation:
         return found if self.body is None else {**found, **self.body.summary()}
 
     def sense(self, sensors: Sensors, phase: Phase) -> Sensed:
-        """Returns what soles and ankles measure in a phase, taxel forces clipped at their limit."""
+        """Returns what `sensors` of soles and ankles measure in a phase, taxel forces clipped at their limit."""
         readings, layouts = sensors.readings, self._layouts
         percepts: dict[Side, Percept] = {
             "left": percept_to_its_limit(readings["left"], layouts["left"]),

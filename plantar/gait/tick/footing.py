@@ -212,7 +212,7 @@ class Footing:
         return tick, region
 
     def zmp_region(self, phase: Phase, feet: FeetView) -> NDArray[np.float64]:
-        """Returns the desired ZMP's region: polygon (k, 2), world frame, in m."""
+        """Returns the desired ZMP's region in a phase with such feet: polygon (k, 2), world frame, in m."""
         margin = 0.0 if self._regulates else self._settings.balance.zmp_offset  # f(c) S is a share of the whole S
         return self.contacts.zmp_region(phase, feet, self.frame.offset, margin)
 

@@ -86,7 +86,7 @@ def null_space_torques(
 ) -> Fused:
     """Sum of task torques, each in higher ones' null space (T 3.8, 3.11, 3.13).
 
-    `robot`, `levels`, `support`, `external` and result as in `plantar.wholebody.fusion.hierarchy.fuse`.
+    `robot`, `levels`, `support` and `external` as in `plantar.wholebody.fusion.hierarchy.fuse`; returns the same.
 
     Args:
         projection: How higher tasks count.
@@ -122,7 +122,7 @@ def weighted_sum(
 ) -> Fused:
     """tau = sum W_i tau_i (T 3.6): tasks disturb each other, below the support (T 3.13).
 
-    `robot`, `levels`, `support`, `external` and result as in `plantar.wholebody.fusion.hierarchy.fuse`.
+    `robot`, `levels`, `support` and `external` as in `plantar.wholebody.fusion.hierarchy.fuse`; returns the same.
 
     Args:
         weights: Each level's: a number or (n,); None for 1.

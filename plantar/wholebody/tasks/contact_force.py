@@ -17,8 +17,9 @@ _FELT = 0.3
 
 
 class ContactGains(Settings):
-    """Force and distance control (A 9). On stiffness k_c: natural frequency sqrt(gain k_c / inertia), critical damping
-    = 2 sqrt(gain k_c inertia).
+    """Force and distance control (A 9).
+
+    On stiffness k_c: natural frequency sqrt(gain k_c / inertia), critical damping = 2 sqrt(gain k_c inertia).
 
     Attributes:
         inertia: Lambda_1: hand's apparent mass along the normal.
