@@ -1,4 +1,4 @@
-"""Activity of a recording (walking, running or standing), and the sway of a standing body."""
+"""Activity of a recording, and sway in standing."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Activity:
     Attributes:
         name: "walking", "running", "standing", "walking up stairs", "walking down stairs", "toe walking", "walking
             without heel strike" (stairs up, a slope or a forefoot gait: not known which), "hopping" or "unknown".
-        why: The reason.
+        why: Reason.
     """
 
     name: str
@@ -58,11 +58,10 @@ class Activity:
 
 
 def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
-    """Returns the activity of a recording with these feet.
+    """Returns activity of a recording with these feet.
 
-    A foot that lands on its front and then lets the heel down walks down stairs; one whose heel never carries walks on
-    its toes; one that lands in front of its heel and pushes off strongly walks up stairs. Ramps and turns count as
-    walking.
+    Landing on the front, then lowering the heel: down stairs; a heel that never carries: on the toes; landing in front
+    of the heel with strong push-off: up stairs. Ramps and turns count as walking.
     """
     if any(step.activity == "hopping" for gait in feet.values() for step in gait.used or gait.steps):
         return Activity("hopping", "both feet land and lift together")
@@ -71,7 +70,7 @@ def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
 
 def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
-    """Returns warnings about feet of a recording that roll from toes to heel, or that were not recorded at one time."""
+    """Returns warnings about feet of a recording that roll from toes to heel, or were recorded at different times."""
     out = []
     if _out_of_step(feet):
         out.append(
@@ -91,7 +90,7 @@ def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGai
 
 
 def _out_of_step(feet: Mapping[Side, FootGait]) -> bool:
-    """Whether both feet seem to fly though each stands for more than half of its stride: their clocks disagree."""
+    """Whether both feet seem to fly though each stands over half its stride: clocks disagree."""
     if len(feet) < 2:
         return False
     known = {
@@ -105,7 +104,7 @@ def _out_of_step(feet: Mapping[Side, FootGait]) -> bool:
 
 
 def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
-    """CoP at landing, at lift-off and hindmost, in shares of the sole (steps, 3)."""
+    """CoP at landing, lift-off and hindmost, in shares of the sole (steps, 3)."""
     layout, cop = gait.foot.layout, gait.cop
     if layout is None or cop is None or recording.kind not in ("insole", "robot"):
         return np.zeros((0, 3))
@@ -138,7 +137,7 @@ def _by_landing(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
 
 def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activity:
-    """Activity of steps that land in front of the heel: up stairs where forces and times agree."""
+    """Activity of landings in front of the heel: up stairs where forces and times agree."""
     rows = [[s["second_peak_N"] / s["first_peak_N"], s["stance_percent"]] for g in feet.values() for s in g.used]
     known = [[v for v in column if np.isfinite(v)] for column in zip(*rows, strict=True)]
     humps, stance = (float(np.median(v)) if v else float("nan") for v in known)
@@ -184,7 +183,7 @@ def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Ac
 
 
 def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:
-    """Whether a foot of a force (n,) repeatedly leaves the ground, next to a usual load in N."""
+    """Whether a foot's force (n,) repeatedly leaves the ground, next to a usual load in N."""
     known = force[np.isfinite(force)]
     peak = float(np.percentile(known, 99.0)) if len(known) else 0.0
     if not peak > _CARRIES * usual:
@@ -194,16 +193,16 @@ def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:
 
 
 def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
-    """Distance and speed of a centre of pressure in standing.
+    """Returns distance and speed of the CoP in standing, by key.
 
     Args:
         time: Times (n,) in s.
-        points: Positions (n, 2) forward and to the left in m, NaN where there is none.
+        points: Positions (n, 2) forward and to the left in m, NaN for none.
 
     Returns:
-        sway_ellipse_m2 (95 % prediction ellipse, pi times 5.99 times the root of the covariance's determinant; Schubert
-        & Kirchner 2014, Gait Posture 39:518), sway_path_m (see `chords`), sway_velocity_m_s, sway_ap_m and sway_ml_m
-        (standard deviations). Empty for less than 5 s.
+        sway_ellipse_m2 (95 % prediction ellipse: 5.99 pi times the root of the covariance's determinant; Schubert &
+        Kirchner 2014, Gait Posture 39:518), sway_path_m (see `chords`), sway_velocity_m_s, sway_ap_m and sway_ml_m
+        (standard deviations). Empty below 5 s.
 
     Example:
         >>> t = np.linspace(0.0, 10.0, 1001)

@@ -1,4 +1,4 @@
-"""The entry point of gait analysis: `analyse` measures any form of a recording."""
+"""Entry point of gait analysis."""
 
 from __future__ import annotations
 
@@ -33,24 +33,24 @@ def analyse(
     """Measure a recording in any form; no file is written.
 
     Args:
-        given: Path of a file; a folder of recordings (a study); a `PressureRecording`; an array (n, k) of n frames and
-            k cells, or a mapping of arrays "left", "right" and "time"; a data frame with a column a cell.
-        format: Name of a file's format; recognised from its content where None.
-        options: What else is known of the data; the three keywords below override it.
-        progress: Called with a fraction 0..1 and what is being done.
-        choices: Which steps are in the means, and which events are used.
-        subject: The person, as far as known.
-        layout: Where the cells are: a layout or the path of its file; mirrored for the other foot.
-        unit: Unit of the values, such as "kPa", "N" or "raw".
+        given: Path of a file; folder of recordings (a study); `PressureRecording`; array (n, k) of n frames and k
+            cells, or a mapping of arrays "left", "right" and "time"; data frame with a column a cell.
+        format: File format; recognised from content where None.
+        options: What else is known; the three keywords below override it.
+        progress: Called with a fraction 0..1 and the current work.
+        choices: Steps in the means, and events used.
+        subject: Person, if known.
+        layout: Layout or its file; mirrored for the other foot.
+        unit: Unit of values, such as "kPa", "N" or "raw".
         rate_hz: Frames a second.
 
     Returns:
-        The analysis: `.steps` (columns of every measure), `.to_pandas()`, `.report()`, `.metrics`, `.feet`; of a folder
-        a `Study` with the same first three.
+        Analysis: `.steps` (columns of every measure), `.to_pandas()`, `.report()`, `.metrics`, `.feet`; of a folder a
+        `Study` with the first three.
 
     Raises:
-        FormatError: If the data is no recording that can be read.
-        InputError: If an option does not fit the data.
+        FormatError: If unreadable.
+        InputError: If an option is unfit.
 
     Example:
         >>> import numpy as np

@@ -1,4 +1,4 @@
-"""Analysis of one recording: in memory, or from a file to its tables, figures and report."""
+"""Analysis of one recording, in memory or from file to report."""
 
 from __future__ import annotations
 
@@ -38,15 +38,15 @@ def analyse_one(
     choices: AnalysisOptions | None = None,
     subject: Subject | None = None,
 ) -> Analysis:
-    """Returns the analysis of one recording.
+    """Returns analysis of one recording.
 
     Args:
-        given: A recording in any form of `plantar.formats.given.recording_of`.
-        format: Name of a file's format; recognised from its content where None.
-        options: What else is known of the data.
-        progress: Called with a fraction 0..0.5 and what is being done.
-        choices: Which steps are in the means, and which events are used.
-        subject: The person. FormatError if the data is no recording that can be read.
+        given: Any form of `plantar.formats.given.recording_of`.
+        format: File format; recognised from content where None.
+        options: What else is known.
+        progress: Called with a fraction 0..0.5 and the current work.
+        choices: Steps in the means, and events used.
+        subject: Person. FormatError if unreadable.
     """
     report = progress or (lambda fraction, text: None)
     known = options or ReadOptions()
@@ -79,29 +79,28 @@ def analyse_recording(
     also: Callable[[Analysis, Path], None] | None = None,
     figures: bool = True,
 ) -> dict[str, Any]:
-    """Analyse a recording or a footprint image; write metrics.json, tables, figures (PNG and SVG) and report.html.
+    """Analyse a recording or footprint image; write metrics.json, tables, figures (PNG and SVG) and report.html.
 
     Args:
-        path: The recording or image.
-        out: Output folder, made if needed; nothing is left in it on an error.
-        format: Name of the file's format; recognised from its content where None.
-        layout: Layout file to use instead of the format's own geometry; mirrored for the other foot.
-        progress: Called with a fraction 0..1 and what is being done.
-        options: What else is known of the file.
-        mm_per_pixel: Size of an image's pixel in mm.
-        choices: Which steps are in the means, and which events are used; a recording's only.
-        subject: The person, as far as known.
-        also: Called with the analysis and the folder, to write more there; see
-            `plantar.gait.analysis.exports.exporter`.
-        figures: Whether a recording's figures and report.html are written.
+        path: Recording or image.
+        out: Output folder, made if needed; left empty on an error.
+        format: File format; recognised from content where None.
+        layout: Layout file in place of the format's own; mirrored for the other foot.
+        progress: Called with a fraction 0..1 and the current work.
+        options: What else is known.
+        mm_per_pixel: Of an image, in mm.
+        choices: Steps in the means, and events used; of recordings only.
+        subject: Person, if known.
+        also: Called with analysis and folder, to write more; see `plantar.gait.analysis.exports.exporter`.
+        figures: Whether figures and report.html are written.
 
     Returns:
-        What metrics.json holds, and "files": the paths written.
+        Contents of metrics.json, and "files": paths written.
 
     Raises:
-        FormatError: If the file is not a recording that can be read.
-        LayoutError: If the layout file is not valid.
-        InputError: If the folder cannot be written to, or an option does not fit the file.
+        FormatError: If unreadable.
+        LayoutError: If the layout is invalid.
+        InputError: If unwritable, or options unfit.
     """
     report = progress or (lambda fraction, text: None)
     report(0.0, "reading")
@@ -128,7 +127,7 @@ def analyse_recording(
 
 
 def with_layout(options: ReadOptions | None, layout: SoleLayout | str | os.PathLike[str] | None) -> ReadOptions:
-    """Returns the options with a layout, or the path of its file; LayoutError if that is not valid."""
+    """Returns options with a layout, or the path of its file; LayoutError if invalid."""
     options = options or ReadOptions()
     if layout is None:
         return options

@@ -1,4 +1,4 @@
-"""Two recordings side by side: left and right, before and after, a controller's feature on and off."""
+"""Two recordings side by side."""
 
 from __future__ import annotations
 
@@ -56,26 +56,25 @@ def compare_recordings(
     choices: AnalysisOptions | None = None,
     subject: Subject | None = None,
 ) -> dict[str, Any]:
-    """Analyse two recordings, write comparison.json, figures and report.html, and a folder "a" and "b" with each
-    analysis.
+    """Analyse two recordings; write comparison.json, figures, report.html, and folders "a" and "b" with each analysis.
 
     Args:
-        a: The first recording.
-        b: The second one.
+        a: First recording.
+        b: Second one.
         out: Output folder.
-        format: Name of both files' format; recognised from their content where None.
+        format: Format of both files; recognised from content where None.
         layout: Layout file for both.
-        progress: Called with a fraction 0..1 and what is being done.
-        options: What else is known of both files.
-        choices: Which steps are in the means, and which events are used.
-        subject: The person in both.
+        progress: Called with a fraction 0..1 and the current work.
+        options: What else is known of both.
+        choices: Steps in the means, and events used.
+        subject: Person in both.
 
     Returns:
-        "a" and "b": the metrics of each; "difference": `difference_of` each foot; "files": the paths written.
+        "a" and "b": metrics of each; "difference": `difference_of` each foot; "files": paths written.
 
     Raises:
-        FormatError: If a file is not a recording that can be read.
-        InputError: If it is a footprint image, the events are those of a file, or the folder cannot be written to.
+        FormatError: If unreadable.
+        InputError: For images, events files, unwritable folders.
     """
     report = progress or (lambda fraction, text: None)
     (choices or AnalysisOptions()).of_several("--compare takes")
@@ -124,12 +123,12 @@ def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
 
 
 def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> dict[str, Any]:
-    """Difference B - A of each measure that both recordings have of a foot.
+    """Difference B - A of each measure that both recordings have.
 
     Args:
         analyses: "a" and "b".
-        one: The foot of A.
-        other: The foot of B.
+        one: Foot of A.
+        other: Foot of B.
 
     Returns:
         For each measure "a" and "b" (mean, sd, cv_percent, n), "difference", "percent" (of A) and "effect_size"

@@ -1,7 +1,7 @@
-"""User-defined masks and measures: parts of the sole by polygons in foot coordinates, and functions of a step.
+"""User-defined masks and measures: polygons in foot coordinates, and functions of a step.
 
-Foot coordinates are shares: u from the back of the heel (0) to the front of the toes (1), v from the lateral (0) to the
-medial edge (1) of the sole, or on a platform of the footprint.
+Foot coordinates are shares: u from heel (0) to toes (1), v from lateral (0) to medial (1) edge of the sole, or on a
+platform of the footprint.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ class StepView:
     """Input of a user-defined measure.
 
     Attributes:
-        step: The step with its measures.
-        load: Times (m,), forces (m, k) in N, pressures (m, k) in Pa and which cells (m, k) are loaded.
-        cop: Centre of pressure (m, 2) in m, NaN without load; None without geometry.
-        places: Foot coordinates (k, 2) of the cells; None without geometry.
+        step: Step with its measures.
+        load: Times (m,), forces (m, k) in N, pressures (m, k) in Pa, loaded cells (m, k).
+        cop: CoP (m, 2) in m, NaN without load; None without geometry.
+        places: Foot coordinates (k, 2) of cells; None without geometry.
     """
 
     step: Step
@@ -43,11 +43,10 @@ class StepView:
 def custom_measures(
     analysis: Analysis, measures: Mapping[str, Callable[[StepView], float]]
 ) -> dict[Side, dict[str, NDArray[np.float64]]]:
-    """Returns the values (steps,) of user-defined functions for each complete step of each foot.
+    """Returns values (steps,) of user-defined functions for each foot's complete steps.
 
     Args:
-        analysis: An analysis.
-        measures: Functions by name; each gives a number, NaN for what is not known.
+        measures: Functions by name of `analysis`; each gives a number, NaN if unknown.
     """
     out: dict[Side, dict[str, NDArray[np.float64]]] = {}
     for side, gait in analysis.feet.items():
@@ -57,14 +56,13 @@ def custom_measures(
 
 
 def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Side, list[dict[str, dict[str, float]]]]:
-    """Returns, of each foot, for each complete step, the `REGION_MEASURES` of each mask that has cells.
+    """Returns each foot's `REGION_MEASURES` of each mask with cells, for complete steps.
 
     Args:
-        analysis: An analysis.
-        masks: Corners (n, 2) of a polygon in foot coordinates, by name. Masks may overlap.
+        masks: Polygon corners (n, 2) in foot coordinates, by name, for `analysis`. May overlap.
 
     Raises:
-        InputError: If a mask is no polygon of three corners or more.
+        InputError: If a mask is no polygon.
     """
     rings = {name: _ring(name, corners) for name, corners in masks.items()}
     out: dict[Side, list[dict[str, dict[str, float]]]] = {}
@@ -83,15 +81,15 @@ def mask_measures(analysis: Analysis, masks: Mapping[str, ArrayLike]) -> dict[Si
 
 
 def mask_cells(analysis: Analysis, side: Side, corners: ArrayLike) -> NDArray[np.int64]:
-    """Returns the indices of the cells whose centre lies in a mask.
+    """Returns indices of cells with their centre in a mask.
 
-    Args:
-        analysis: An analysis of insoles or soles.
-        side: The foot.
-        corners: Corners (n, 2) of the mask in foot coordinates.
+    analysis: Of insoles or soles.
+        analysis: Analysis of insoles or soles.
+        side: Foot.
+        corners: Mask (n, 2) in foot coordinates.
 
     Raises:
-        InputError: If the foot has no geometry, or the mask is no polygon.
+        InputError: Without geometry, or no polygon.
     """
     places = _places(analysis, analysis.feet[side], None)
     if places is None:
@@ -132,7 +130,7 @@ def _places(analysis: Analysis, gait: FootGait, step: Step | None) -> NDArray[np
 
 
 def _inside(points: NDArray[np.float64], ring: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which points (k, 2) lie in a polygon of any shape: a ray from each crosses its edges an odd number of times."""
+    """Points (k, 2) inside any polygon: a ray crosses its edges an odd number of times."""
     x, y = points.T[:, :, None]
     a, b = ring, np.roll(ring, -1, axis=0)
     spans = (a[:, 1] > y) != (b[:, 1] > y)

@@ -1,6 +1,7 @@
-"""A recording and its steps in other programs' files: NPZ, CSV, C3D, OpenSim, and a sidecar that describes them.
+"""Recordings in other programs' files: NPZ, CSV, C3D, OpenSim, each with a sidecar.
 
-OpenSim's ground has x ahead, y up and z to the right: (x, y, z) of here is its (x, z, -y)."""
+OpenSim's ground has y up and z right: its (x, z, -y) is (x, y, z) here.
+"""
 
 from __future__ import annotations
 
@@ -36,12 +37,12 @@ __all__ = [
 
 
 class GroundReaction(NamedTuple):
-    """The ground's reaction on one foot.
+    """Ground reaction on one foot.
 
     Attributes:
-        force: Force (n, 3) in N; horizontal parts 0 where they were not measured.
-        cop: Its point (n, 2) in m, 0 without load.
-        free: Free moment (n,) about the vertical there in N m.
+        force: Force (n, 3) in N; horizontal parts 0 if unmeasured.
+        cop: Point (n, 2) in m, 0 without load.
+        free: Free vertical moment (n,) there in N m.
     """
 
     force: NDArray[np.float64]
@@ -50,7 +51,7 @@ class GroundReaction(NamedTuple):
 
 
 def ground_reactions(analysis: Analysis) -> dict[Side, GroundReaction]:
-    """The ground's force on each foot, in the laboratory's axes of plates, in the sole frame of insoles and robots."""
+    """Ground force on each foot: laboratory axes of plates, sole frame of insoles and robots."""
     out: dict[Side, GroundReaction] = {}
     for side, gait in analysis.feet.items():
         foot = gait.foot
@@ -68,9 +69,7 @@ def ground_reactions(analysis: Analysis) -> dict[Side, GroundReaction]:
 
 
 def write_mot(analysis: Analysis, path: Path) -> None:
-    """Write the ground's forces of an analysis to a motion file (.mot) of OpenSim at a path; InputError of raw
-    counts.
-    """
+    """Write an analysis' ground forces to an OpenSim motion file (.mot) at a path; InputError of raw counts."""
     if analysis.recording.raw:
         raise InputError("a recording of raw counts has no forces for OpenSim; allowed: npz, csv, c3d")
     names, columns = ["time"], [analysis.recording.time]
@@ -93,12 +92,11 @@ def write_mot(analysis: Analysis, path: Path) -> None:
 
 
 def write_external_loads(analysis: Analysis, path: Path, motion: str) -> None:
-    """Write OpenSim's description (.xml) of which columns of a motion file act on which body.
+    """Write OpenSim's description (.xml) of a motion file's columns and bodies.
 
     Args:
-        analysis: The analysis.
-        path: The file.
-        motion: Name of the motion file, next to it.
+        path: File, for `analysis`.
+        motion: Name of the motion file beside it.
     """
     root = ElementTree.Element("OpenSimDocument", Version="40000")
     loads = ElementTree.SubElement(root, "ExternalLoads", name="externalloads")
@@ -126,20 +124,20 @@ _BLOCK = 4096
 
 
 def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Path]:
-    """Write a recording in the format of the path's suffix, and a sidecar (.json) with the keys of BIDS.
+    """Write a recording in its suffix's format, and a BIDS sidecar (.json).
 
     Args:
-        analysis: The analysis, whose recording is without baselines.
-        path: File ending in .npz (times, forces in N of each cell, layouts and events), .csv (a column a cell, `left 12
-            [N]`), .c3d (a force platform of each foot, its CoP as a point, events in the group EVENT; needs ezc3d) or
-            .mot (OpenSim, with its external loads as .xml).
+        analysis: Recording without baselines.
+        path: .npz (times, forces in N of each cell, layouts, events), .csv (a column a cell, `left 12 [N]`), .c3d (a
+            force platform a foot, its CoP as point, events in group EVENT; needs ezc3d) or .mot (OpenSim, external
+            loads as .xml).
 
     Returns:
-        The files written; the sidecar of walk.c3d is walk.c3d.json.
+        Files written; the sidecar of walk.c3d is walk.c3d.json.
 
     Raises:
-        InputError: If the suffix is none of these, or the folder cannot be written to.
-        DependencyError: If ezc3d is needed and not installed.
+        InputError: For other suffixes, unwritable folders.
+        DependencyError: If ezc3d is missing.
     """
     target = Path(path)
     write = EXPORTS.get(target.suffix.lower())
@@ -159,11 +157,11 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
 
 
 def exporter(formats: Sequence[str]) -> Callable[[Analysis, Path], None] | None:
-    """A function that writes an analysis in `formats`, such as "c3d" or ".csv", into a folder; None for no format.
+    """Function that writes an analysis in `formats`, such as "c3d" or ".csv", into a folder; None without formats.
 
     Raises:
-        InputError: If a format is not known.
-        DependencyError: If what a format needs is not installed.
+        InputError: If a format is unknown.
+        DependencyError: If a package is missing.
     """
     suffixes = list(dict.fromkeys(f".{text.lower().removeprefix('.')}" for text in formats))
     for suffix in suffixes:
@@ -193,7 +191,7 @@ def _events(analysis: Analysis) -> list[tuple[str, str, float]]:
 
 
 def _sidecar(analysis: Analysis, target: Path) -> dict[str, Any]:
-    """Contents of the export, in the keys of BIDS sidecars where it has them."""
+    """Export description, in BIDS sidecar keys where it has them."""
     recording = analysis.recording
     return {
         "SamplingFrequency": recording.rate_hz,

@@ -1,4 +1,4 @@
-"""Doubts about a recording: silent cells, gain that creeps, feet out of time, mirrored feet, a weight of no person."""
+"""Doubts about a recording: silent cells, creeping gain, clocks, mirrored feet, impossible weight."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ _UNEQUAL, _STRIDES = 0.05, 4
 
 
 class SilentCells(NamedTuple):
-    """Cells that read 0 though load lies around them.
+    """Cells that read 0 among loaded cells.
 
     Attributes:
-        cells: Their indices (m,).
-        missing: Force that they lack, as a share of the foot's whole force.
+        cells: Indices (m,).
+        missing: Force they lack, as share of the foot's.
     """
 
     cells: NDArray[np.int64]
@@ -54,10 +54,10 @@ class SilentCells(NamedTuple):
 
 
 def silent_cells(foot: FootRecording, other: FootRecording | None = None) -> SilentCells:
-    """Returns the cells of an insole's foot that read 0 while those around them carry load, and the missing force.
+    """Returns an insole foot's cells that read 0 among loaded ones, and the missing force.
 
-    A silent cell lacks the mean pressure of its loaded neighbours. A mirrored other foot shows load at an edge by its
-    cell of the same number.
+    A silent cell lacks its loaded neighbours' mean pressure; a mirrored other foot shows edge load by the same cell
+    number.
     """
     layout = foot.layout
     none = SilentCells(np.zeros(0, dtype=np.int64), 0.0)
@@ -135,7 +135,7 @@ def _inside(layout: SoleLayout, cell: int, beside: NDArray[np.int64], loaded: ND
 
 
 def silent_cell_doubts(recording: PressureRecording) -> list[str]:
-    """A warning of each insole with silent cells, with the force that is missing."""
+    """Warning of each insole with silent cells, with the missing force."""
     out = []
     for side, foot in recording.feet.items() if recording.kind == "insole" else ():
         found = silent_cells(foot, recording.feet.get(other_side(side)))
@@ -151,7 +151,7 @@ def silent_cell_doubts(recording: PressureRecording) -> list[str]:
 
 
 def creep_doubts(feet: Mapping[Side, FootGait]) -> list[str]:
-    """A warning with the change from first to last step where a foot's mean force changes steadily: the gain creeps."""
+    """Warning where a foot's mean force changes steadily from first to last step: the gain creeps."""
     out = []
     for side, gait in feet.items():
         time = np.array([step.heel_strike_s for step in gait.used])
@@ -174,10 +174,9 @@ def creep_doubts(feet: Mapping[Side, FootGait]) -> list[str]:
 
 
 def unequal_strides(feet: Mapping[Side, FootGait]) -> float | None:
-    """Difference of the left foot's strides from the right one's, relative to their mean, where it is too large for a
-    walk.
+    """Left strides less right ones, relative to their mean, where too large for a walk.
 
-    It shows two clocks, or two people; else None.
+    It shows two clocks or two people; else None.
     """
     if len(feet) < 2:
         return None
@@ -200,11 +199,10 @@ _FULL = 1.05  # Share of its range that a taxel may read before it is more than 
 
 
 def implied_weight(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> float | None:
-    """Returns the weight in N of the body that makes a recording's forces on these feet; None of raw counts or if
-    unknown.
+    """Returns implied weight in N of the body in a recording of these feet; None of raw counts or if unknown.
 
-    It is the impulses of both feet (of one foot twice) over the stride time; without strides the largest force of its
-    steps over 1.1; in standing the mean force of both feet.
+    Impulses of both feet (of one foot twice) over the stride time; without strides the largest force over 1.1; in
+    standing the mean force of both feet.
     """
     if recording.raw:
         return None
@@ -228,7 +226,7 @@ def _median(gait: FootGait, key: str) -> float:
 
 
 def weight_doubts(recording: PressureRecording, weight: float | None) -> list[str]:
-    """Returns warnings where a recording implies a weight in N of no person, or a robot's taxels exceed their range."""
+    """Returns warnings where a recording implies an impossible weight in N, or taxels exceed their range."""
     if recording.kind == "robot":
         return [line for foot in recording.feet.values() if (line := _overload(recording, foot.side))]
     if weight is None:
@@ -243,7 +241,7 @@ def weight_doubts(recording: PressureRecording, weight: float | None) -> list[st
 
 
 def _overload(recording: PressureRecording, side: Side) -> str:
-    """Note on a robot's foot whose taxels exceed their range, or empty."""
+    """Note on a robot's foot with taxels beyond their range, or empty."""
     foot = recording.feet[side]
     if foot.layout is None or recording.raw or "force" not in foot.layout.ranges or not len(foot.force):
         return ""
@@ -259,9 +257,7 @@ _MIRRORED = -0.1
 
 
 def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
-    """Returns a warning about a recording of two insoles whose feet are loaded as the other foot, where steps show
-    it.
-    """
+    """Returns warning where steps of feet show that a recording's insoles are mirrored."""
     if recording.kind != "insole" or len(feet) < 2 or not all(gait.steps for gait in feet.values()):
         return []
     inward = [inward_of_toes(gait) for gait in feet.values()]
@@ -274,7 +270,7 @@ def mirrored_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait])
 
 
 def inward_of_toes(gait: FootGait) -> float:
-    """Distance of the toes' load inside of the midfoot's, in half widths of the sole; NaN without load or geometry."""
+    """Toes' load inside of the midfoot's, in half sole widths; NaN without load or geometry."""
     layout, picture = gait.foot.layout, gait.picture
     if layout is None or picture is None:
         return float("nan")
@@ -289,7 +285,7 @@ def inward_of_toes(gait: FootGait) -> float:
 def _inward(
     y: NDArray[np.float64], areas: NDArray[np.float64], pressure: NDArray[np.float64], part: NDArray[np.bool_]
 ) -> float:
-    """Distance in m of the load of some cells inside of their middle; NaN without load."""
+    """Distance in m of some cells' load inside of their middle; NaN without load."""
     load = pressure[part] * areas[part]
     if not load.sum() > 0.0:
         return float("nan")

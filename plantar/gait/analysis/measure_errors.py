@@ -1,4 +1,4 @@
-"""Standard errors of a step's measures: by noise, frames, cells, thresholds and the place of events."""
+"""Standard errors of a step's measures."""
 
 from __future__ import annotations
 
@@ -22,11 +22,10 @@ def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, fl
     """Returns standard errors of one step's measures by key in SI, by noise, rate, cells and events, without
     calibration.
 
-    A mean over n steps errs by 1 / sqrt(n) of what noise and frames add, and by all of what cells and definitions do.
+    A mean over n steps errs by 1 / sqrt(n) of noise and frames, and fully of cells and definitions.
 
     Args:
-        recording: The recording.
-        gait: One foot of it, its steps measured.
+        gait: Foot of `recording`, its steps measured.
     """
     levels, used = gait.levels, gait.used
     if levels is None or not used:
@@ -41,7 +40,7 @@ def errors_of_foot(recording: PressureRecording, gait: FootGait) -> dict[str, fl
 
 
 def _times(recording: PressureRecording, gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    """Errors of times: a frame, noise over the force's slope at the event, and the event's definition."""
+    """Errors of times: frames, noise over the force's slope, the event's definition."""
     assert gait.levels is not None
     slope = max(1e-9, middle.get("loading_rate_N_s", 0.0) or 10.0 * gait.levels.peak)
     frame = _FRAME / recording.rate_hz
@@ -64,7 +63,7 @@ def _times(recording: PressureRecording, gait: FootGait, middle: Mapping[str, fl
 
 
 def _forces(recording: PressureRecording, gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    """Errors of forces: noise of the foot's sum, and what lies between frames at a peak."""
+    """Errors of forces: noise of the foot's sum, and peaks between frames."""
     assert gait.levels is not None
     noise, step = gait.levels.noise, 1.0 / recording.rate_hz
     peak = middle["peak_force_N"]
@@ -87,7 +86,7 @@ def _forces(recording: PressureRecording, gait: FootGait, middle: Mapping[str, f
 
 
 def _fall_beside_peak(gait: FootGait) -> float:
-    """Mean fall in N of the force from its largest frame to those next to it."""
+    """Mean fall in N from the largest frame to its neighbours."""
     falls = []
     for step in gait.used[:50]:
         force = gait.foot.vertical_force[step.contact.begin : step.contact.end]
@@ -98,7 +97,7 @@ def _fall_beside_peak(gait: FootGait) -> float:
 
 
 def _places(gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    """Errors of the CoP: the noise of cells times their distances, over the force; and the width of a cell."""
+    """Errors of the CoP: cell noise times distance, over force; and cell width."""
     layout, levels = gait.foot.layout, gait.levels
     assert layout is not None
     assert levels is not None
@@ -130,7 +129,7 @@ def _places(gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
 
 
 def _pressures(gait: FootGait, middle: Mapping[str, float]) -> dict[str, float]:
-    """Errors of pressures and areas: noise of a cell, the fall of pressure over a cell, cells at the print's edge."""
+    """Errors of pressures and areas: cell noise, fall over a cell, cells at the print's edge."""
     layout, levels, picture = gait.foot.layout, gait.levels, gait.picture
     assert layout is not None
     assert levels is not None

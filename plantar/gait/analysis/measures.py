@@ -1,4 +1,4 @@
-"""Measures of a step: name, title, unit and heading. Definitions: docs/metrics.md."""
+"""Measures of a step (docs/metrics.md): name, title, unit and heading."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ class Measure:
     """One measure.
 
     Attributes:
-        title: Its name in reports.
+        title: Name in reports.
         unit: Unit in reports.
-        factor: From SI to that unit.
-        group: Its heading.
+        factor: SI to that unit.
+        group: Heading.
     """
 
     title: str
@@ -107,7 +107,7 @@ _RAW = (("_Pas", "_raw_s"), ("_Pa", "_raw"), ("_Ns", "_raw_s"), ("_N_s", "_raw_s
 
 
 def full_title(key: str) -> str:
-    """Title of a measure's key without the heading of its group; the key itself where it is not known.
+    """Title of a measure's key without its group's heading; the key itself if unknown.
 
     Example:
         >>> full_title("cop_path_m"), full_title("peak_force_N"), full_title("mine")
@@ -120,7 +120,7 @@ def full_title(key: str) -> str:
 
 
 def raw_name(key: str) -> str:
-    """A measure's key in a recording of counts, which have no unit of force.
+    """Measure's key in a recording of counts, without a force unit.
 
     Example:
         >>> raw_name("peak_force_N"), raw_name("contact_time_s")

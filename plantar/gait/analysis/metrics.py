@@ -1,4 +1,4 @@
-"""An analysis as the plain values of metrics.json."""
+"""Analysis as the plain values of metrics.json."""
 
 from __future__ import annotations
 
@@ -36,14 +36,13 @@ __all__ = ["metrics_of", "not_given"]
 def metrics_of(
     recording: PressureRecording, feet: Mapping[Side, FootGait], subject: Subject | None = None
 ) -> dict[str, Any]:
-    """Returns the analysis as plain JSON values (docs/metrics.md); None where a value is not known.
+    """Returns analysis as plain JSON values (docs/metrics.md); None if unknown.
 
-    With raw counts the keys end in "_raw" instead of a unit of force or pressure.
+    Raw counts' keys end in "_raw" in place of a unit of force or pressure.
 
     Args:
-        recording: The recording.
-        feet: The gait of each of its feet.
-        subject: The person, as far as known.
+        feet: Gait of each foot of `recording`.
+        subject: Person, if known.
     """
     warnings = list(recording.warnings)
     activity = activity_of(recording, feet)
@@ -137,14 +136,14 @@ def _segment_notes(segments: Sequence[Segment], feet: Mapping[Side, FootGait]) -
 
 
 def _lowest(gait: FootGait) -> str:
-    """Note on a foot whose force never comes down: it stands, or its sensor has an offset that no walk shows."""
+    """Note on a foot whose force never comes down: standing, or an offset that no walk shows."""
     force = gait.foot.vertical_force[np.isfinite(gait.foot.vertical_force)]
     low, high = (float(v) for v in np.percentile(force, (2.0, 95.0))) if len(force) else (0.0, 0.0)
     return f"; its force never falls below {low:.3g}" if low > 0.2 * high > 0.0 else ""
 
 
 def _sway(recording: PressureRecording, gait: FootGait, standing: bool) -> dict[str, float] | None:
-    """Sway of a foot's CoP in standing, and its share of the load, else None."""
+    """Sway of a foot's CoP in standing and its load share, else None."""
     if not standing:
         return None
     load = {side: float(np.nanmean(foot.vertical_force)) for side, foot in recording.feet.items()}
@@ -153,7 +152,7 @@ def _sway(recording: PressureRecording, gait: FootGait, standing: bool) -> dict[
 
 
 def not_given(kind: str) -> dict[str, str]:
-    """Measures that this kind of sensor cannot give, each with the reason."""
+    """Measures that this kind of sensor cannot give, with reasons."""
     if kind not in ("insole", "robot"):
         return {}
     what = "an insole" if kind == "insole" else "a robot's sole"
@@ -200,7 +199,7 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
 
 
 def _missing_percent(recording: PressureRecording, foot: FootRecording) -> float:
-    """Share of a foot's values that the file does not hold; gaps may have been filled since."""
+    """Share of a foot's values missing in the file; gaps may have been filled."""
     known: Mapping[Side, float] = recording.metadata.get("missing_percent", {})
     return known.get(foot.side, 0.0 if foot.missing is None else 100.0 * float(foot.missing.mean()))
 
@@ -212,7 +211,7 @@ def _step(step: Step, named: Callable[[str], str]) -> dict[str, Any]:
 
 
 def _events(gait: FootGait, complete: bool) -> list[dict[str, float | None]]:
-    """Heel strike and toe off in s of the complete contacts, or of the others."""
+    """Heel strike and toe off in s of complete contacts, or of the others."""
     return [{"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if c.complete == complete]
 
 

@@ -1,4 +1,4 @@
-"""Options of an analysis: which steps are in the means, which events, and whether baselines are taken off."""
+"""Options of an analysis: steps in the means, events and baselines."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ ACTIVITIES = ("walking", "running", "hopping")
 
 @dataclass(frozen=True)
 class AnalysisOptions:
-    """Options of an analysis.
+    """Analysis choices.
 
     Attributes:
-        steps: First and last number of the steps of each foot that are in the means; "steady" for those of steady
-            walking, "all" for all complete ones.
-        begin: Time in s before which no step counts.
-        end: Time in s after which no step counts.
-        segment: The activity whose steps are in the means, such as "walking"; the one with most steps where None.
-        baseline: "auto" takes off what sensors read in swing where that is an offset; "keep" leaves it.
-        events: "own" finds the events in the force; "vendor" uses the events stored in the file; else the path of a
-            file of events (see `plantar.formats.stated_events`).
+        steps: First and last step number of each foot in the means; "steady" for steady walking, "all" for all complete
+            ones.
+        begin: Time in s before which steps do not count.
+        end: Time in s after which steps do not count.
+        segment: Activity in the means, such as "walking"; the one with most steps where None.
+        baseline: "auto" removes swing readings that are an offset; "keep" leaves them.
+        events: "own" finds events in the force; "vendor" uses those stored in the file; else the path of an events file
+            (see `plantar.formats.stated_events`).
     """
 
     steps: tuple[int, int] | Literal["steady", "all"] = "steady"
@@ -46,20 +46,18 @@ class AnalysisOptions:
 
     @property
     def events_file(self) -> str | None:
-        """Path of the file of events, if any."""
+        """Path of the events file, if any."""
         return None if self.events in ("own", "vendor") else self.events
 
     def of_several(self, what: str) -> None:
-        """Raise InputError if the events are those of a file, which is of one recording; `what` is the message's
-        subject.
-        """
+        """Raise InputError if events come from a file of one recording; `what` is the message's subject."""
         if self.events_file is not None:
             text = f"a file of events is of one recording, and {what} several; allowed: own, vendor"
             raise InputError(f"--events {self.events}: {text}")
 
 
 def steps_of_text(text: str | None) -> tuple[int, int] | Literal["steady", "all"]:
-    """First and last step, or "steady" or "all", of a text such as "3-14", "5" or None for "steady"; else InputError.
+    """First and last step, or "steady" or "all", of text such as "3-14", "5" or None ("steady"); else InputError.
 
     Example:
         >>> steps_of_text("3-14"), steps_of_text("5"), steps_of_text(None)

@@ -1,4 +1,4 @@
-"""Gait parameters: the measures of each step of a foot. Definitions: docs/metrics.md."""
+"""Gait parameters: measures of each step (docs/metrics.md)."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ BACKWARDS = -0.02  # Median travel of the CoP in m over a step under which it lo
 def analyse_feet(
     recording: PressureRecording, prints: Sequence[PlatformPrint] = (), options: AnalysisOptions | None = None
 ) -> dict[Side, FootGait]:
-    """Returns the gait of each foot, with the lengths that need both.
+    """Returns gait of each foot, with lengths that need both.
 
     Args:
-        recording: The recording; that of a platform with its feet separated.
-        prints: The footprints of a platform.
-        options: Which steps are in the means.
+        recording: Platforms with feet separated.
+        prints: Platform footprints.
+        options: Steps in the means.
     """
     known = options or AnalysisOptions()
     if known.events != "own" and not set(recording.feet) <= set(recording.events):
@@ -75,7 +75,7 @@ _CROSS = ("step_time_s", "double_support_percent", "single_support_percent", "fl
 
 
 def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:
-    """The feet without measures of both, where their strides differ too much for one walk."""
+    """Feet without measures of both, where strides differ too much for one walk."""
     difference = unequal_strides(feet)
     if difference is None:
         return feet
@@ -91,7 +91,7 @@ def _out_of_time(feet: dict[Side, FootGait]) -> dict[Side, FootGait]:
 
 
 def _check_clock(recording: PressureRecording) -> None:
-    """Refuse stated events of another time than the recording's: in ms, or by another clock."""
+    """Refuse stated events of another time base: in ms, or another clock."""
     begin, end = float(recording.time[0]), float(recording.time[-1])
     for side in recording.feet:
         events = recording.events[side]
@@ -126,9 +126,9 @@ def analyse_foot(
     stated: bool = False,
     events: Mapping[Side, tuple[Levels | None, list[Contact]]] | None = None,
 ) -> FootGait:
-    """Returns the gait of one side's foot of a recording; measures that need the other foot use its contacts.
+    """Returns gait of a side's foot of a recording; measures of both feet use the other's contacts.
 
-    Footprints of a platform are in prints; events are levels and contacts of both feet, if stated those of the file.
+    Platform footprints are in prints; events are both feet's levels and contacts, or those stated in the file.
     """
     events = events or {s: _events_of(recording, s, stated) for s in recording.feet}
     gait = _with_events(recording, side, *events[side])
@@ -191,7 +191,7 @@ def _contacts(recording: PressureRecording, side: Side, stated: bool, levels: Le
 
 
 def _levels(recording: PressureRecording, side: Side) -> Levels | None:
-    """Levels of a foot's force; where its least load is high and no flat sensor level, no foot is lifted."""
+    """Levels of a foot's force; high least load without a flat sensor level means no lifted foot."""
     force = recording.feet[side].vertical_force
     levels = force_levels(force, recording.kind)
     if levels is None or levels.rest <= _CARRIED * levels.peak or resting_level(force, recording.rate_hz) is not None:
@@ -208,7 +208,7 @@ def _regions(
 
 
 def _place(recording: PressureRecording, gait: FootGait, step: Step, prints: Sequence[PlatformPrint]) -> Place | None:
-    """Place of a step on the ground; None where the recording does not show it."""
+    """Place of a step on the ground, or None."""
     placement = gait.foot.placement
     if placement is not None:
         middle = (step.contact.begin + step.contact.end) // 2
@@ -255,7 +255,7 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
 
 
 def _release_share(levels: Levels) -> float:
-    """Level of heel strikes as a share of the range of force."""
+    """Heel strike level as a share of the force range."""
     return (levels.release - levels.rest) / (levels.peak - levels.rest)
 
 
@@ -264,7 +264,7 @@ def _raised_by_noise(levels: Levels, kind: Kind) -> bool:
 
 
 def _travel_of_steps(gait: FootGait) -> list[float]:
-    """Travel forward in m of the CoP in each complete step with 4 known frames or more."""
+    """Forward travel in m of the CoP in complete steps with 4 known frames or more."""
     if gait.cop is None:
         return []
     ahead = [gait.cop[c.begin : c.end, 0] for c in gait.contacts if c.complete]

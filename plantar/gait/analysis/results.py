@@ -1,4 +1,4 @@
-"""Result of an analysis: the recording, its feet, tables of steps and regions, the metrics and the report."""
+"""Result of an analysis: recording, feet, tables, metrics and report."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ _LONG = 500  # Steps from which metrics.json is one line
 
 @dataclass(frozen=True, eq=False)
 class Analysis:
-    """A recording, its feet and their measures.
+    """Recording, its feet and their measures.
 
     Attributes:
-        recording: The recording; a platform's with its footprints separated.
-        feet: The gait of each foot.
+        recording: Of platforms with footprints separated.
+        feet: Gait of each foot.
         metrics: Contents of metrics.json.
     """
 
@@ -43,10 +43,10 @@ class Analysis:
 
     @cached_property
     def steps(self) -> dict[str, NDArray[Any]]:
-        """Every complete step of either foot, in the order of time, as columns (n,) by name.
+        """Complete steps of both feet in time order, as columns (n,) by name.
 
-        side, number, heel_strike_s, toe_off_s, every measure of `MEASURES` (NaN where not known), used (whether the
-        step is in the means) and note (why not, or what is odd).
+        side, number, heel_strike_s, toe_off_s, every measure of `MEASURES` (NaN if unknown), used (in the means) and
+        note (why not, or what is odd).
         """
         steps = _in_order(self.feet)
         named = raw_name if self.recording.raw else str
@@ -62,15 +62,15 @@ class Analysis:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What was assumed, repaired, left out or is doubtful, one line each."""
+        """What was assumed, repaired, left out or is doubtful."""
         return tuple(self.metrics["warnings"])
 
     def to_pandas(self) -> Any:
-        """The steps as a `pandas.DataFrame`; InputError if pandas is not installed."""
+        """Steps as `pandas.DataFrame`; InputError without pandas."""
         return as_data_frame(self.steps)
 
     def report(self, path: str | Path | None = None) -> str:
-        """The report page as one HTML text, also written to a file at `path` if given."""
+        """Report page as one HTML text, also written to `path` if given."""
         with tempfile.TemporaryDirectory() as folder:
             write_analysis(self, Path(folder))
             page = (Path(folder) / "report.html").read_text(encoding="utf-8")
@@ -82,7 +82,7 @@ class Analysis:
 
 
 def as_data_frame(columns: Mapping[str, NDArray[Any]]) -> Any:
-    """Columns as a `pandas.DataFrame`; InputError if pandas is not installed."""
+    """Columns as `pandas.DataFrame`; InputError without pandas."""
     try:
         import pandas
     except ImportError:
@@ -96,10 +96,9 @@ def write_analysis(
     progress: Callable[[float, str], None] | None = None,
     figures: bool = True,
 ) -> None:
-    """Write metrics.json, steps.csv and regions.csv of an analysis into a folder; with figures also these and two
-    pages.
+    """Write an analysis' metrics.json, steps.csv and regions.csv into a folder; with figures these and two pages.
 
-    `progress` is called with a fraction 0..1 and what is being done.
+    `progress` is called with a fraction 0..1 and the current work.
     """
     recording, feet, metrics = analysis.recording, analysis.feet, analysis.metrics
     (folder / "steps.csv").write_text(_steps_csv(analysis.steps), encoding="utf-8")

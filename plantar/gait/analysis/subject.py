@@ -1,4 +1,4 @@
-"""Subject and device of a recording, for the heading of a report."""
+"""Subject and device of a recording."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ _DISAGREE = 0.3
 
 @dataclass(frozen=True)
 class Subject:
-    """A person or robot, as far as known.
+    """Person or robot, if known.
 
     Attributes:
-        name: Name or number; empty where none is given.
-        mass_kg: Mass of the body in kg, or None.
-        foot_length_m: Length of the foot in m, or None.
+        name: Name or number, or empty.
+        mass_kg: Body mass in kg, or None.
+        foot_length_m: In m, or None.
 
     Raises:
-        InputError: If the mass or the length is not possible.
+        InputError: If mass or length impossible.
     """
 
     name: str = ""
@@ -48,12 +48,12 @@ class Subject:
 
     @property
     def weight(self) -> float | None:
-        """Weight in N; None where the mass is not known."""
+        """Weight in N; None without mass."""
         return None if self.mass_kg is None else self.mass_kg * GRAVITY
 
 
 def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
-    """Returns a warning where the implied weight in N of a recording is not that of the subject's stated mass."""
+    """Returns warning where a recording's implied weight in N contradicts the subject's mass."""
     weight = subject.weight
     if weight is None or implied is None or abs(implied / weight - 1.0) <= _DISAGREE:
         return []
@@ -65,11 +65,11 @@ def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
 
 
 def device_of(recording: PressureRecording) -> dict[str, Any]:
-    """Device of a recording, as far as the file states it.
+    """Device of a recording, if the file states it.
 
     Returns:
-        "name" (of the format), "sensor" (the file's name of it, or None), and for each foot with geometry its "layout",
-        "cells", and "length_m" and "width_m" of the sole or platform.
+        "name" (of the format), "sensor" (the file's name, or None), and for each foot with geometry "layout", "cells",
+        and the sole's or platform's "length_m" and "width_m".
     """
     known, facts = formats().get(recording.format), recording.metadata
     stated = (facts.get(key) for key in ("sensor", "sensors", "sensor insoles", "robot"))

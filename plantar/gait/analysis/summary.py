@@ -1,4 +1,4 @@
-"""Means over steps: mean and spread of each measure, symmetry, and the walk as a whole."""
+"""Means over steps: measures, symmetry, and the walk."""
 
 from __future__ import annotations
 
@@ -28,13 +28,12 @@ class Spread:
 
 
 def spread(values: Sequence[float] | NDArray[np.float64], circular: bool = False) -> Spread:
-    """Returns mean, standard deviation, coefficient of variation and median of the known values.
+    """Returns mean, standard deviation, coefficient of variation and median of known values.
 
     Args:
-        values: The values, NaN where one is not known.
-        circular: Whether they are angles in degrees: the mean is that of their unit vectors, the rest of their
-            differences from it (Fisher 1993, Statistical Analysis of Circular Data, ch. 2), without a coefficient of
-            variation.
+        values: NaN where unknown.
+        circular: Whether angles in degrees: mean of their unit vectors, the rest of differences from it (Fisher 1993,
+            Statistical Analysis of Circular Data, ch. 2), no coefficient of variation.
 
     Example:
         >>> spread([1.0, 2.0, 3.0, float("nan")])
@@ -63,12 +62,12 @@ _RESOLVED = {"_s": 2e-3, "_percent": 0.2, "_m": 5e-4, "_m2": 5e-6, "_N": 1.0, "_
 
 
 def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
-    """Each measure of a foot over the used steps."""
+    """Each measure of a foot over used steps."""
     return {name: spread(gait.columns.get(name, ()), name.endswith("_deg")) for name in MEASURES}
 
 
 def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
-    """Each measure of each region over the used steps; regions that no step has are left out."""
+    """Each measure of each region over used steps; missing regions left out."""
     out: dict[str, dict[str, Spread]] = {}
     for region in REGIONS:
         rows = [step.regions[region] for step in gait.used if region in step.regions]
@@ -78,10 +77,10 @@ def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
 
 
 def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]:
-    """Measures of the walk as a whole; None where the recording does not show one.
+    """Measures of the whole walk; None if not shown.
 
     landings are heel strikes of all feet, stride_time_s is of all complete steps (of several activities of the used
-    ones); all others are of the used steps.
+    ones); others are of used steps.
     """
     several = len({step.activity for gait in feet.values() for step in gait.steps if step.activity}) > 1
     steps = [s for gait in feet.values() for s in gait.steps if s.used or not several]
@@ -102,15 +101,14 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
 
 
 def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
-    """Mean of a measure over the used steps of all feet; None where no step has it."""
+    """Mean of a measure over all feet's used steps, or None."""
     return spread([value for gait in feet.values() for value in gait.columns.get(key, ())]).mean
 
 
 def symmetry(feet: Mapping[Side, FootGait]) -> dict[str, float | None]:
-    """Returns the symmetry index in percent of each measure of two feet, 100 (L - R) / ((L + R) / 2) (Robinson 1987).
+    """Returns symmetry index in percent of each measure of two feet, 100 (L - R) / ((L + R) / 2) (Robinson 1987).
 
-    It is above 0 where the left is larger; None where a foot has no value, the signs differ, for unresolved ones and
-    angles.
+    Left larger is positive; None for missing values, differing signs, unresolved ones and angles.
     """
     if "left" not in feet or "right" not in feet:
         return dict.fromkeys(MEASURES)

@@ -1,4 +1,4 @@
-"""The figures of a recording's report, and the files that figures are written to."""
+"""Figures of a report, and their files."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ def write_figures(
     """Write figures as PNG and SVG in a folder.
 
     Args:
-        figures: Name, figure (None for one without data) and caption of each.
+        figures: Name, figure (None without data) and caption of each.
         folder: Existing folder.
-        progress: Called with a fraction 0..1 and what is being done.
+        progress: Called with a fraction 0..1 and the current work.
 
     Returns:
-        The PNG files with their captions.
+        PNG files with captions.
     """
     report = progress or (lambda fraction, text: None)
     written: list[tuple[Path, str]] = []
@@ -47,7 +47,7 @@ def draw_figures(
     folder: Path,
     progress: Callable[[float, str], None] | None = None,
 ) -> list[tuple[Path, str]]:
-    """Returns PNG files with captions of the figures of a recording's feet, drawn as PNG and SVG in a folder; calls
+    """Returns PNG files with captions of figures of a recording's feet, drawn as PNG and SVG in a folder; calls
     progress.
     """
     figures = (

@@ -1,4 +1,4 @@
-"""Analysis of a footprint image: contour, axis, length, width, area and arch index; its figure and page."""
+"""Footprint image: analysis, figure and page."""
 
 from __future__ import annotations
 
@@ -30,17 +30,17 @@ _MOST_PIXELS = 40_000  # Pixels a footprint is measured with; finer masks are th
 def analyse_image(
     path: Path, folder: Path, mm_per_pixel: float | None, side: Side | None = None, subject: Subject | None = None
 ) -> dict[str, Any]:
-    """Measure the footprints in an image and write metrics.json, footprints.csv, a figure and report.html.
+    """Measure footprints in an image; write metrics.json, footprints.csv, a figure and report.html.
 
     Args:
-        path: The image.
+        path: Image.
         folder: Existing folder to write to.
-        mm_per_pixel: Size of a pixel in mm; the image's own resolution where None.
-        side: The foot of a single footprint; inferred from its shape where None.
-        subject: The person.
+        mm_per_pixel: In mm; the image's own where None.
+        side: Of a single footprint; inferred from shape where None.
+        subject: Person.
 
     Returns:
-        What metrics.json holds. FormatError if the file is no image, or shows no footprint.
+        Contents of metrics.json. FormatError for no image or no footprint.
     """
     image = read_footprints(path, mm_per_pixel)
     pixel = image.pixel if image.pixel is not None else 1.0
@@ -73,9 +73,9 @@ def analyse_image(
 
 
 def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
-    """Returns the footprint of the mask of an image's part, with its toe line, for a pixel's size in m and a side.
+    """Returns footprint with toe line of an image part's mask, for a pixel's size in m and a side.
 
-    Along its longest axis, the narrower end is the heel.
+    The narrower end of its longest axis is the heel.
     """
     rows, columns = np.nonzero(part.mask)
     every = max(1, round(float(np.sqrt(len(rows) / _MOST_PIXELS))))
@@ -87,7 +87,7 @@ def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
 
 
 def _forward(centres: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Direction from heel to toes: along the longest extent, to the wider end."""
+    """Direction from heel to toes: along the longest extent to the wider end."""
     values, vectors = np.linalg.eigh(np.cov((centres - centres.mean(axis=0)).T))
     axis = vectors[:, int(np.argmax(values))]
     if axis[0] < 0.0:
@@ -123,7 +123,7 @@ def _centres(part: Print, pixel: float) -> NDArray[np.float64]:
 
 
 def _side_by_shape(print_: Footprint) -> Side:
-    """The side of a print looked at as a right foot: the waist lies to the lateral side of heel and ball."""
+    """Side of a print seen as a right foot: the waist lies lateral of heel and ball."""
     u, v = print_.centres.T / print_.length
     middle, rest = (u > 0.35) & (u < 0.55), (u < 0.25) | ((u > 0.60) & (u < 0.78))
     toes, ball = u > 0.9, (u > 0.60) & (u < 0.78)
@@ -135,9 +135,9 @@ def _side_by_shape(print_: Footprint) -> Side:
 
 
 def measures_of_footprint(print_: Footprint, scaled: bool) -> dict[str, Any]:
-    """Returns the measures of a footprint `print_` by key, lengths and areas None unless scaled (in m).
+    """Returns measures of footprint `print_` by key, lengths and areas None unless scaled (in m).
 
-    axis_angle_deg is to the image's vertical, positive to the left.
+    axis_angle_deg is to the image's vertical, left positive.
     """
 
     def size(value: float) -> float | None:
@@ -177,7 +177,7 @@ def _csv(feet: dict[Side, dict[str, Any]]) -> str:
 
 @dataclass(frozen=True)
 class _Scale:
-    """Scale of lengths in the figure: mm where the image's is known, else pixels."""
+    """Scale of lengths in the figure: mm if known, else pixels."""
 
     name: str
     of_pixel: float
@@ -185,7 +185,7 @@ class _Scale:
 
 
 def draw_footprints(image: FootprintImage, prints: Mapping[Side, Footprint]) -> Any:
-    """Returns a figure of the prints of an image, in its order, drawn on it."""
+    """Returns figure of an image's prints in order, drawn on it."""
     scale = _Scale("pixels", 1.0, 1.0) if image.pixel is None else _Scale("mm", 1e3 * image.pixel, 1e3)
     height, width = image.picture.shape[:2]
     figure, axes = new_figure(min(9.0, 1.5 + 6.0 * width / height) if width < 1.6 * height else 9.0, 6.4)
@@ -241,11 +241,7 @@ _FOOTPRINT = (
 
 
 def footprint_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str) -> str:
-    """The page of a footprint image as HTML without other files, by its metrics, PNG figures with captions and a title.
-
-    Returns:
-        The text.
-    """
+    """Returns footprint page as HTML without other files, by metrics, PNG figures with captions and title."""
     sections = [Section("measures", "Measures", _table(metrics))]
     if metrics["warnings"]:
         sections.append(Section("assumed", "What was assumed", warning_list(metrics["warnings"])))

@@ -1,4 +1,4 @@
-"""Figures of forces: over time with their events, over the stance, wrenches, and the symmetry of both feet."""
+"""Figures of forces, wrenches and symmetry."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ _COMPARED = (
 
 
 def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any:
-    """Returns a figure of the vertical force of each of a recording's feet over time, with its events."""
+    """Returns figure of vertical force and events of a recording's feet over time."""
     figure, axes = new_figure(10.0, 2.6 * len(feet) + 0.6, rows=len(feet), sharex=True, sharey=True, squeeze=False)
     for panel, (side, gait) in zip(axes[:, 0], feet.items(), strict=True):
         force = gait.foot.vertical_force
@@ -69,7 +69,7 @@ def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
 
 
 def _draw_events(panel: Any, gait: FootGait, levels: Levels) -> None:
-    """Draw the levels of the events as lines, and each event as a mark on its level."""
+    """Draw event levels as lines, each event as a mark."""
     for level in sorted({levels.release, levels.lift}):
         name = "event level" if level == levels.release else None
         panel.axhline(level, color=COLOURS["reference"], linewidth=0.8, linestyle="--", label=name)
@@ -87,7 +87,7 @@ def _shade_cut_contacts(panel: Any, recording: PressureRecording, gait: FootGait
 
 
 def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Returns a figure of a recording's force curves of its feet over the stance, with mean and SD; None without used
+    """Returns figure of a recording's force curves of its feet over the stance, with mean and SD; None without used
     steps.
     """
     shown = {side: gait for side, gait in feet.items() if gait.used}
@@ -109,12 +109,12 @@ def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
 
 
 def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
-    """Draw the band of one standard deviation around the mean of curves.
+    """Draw one standard deviation around the mean of curves.
 
     Args:
         panel: Axes to draw on.
-        curves: Curves (steps, 101) over the stance, of `stance_curves`.
-        look: Colour, opacity and label of the band.
+        curves: (steps, 101) over the stance, of `stance_curves`.
+        look: Colour, opacity and label.
     """
     if len(curves) > 1:
         mean, sd = curves.mean(axis=0), curves.std(axis=0, ddof=1)
@@ -122,7 +122,7 @@ def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
 
 
 def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
-    """Returns forces (steps, 101) in N of a recording over the stance of each used step of a foot's gait."""
+    """Returns forces (steps, 101) in N of a recording over the stance of used steps of a gait."""
     known = np.isfinite(gait.foot.vertical_force)
     time, force = recording.time[known], gait.foot.vertical_force[known]
     moments = [s.heel_strike_s + 0.01 * STANCE * (s.toe_off_s - s.heel_strike_s) for s in gait.used]
@@ -130,7 +130,7 @@ def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.fl
 
 
 def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Returns a figure of the wrench of each sole of a robot's recording about its frame; None of others' feet."""
+    """Returns figure of each robot sole's wrench about its frame in a recording; None of other feet."""
     if recording.kind != "robot" or recording.raw:
         return None
     shown = {side: gait.foot for side, gait in feet.items() if gait.foot.layout is not None}
@@ -154,7 +154,7 @@ def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -
 
 
 def figure_symmetry(symmetry: Mapping[str, float | None]) -> Any | None:
-    """Figure of symmetry indices in percent by measure; None for fewer than two."""
+    """Symmetry indices in percent by measure; None for fewer than two."""
     rows = [(MEASURES[k].title, value) for k in _COMPARED if (value := symmetry.get(k)) is not None]
     if len(rows) < 2:
         return None
@@ -173,5 +173,5 @@ def figure_symmetry(symmetry: Mapping[str, float | None]) -> Any | None:
 
 
 def force_label(recording: PressureRecording) -> str:
-    """Label of the axis of vertical force, with its unit."""
+    """Axis label of vertical force, with unit."""
     return f"vertical force ({'counts' if recording.raw else 'N'})"

@@ -1,4 +1,4 @@
-"""One-page summary: main measures, their norms, both feet's loads and trends."""
+"""One-page summary: main measures, norms, loads and trends."""
 
 from __future__ import annotations
 
@@ -46,15 +46,12 @@ _STYLE = """
 
 
 def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], title: str) -> str:
-    """The sheet as HTML; a browser prints it on one page of A4.
+    """Returns sheet as HTML that prints on one page of A4.
 
     Args:
-        metrics: Contents of metrics.json.
-        figures: The PNG file of `figure_summary`, with its caption.
-        title: Title of the page, for example the file's name.
-
-    Returns:
-        The text.
+        metrics: Of metrics.json.
+        figures: PNG of `figure_summary`, with caption.
+        title: Such as the file's name.
     """
     warnings = metrics["warnings"]
     more = len(warnings) - _MOST_WARNINGS
@@ -69,7 +66,7 @@ def one_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str]], ti
 
 
 def _table(metrics: Mapping[str, Any]) -> str:
-    """Main measures of both feet, each with the error of a step, and the norm where there is one."""
+    """Main measures of both feet with a step's error, and norm if any."""
     feet, gait, raw = metrics["feet"], metrics["gait"], bool(metrics.get("raw"))
     rows = []
     cadence = gait.get("steady_cadence_steps_per_min")
@@ -101,7 +98,7 @@ def _with_error(spread: Mapping[str, Any] | None, factor: float) -> str:
 
 
 def _band(key: str, means: Mapping[str, float], factor: float) -> str:
-    """A norm as a band with a mark for each foot; empty where none is stated."""
+    """Norm as a band with a mark a foot; empty without norm."""
     if key not in NORMS:
         return ""
     low, high = NORMS[key]
@@ -123,7 +120,7 @@ def _band(key: str, means: Mapping[str, float], factor: float) -> str:
 
 
 def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Returns a figure of a recording's mean forces, butterfly of its feet's CoP and trend; None without used steps."""
+    """Returns figure of a recording's mean forces, CoP butterfly of its feet and trend; None without used steps."""
     shown = {side: gait for side, gait in feet.items() if gait.used}
     if not shown:
         return None
@@ -153,7 +150,7 @@ def figure_summary(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
 
 
 def _draw_butterfly(panel: Any, recording: PressureRecording, feet: Mapping[Side, FootGait]) -> None:
-    """Draw the CoP of both feet together; insoles next to each other, plates where they are."""
+    """Draw both feet's CoP together; insoles side by side, plates where they are."""
     known = {s: g for s, g in feet.items() if g.cop is not None}
     if len(known) < 2:
         panel.text(0.5, 0.5, "takes both feet with cells", ha="center", va="center", transform=panel.transAxes)

@@ -1,4 +1,4 @@
-"""Frames of a recording, packed for the report's player."""
+"""Recording frames packed for the report's player."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ MOST_BYTES = 900_000  # Largest size of the packed pressures; a mat of very many
 
 
 def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> dict[str, Any] | None:
-    """Returns the player's data of a recording as plain JSON values; None where none of its feet has geometry.
+    """Returns a recording's player data as plain JSON values; None if none of its feet has geometry.
 
-    Cells are rings in mm, to the right and forward; pressures bytes (0 for a cell that is not loaded, else 1 + 254 p /
-    highest), deflated and in base64.
+    Cells are rings in mm, right and forward; pressures bytes (0 if not loaded, else 1 + 254 p / highest), deflated, in
+    base64.
     """
     shown = {side: gait for side, gait in feet.items() if gait.foot.layout is not None}
     if not shown:
@@ -80,14 +80,14 @@ def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDAr
 
 
 def _highest(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64]) -> float:
-    """Largest value in some frames of a foot, in the unit that is shown."""
+    """Largest value in some frames of a foot, in the shown unit."""
     assert gait.foot.layout is not None
     force = np.nan_to_num(gait.foot.force[chosen])
     return float((force if recording.raw else force / gait.foot.layout.areas / 1e3).max(initial=0.0))
 
 
 def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64], most: float) -> dict[str, Any]:
-    """The player's data of one foot; the largest value of both is the colours' upper end."""
+    """Player data of one foot; the largest value of both is the colours' upper end."""
     layout = gait.foot.layout
     assert layout is not None
     force = gait.foot.force[chosen]
@@ -111,13 +111,13 @@ def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64
 
 
 def _bytes(value: NDArray[np.float64], loaded: NDArray[np.bool_], highest: float) -> str:
-    """Values (n, m) as bytes: 0 where a cell is not loaded, else 1 + 254 value / highest; deflated, in base64."""
+    """Values (n, m) as bytes: 0 if not loaded, else 1 + 254 value / highest; deflated, in base64."""
     levels = np.where(loaded, 1.0 + np.clip(np.rint(254.0 * value / highest), 0.0, 254.0), 0.0)
     return base64.b64encode(zlib.compress(levels.astype(np.uint8).tobytes(), 9)).decode()
 
 
 def _seen(ring: NDArray[np.float64]) -> list[list[float]]:
-    """A ring from above, toes up: to the right and forward, in mm."""
+    """Ring from above, toes up: right and forward, in mm."""
     return np.round(1e3 * ring[:, ::-1] * (-1.0, 1.0), 1).tolist()  # type: ignore[no-any-return]
 
 

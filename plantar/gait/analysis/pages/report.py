@@ -1,4 +1,4 @@
-"""The report: one HTML page without other files, for screen, keyboard, print and dark mode."""
+"""Report: one HTML page without other files."""
 
 from __future__ import annotations
 
@@ -35,16 +35,13 @@ def report_page(
     title: str,
     player: Mapping[str, Any] | None = None,
 ) -> str:
-    """The page of one recording as HTML that refers to no other file and no network.
+    """Returns page of one recording as HTML without other files or network.
 
     Args:
-        metrics: Result of `analyse_recording`.
-        figures: PNG files to embed, each with a caption that also serves as its alternative text.
-        title: Title of the page, for example the file's name.
-        player: Result of `player_data`; no player where None.
-
-    Returns:
-        The text.
+        metrics: Of `analyse_recording`.
+        figures: PNG files to embed, with captions (alternative texts).
+        title: Such as the file's name.
+        player: `player_data`; no player where None.
     """
     sections = [Section("summary", "Summary", f"<p>{html.escape(summary_text(metrics))}</p>{_tiles(metrics)}")]
     if metrics["warnings"]:
@@ -74,7 +71,7 @@ def _with_figures(
 
 
 def summary_text(metrics: Mapping[str, Any]) -> str:
-    """The recording in two sentences: its activity, and the load of the feet."""
+    """Recording in two sentences: activity and load of the feet."""
     activity = metrics.get("activity", {"name": "unknown"})["name"]
     counts = [f"{len(foot['steps_used'])} of {foot['steps']} {side}" for side, foot in metrics["feet"].items()]
     cadence = metrics["gait"].get("steady_cadence_steps_per_min")
@@ -116,16 +113,13 @@ def _not_given(metrics: Mapping[str, Any]) -> str:
 def comparison_page(
     comparison: Mapping[str, Any], figures: Sequence[tuple[Path, str]], names: tuple[str, str], links: tuple[str, str]
 ) -> str:
-    """The page that shows two recordings side by side, as HTML that links to the two reports next to it.
+    """Returns HTML page of two recordings side by side, linked to their reports.
 
     Args:
-        comparison: Result of `compare_recordings`.
-        figures: PNG files to embed, with their captions.
-        names: Names of the recordings.
-        links: Files of their own reports, relative to this page.
-
-    Returns:
-        The text.
+        comparison: Of `compare_recordings`.
+        figures: PNG files to embed, with captions.
+        names: Of the recordings.
+        links: Their own reports, relative to this page.
     """
     parts = []
     for key, name, link in zip(("a", "b"), names, links, strict=True):
@@ -185,7 +179,7 @@ def _player(data: Mapping[str, Any]) -> str:
 
 
 def facts_of(metrics: Mapping[str, Any], file: str) -> str:
-    """Returns the heading of a recording's report as HTML, from its metrics and the name of its file."""
+    """Returns a report's HTML heading, from metrics and the name of its file."""
     robot = metrics["kind"] == "robot"
     length = metrics["subject"]["foot_length_m"]
     facts = [
@@ -203,7 +197,7 @@ def facts_of(metrics: Mapping[str, Any], file: str) -> str:
 
 
 def facts_of_image(metrics: Mapping[str, Any], file: str) -> str:
-    """Returns the heading of a footprint image's report as HTML, from its metrics and the name of its file."""
+    """Returns an image report's HTML heading, from metrics and the name of its file."""
     width, height = metrics["size_px"]
     scale = "" if metrics["mm_per_pixel"] is None else f", {metrics['mm_per_pixel']:.4g} mm a pixel"
     facts = [
@@ -237,7 +231,7 @@ def _device(device: Mapping[str, Any]) -> str:
 
 
 def _size(feet: Mapping[str, Mapping[str, Any]]) -> str:
-    """Extent, cells and layout of each foot's sole; listed once where both are the same."""
+    """Extent, cells and layout of each sole; listed once if equal."""
     sizes = {
         side: f"{1e3 * foot['length_m']:.0f} x {1e3 * foot['width_m']:.0f} mm, {foot['cells']} cells ({foot['layout']})"
         for side, foot in feet.items()
@@ -248,7 +242,7 @@ def _size(feet: Mapping[str, Mapping[str, Any]]) -> str:
 
 
 def analysis_text(metrics: Mapping[str, Any], name: str = "") -> str:
-    """Returns the main figures of an analysis as lines, from its metrics; with a name for one of two."""
+    """Returns main figures of an analysis as lines, from its metrics; with a name for one of two."""
     rate = "" if metrics["rate_hz"] is None else f" at {metrics['rate_hz']:.6g} Hz"
     lines = [f"{name + ': ' if name else ''}{metrics['format']}: {metrics['frames']} frame(s){rate}"]
     for side, foot in metrics["feet"].items():

@@ -1,4 +1,4 @@
-"""Figures of soles from above: maximum pressure pictures with the paths of the CoP, and the regions of the feet."""
+"""Figures of soles from above: maximum pressure, CoP paths, regions."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ REGION_COLOURS = ("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa337
 
 
 class _Cells(NamedTuple):
-    """The shown cells: a layout of them, and their indices in the foot's own layout."""
+    """Shown cells: their layout, and indices in the foot's own."""
 
     layout: SoleLayout
     chosen: NDArray[np.int64]
 
 
 def _shown(gait: FootGait, platform: bool) -> _Cells:
-    """All cells of a sole; of a platform those that are stepped on, with a frame around."""
+    """All cells of a sole; of a platform those stepped on, framed."""
     layout = gait.foot.layout
     assert layout is not None
     if not platform or gait.picture is None or not (gait.picture > 0.0).any():
@@ -72,7 +72,7 @@ def _finish(figure: Any, axes: Any, drawn: Any, what: str, raw: bool) -> None:
 
 
 def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Returns a figure of a recording's maximum pressure pictures and CoP paths of its feet; None without geometry."""
+    """Returns figure of maximum pressure and CoP paths of a recording's feet; None without geometry."""
     pictured = {side: gait for side, gait in feet.items() if gait.picture is not None}
     if not pictured:
         return None
@@ -93,7 +93,7 @@ def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait])
 
 
 def _steps_of_picture(gait: FootGait) -> str:
-    """Steps of a picture: the complete ones, or all frames where there is none."""
+    """Steps of a picture: complete ones, or all frames without any."""
     if not gait.steps:
         return "no complete step:\nlargest of all frames"
     return f"{len(gait.steps)} step{'' if len(gait.steps) == 1 else 's'}"
@@ -124,7 +124,7 @@ def _draw_paths(panel: Any, gait: FootGait) -> None:
 
 
 def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | None:
-    """Mean (51, 2) of paths (m, 2) over the stance; None where no path has two points."""
+    """Mean (51, 2) of paths (m, 2) over the stance; None without two points."""
     known = [path[np.isfinite(path[:, 0])] for path in paths]
     known = [path for path in known if len(path) >= 2]
     if not known:
@@ -138,7 +138,7 @@ def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | No
 
 
 def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side, FootGait]]]) -> Any | None:
-    """Maximum pressure pictures of recordings (name, recording, feet) on one scale; None where one has no geometry."""
+    """Returns maximum pressure pictures of recordings (name, recording, feet) on one scale; None without geometry."""
     if not all(any(gait.picture is not None for gait in feet.values()) for _, _, feet in recordings):
         return None
     panels = [(f"{n}, {s}", r, g) for n, r, feet in recordings for s, g in feet.items() if g.picture is not None]
@@ -156,7 +156,7 @@ def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side,
 
 
 class _Regions(NamedTuple):
-    """A footprint, and the region (k,) of each cell."""
+    """Footprint and region (k,) of each cell."""
 
     gait: FootGait
     print_: Footprint
@@ -164,9 +164,9 @@ class _Regions(NamedTuple):
 
 
 def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Returns a figure of the regions, axes and thirds of a recording's feet; of a platform each foot's first print.
+    """Returns figure of regions, axes and thirds of a recording's feet; of platforms each first print.
 
-    None where no foot has regions.
+    None without regions.
     """
     platform = recording.kind == "platform"
     found = {side: _regions(gait, platform) for side, gait in feet.items()}
@@ -206,7 +206,7 @@ def _draw_axis_and_thirds(panel: Any, print_: Footprint) -> None:
 
 
 def axis_is_inside(print_: Footprint) -> bool:
-    """Whether both ends and the middle of a print's axis are at most a twentieth of its width outside its hull."""
+    """Whether a print axis' ends and middle are within a twentieth of its width of its hull."""
     hull = convex_hull(print_.rings.reshape(-1, 2))
     places = np.array([0.02, 0.5, 0.98]) * print_.length
     return all(signed_margin(hull, np.array([u, 0.0])) >= -0.05 * print_.width for u in places)
@@ -223,11 +223,11 @@ _MARGIN = 0.01  # Width in m of the frame around the cells
 
 
 def stepped_on(layout: SoleLayout, hit: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Returns the indices (m,) of stepped-on cells and their neighbours, and the corners (4, 2) in m around them.
+    """Returns indices (m,) of stepped-on cells and neighbours, and corners (4, 2) in m around them.
 
     Args:
-        layout: A platform, k cells.
-        hit: Which cells (k,) are stepped on; all are returned where none is.
+        layout: Platform, k cells.
+        hit: Stepped-on cells (k,); all are returned where none is.
     """
     beside = np.array([any(hit[j] for j in near) for near in layout.neighbours])
     chosen = np.flatnonzero(hit | beside) if hit.any() else np.arange(len(layout))

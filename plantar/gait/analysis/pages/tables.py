@@ -1,4 +1,4 @@
-"""Tables of measures: of the steps of one recording, of the regions of its feet, and of two recordings."""
+"""Tables of measures: steps, regions, and two recordings."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _UNITS_OF_COUNTS = {"_Ns": "counts·s", "_Pas": "counts·s", "_N_s": "counts/s",
 
 
 class _Shown(NamedTuple):
-    """A measure's key in the metrics, its title with its unit, and the factor to that unit."""
+    """Measure's key, title with unit, and factor to that unit."""
 
     key: str
     title: str
@@ -32,7 +32,7 @@ class _Shown(NamedTuple):
 
 
 def shown_as(key: str, measure: Measure, raw: bool) -> _Shown:
-    """Gives the key, title and factor of a measure, in a recording of counts if raw."""
+    """Gives key, title and factor of a measure, of counts if raw."""
     if raw and raw_name(key) != key:
         unit = next((u for end, u in _UNITS_OF_COUNTS.items() if key.endswith(end)), "counts")
         return _Shown(raw_name(key), titled(measure.title, unit), 1.0)
@@ -45,7 +45,7 @@ def _mean_and_sd(spread: Mapping[str, Any], factor: float) -> str:
 
 
 def measures_table(metrics: Mapping[str, Any]) -> str:
-    """HTML table of every measure of each foot, with its spread and the symmetry of both feet."""
+    """HTML table of each foot's measures, with spread and symmetry."""
     feet: Mapping[str, Any] = metrics["feet"]
     both = len(feet) == 2
     rows = list(_rows_of_measures(metrics, both))
@@ -106,7 +106,7 @@ def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str,
 
 
 def steps_table(metrics: Mapping[str, Any]) -> str:
-    """HTML table of the complete steps of all feet in the order of time; empty without steps."""
+    """HTML table of all complete steps in time order; empty without steps."""
     raw = bool(metrics.get("raw"))
     steps = [(side, step) for side, foot in metrics["feet"].items() for step in foot.get("each_step", ())]
     steps.sort(key=lambda one: one[1]["heel_strike_s"])
@@ -130,7 +130,7 @@ def steps_table(metrics: Mapping[str, Any]) -> str:
 
 
 def regions_tables(metrics: Mapping[str, Any]) -> str:
-    """HTML table for each foot with regions, of means over its complete steps."""
+    """HTML table of region means over complete steps, for each foot."""
     shown = [shown_as(key, measure, bool(metrics.get("raw"))) for key, measure in REGION_MEASURES.items()]
     return "".join(
         table(
@@ -154,7 +154,7 @@ def _mean(values: Mapping[str, Any], key: str) -> float | None:
 
 
 def comparison_table(comparison: Mapping[str, Any]) -> str:
-    """HTML table of every measure that both recordings have, side by side."""
+    """HTML table of measures that both recordings have."""
     raw = bool(comparison["a"].get("raw") or comparison["b"].get("raw"))
     shown = [shown_as(key, measure, raw) for key, measure in MEASURES.items()]
     rows: list[str] = []

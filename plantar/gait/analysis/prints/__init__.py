@@ -1,1 +1,1 @@
-"""The footprint: its shape and regions, and which cells of a platform are one."""
+"""Footprint: shape, regions, and platform cells."""

@@ -1,7 +1,7 @@
-"""The shape of a footprint: its axis, length and width, thirds, and the arch index.
+"""Shape of a footprint: axis, length, width, thirds and arch index.
 
-A footprint is a set of loaded convex cells. The foot frame's origin is the back of the heel: u runs along the foot's
-axis to the toes, v across it to the medial side.
+A set of loaded convex cells. Foot frame: origin at the back of the heel, u along the axis to the toes, v across to the
+medial side.
 """
 
 from __future__ import annotations
@@ -25,17 +25,16 @@ _ROUNDS = 4  # How often the axis is found again, in bands that turn with it
 
 @dataclass(frozen=True, eq=False)
 class Footprint:
-    """A footprint in its foot frame.
+    """Footprint in its foot frame.
 
     Attributes:
         side: "left" or "right".
-        origin: Back of the heel on the axis, in m in the cells' frame.
-        axis: Unit vector (2,) of the axis in that frame, from heel to toes.
-        rings: Corners (n, c, 2) of the cells as (u, v) in m; the last one is repeated where a cell has fewer than c.
-        areas: Area (n,) in m^2 of each cell.
-        pressure: Largest pressure (n,) of each cell, or 1 where none is known.
-        toe_line: u in m at which the toes begin, as (v, u) points from lateral to medial; None where toes and forefoot
-            are not separated.
+        origin: Back of the heel on the axis, in m, cells' frame.
+        axis: Unit vector (2,) from heel to toes in that frame.
+        rings: Cell corners (n, c, 2) as (u, v) in m; the last repeated where fewer than c.
+        areas: Cell areas (n,) in m^2.
+        pressure: Largest (n,) of each cell, or 1 if unknown.
+        toe_line: u in m where toes begin, as (v, u) points from lateral to medial; None where not separated.
     """
 
     side: Side
@@ -48,7 +47,7 @@ class Footprint:
 
     @cached_property
     def centres(self) -> NDArray[np.float64]:
-        """Middles (n, 2) of the cells as (u, v) in m."""
+        """Cell centres (n, 2) as (u, v) in m."""
         return np.asarray(0.5 * (self.rings.min(axis=1) + self.rings.max(axis=1)))
 
     @property
@@ -70,13 +69,11 @@ class Footprint:
 
     @property
     def toeless_length(self) -> float:
-        """Length in m from the heel to the front of the metatarsal heads."""
+        """Length in m from heel to front of the metatarsal heads."""
         return float(self.rings[~self.is_toe][:, :, 0].max()) if (~self.is_toe).any() else self.length
 
     def area_between(self, low: float, high: float) -> float:
-        """Returns the area in m^2 of the print without toes between two lines across the axis at u = low and high
-        in m.
-        """
+        """Returns toeless print area in m^2 between lines across the axis at u = low and high in m."""
         keep = ~self.is_toe
         rings, areas = self.rings[keep], self.areas[keep]
         first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)
@@ -91,7 +88,7 @@ class Footprint:
         return total
 
     def arch_index(self) -> float:
-        """Middle third of the toeless footprint over all of it (Cavanagh & Rodgers 1987); NaN for an empty print."""
+        """Middle third over all of the toeless footprint (Cavanagh & Rodgers 1987); NaN if empty."""
         length = self.toeless_length
         thirds = [self.area_between(i * length / 3.0, (i + 1) * length / 3.0) for i in range(3)]
         return thirds[1] / sum(thirds) if sum(thirds) > 0.0 else float("nan")
@@ -101,7 +98,7 @@ class Footprint:
         return convex_hull(self.rings.reshape(-1, 2))
 
     def width_at(self, u: float) -> float:
-        """Width in m of the print's convex hull at a line across the axis; 0 where it crosses none."""
+        """Width in m of the convex hull at a line across the axis, or 0."""
         across = _crossing(self._hull, u)
         return 0.0 if across is None else across[1] - across[0]
 
@@ -123,14 +120,14 @@ def footprint_of_cells(
     side: Side,
     forward: NDArray[np.float64] | None = None,
 ) -> Footprint | None:
-    """Returns the footprint of a sensor's loaded cells; None without one.
+    """Returns footprint of loaded cells; None without any.
 
     Args:
-        layout: The sensor, n cells.
-        pressure: Largest pressure (n,) of each cell.
-        loaded: Which cells (n,) are part of the print.
-        side: The foot.
-        forward: Approximate direction (2,) from heel to toes; the sole's x axis, exactly, where None.
+        layout: Sensor, n cells.
+        pressure: Largest (n,) of each cell.
+        loaded: Cells (n,) of the print.
+        side: Foot.
+        forward: Approximate direction (2,) from heel to toes; exactly the sole's x axis where None.
     """
     chosen = np.flatnonzero(loaded)
     if len(chosen) == 0:
@@ -142,10 +139,9 @@ def footprint_of_cells(
 def footprint_of_pixels(
     centres: NDArray[np.float64], pixel: float, side: Side, forward: NDArray[np.float64]
 ) -> Footprint:
-    """Returns the footprint of a side's pixels: their centres (n, 2) in m, x and y as in the sole frame, size pixel in
-    m.
+    """Returns footprint of a side's pixels: centres (n, 2) in m, x and y as in the sole frame, size pixel in m.
 
-    The direction forward (2,) from heel to toes is approximate.
+    Direction forward (2,), heel to toes, is approximate.
     """
     box = 0.5 * pixel * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     rings = centres[:, None, :] + box
@@ -175,7 +171,7 @@ def _footprint(
 def _axis(
     rings: NDArray[np.float64], areas: NDArray[np.float64], forward: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Direction (2,) of a print's own axis and a point (2,) on it: it halves the widths of heel and forefoot."""
+    """Print's axis: direction (2,) and point (2,); halves the widths of heel and forefoot."""
     axis = np.asarray(forward, dtype=float) / np.hypot(*forward)
     through = np.average(0.5 * (rings.min(axis=1) + rings.max(axis=1)), axis=0, weights=areas)
     for _ in range(_ROUNDS):  # the bands turn with the axis
@@ -192,7 +188,7 @@ def _axis(
 def _middle_of_band(
     rings: NDArray[np.float64], axis: NDArray[np.float64], low: float, high: float
 ) -> NDArray[np.float64] | None:
-    """Midpoint of the medial-most and the lateral-most cell between two lines across an axis."""
+    """Midpoint of medial-most and lateral-most cells between two lines across an axis."""
     across = rings @ np.array([-axis[1], axis[0]])
     along = rings @ axis
     centre = 0.5 * (along.min(axis=1) + along.max(axis=1))
@@ -204,7 +200,7 @@ def _middle_of_band(
 
 
 def _cut(ring: NDArray[np.float64], at: float, sign: float) -> NDArray[np.float64]:
-    """The part of a convex ring with sign * (u - at) >= 0."""
+    """Convex ring's part with sign * (u - at) >= 0."""
     if len(ring) == 0:
         return ring
     height = sign * (ring[:, 0] - at)
@@ -220,7 +216,7 @@ def _cut(ring: NDArray[np.float64], at: float, sign: float) -> NDArray[np.float6
 
 
 def _crossing(ring: NDArray[np.float64], u: float) -> tuple[float, float] | None:
-    """Lowest and highest v at which a line across the axis crosses a ring."""
+    """Lowest and highest v where a line across the axis crosses a ring."""
     height = ring[:, 0] - u
     if height.min() > 0.0 or height.max() < 0.0:
         return None

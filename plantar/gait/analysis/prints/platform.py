@@ -1,8 +1,4 @@
-"""Platforms and walkways: footprints, their feet, and the direction of walking.
-
-`platform_parts` joins cells into footprints; `platform_walk` finds the foot and the direction from the pass that a
-footprint is part of.
-"""
+"""Platforms and walkways: footprints, their feet, and the walking direction."""
 
 from __future__ import annotations
 
@@ -32,14 +28,14 @@ _TRIGGER = 0.25  # Share of the peak up to which load in the first and last fram
 
 @dataclass(frozen=True, eq=False)
 class PlatformPrint:
-    """One footprint on a platform.
+    """Footprint on a platform.
 
     Attributes:
-        side: The foot.
-        begin: First frame in which it is loaded.
-        end: Frame after the last one.
-        cells: Cells (n,) of it, as indices of the platform's.
-        forward: Direction (2,) of walking in the platform's frame.
+        side: Foot.
+        begin: First loaded frame.
+        end: Frame after the last.
+        cells: Platform indices (n,).
+        forward: Walking direction (2,) in the platform's frame.
     """
 
     side: Side
@@ -50,10 +46,9 @@ class PlatformPrint:
 
 
 def separated_feet(recording: PressureRecording) -> tuple[PressureRecording, tuple[PlatformPrint, ...]]:
-    """A platform's recording with the footprints of each foot under its side, and the footprints; others as they are.
+    """Platform's recording with each foot's footprints under its side, and the footprints; others unchanged.
 
-    The frame is turned so that the first pass walks along x. Ends that carry little get frames without load before or
-    after.
+    Turned so that the first pass walks along x. Ends that carry little get unloaded frames.
     """
     whole = next(iter(recording.feet.values()), None)
     if recording.kind != "platform" or whole is None or whole.layout is None:
@@ -105,7 +100,7 @@ def _prints(
 def _with_quiet_ends(
     time: NDArray[np.float64], force: NDArray[np.float64], period: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]:
-    """Frames without load added at ends and gaps in time where the neighbouring frame carries little."""
+    """Unloaded frames added at ends and time gaps where the neighbouring frame carries little."""
     total = np.nansum(force, axis=1)
     little = (total > 0.0) & (total <= _TRIGGER * float(total.max(initial=0.0)))
     gaps = np.flatnonzero(np.diff(time) > 3.5 * period)

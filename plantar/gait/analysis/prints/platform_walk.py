@@ -1,7 +1,7 @@
-"""Footprints on a platform: which cells and frames are one, and the direction and feet of a pass over it.
+"""Footprints on a platform: their cells and frames, and direction and feet of a pass.
 
-A piece is loaded cells that touch, or have one cell between them, without a pause. Pieces that are loaded at the same
-time, and together are no larger than a foot, are one footprint.
+A piece is loaded cells that touch, or have one cell between them, without a pause. Pieces loaded together that are no
+larger than a foot are one footprint.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ _LEAST_PIECE, _LEAST_PRINT = 0.005, 0.05
 
 @dataclass(frozen=True, eq=False)
 class PlatformLoad:
-    """Load of a platform's cells.
+    """Load of platform cells.
 
     Attributes:
-        layout: The platform, k cells.
-        force: Force (n, k) in N, 0 where none was measured.
+        layout: Platform, k cells.
+        force: Force (n, k) in N, 0 if unmeasured.
         time: Times (n,) in s.
     """
 
@@ -52,7 +52,7 @@ class PlatformLoad:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Cells that are loaded together from one frame to before another, and their largest load in N."""
+    """Cells loaded together from one frame to before another, and their largest load in N."""
 
     cells: list[int]
     begin: int
@@ -62,38 +62,36 @@ class _Piece:
 
 @dataclass(frozen=True, eq=False)
 class PrintCells:
-    """The pieces of one footprint, the one that carries most first."""
+    """Pieces of one footprint, most loaded first."""
 
     pieces: list[_Piece]
 
     @property
     def begin(self) -> int:
-        """First frame in which it is loaded."""
+        """First loaded frame."""
         return min(p.begin for p in self.pieces)
 
     @property
     def end(self) -> int:
-        """Frame after the last one in which it is loaded."""
+        """Frame after the last loaded one."""
         return max(p.end for p in self.pieces)
 
     @cached_property
     def cells(self) -> NDArray[np.int64]:
-        """Its cells (n,), increasing."""
+        """Cells (n,), increasing."""
         return np.array(sorted({cell for piece in self.pieces for cell in piece.cells}))
 
     @property
     def load(self) -> float:
-        """Sum of the largest loads of its pieces in N."""
+        """Sum of its pieces' largest loads in N."""
         return sum(p.load for p in self.pieces)
 
 
 def cells_of_prints(load: PlatformLoad, threshold: float) -> list[PrintCells]:
-    """Returns the pieces of each footprint on a platform by its load, in order; with 5 % of the largest piece's load or
-    more.
+    """Returns pieces of each footprint by a platform's load, in order; with 5 % of the largest piece's load or more.
 
     Args:
-        load: Load of its cells.
-        threshold: Force in N above which a cell counts as loaded.
+        threshold: Cell counts as loaded above this force in N.
     """
     pieces = list(_pieces(load, load.force > threshold))
     top = max((p.load for p in pieces), default=0.0)
@@ -117,7 +115,7 @@ def _pieces(load: PlatformLoad, loaded: NDArray[np.bool_]) -> Iterator[_Piece]:
 
 
 def _components(layout: SoleLayout, active: NDArray[np.bool_]) -> list[list[int]]:
-    """Active cells that touch, or have one cell between them."""
+    """Active cells that touch, or have one between them."""
     left = active.copy()
     out: list[list[int]] = []
     for start in np.flatnonzero(active).tolist():
@@ -128,7 +126,7 @@ def _components(layout: SoleLayout, active: NDArray[np.bool_]) -> list[list[int]
 
 
 def _flooded(layout: SoleLayout, start: int, left: NDArray[np.bool_]) -> list[int]:
-    """Cells joined to one, itself included, which are removed from `left`."""
+    """Cells joined to one, itself included; removes them from `left`."""
     stack, cells = [start], []
     while stack:
         cell = stack.pop()
@@ -152,7 +150,7 @@ def _apart(layout: SoleLayout, one: _Piece, other: _Piece) -> float:
 
 
 def _one_foot(load: PlatformLoad, group: PrintCells, piece: _Piece) -> bool:
-    """Whether a piece belongs to a footprint: loaded at the same time, and together no larger than a foot."""
+    """Whether a piece belongs to a footprint: loaded together, no larger than a foot."""
     time = load.time
     if time[piece.begin] > time[group.end - 1] + _SAME_TIME or time[piece.end - 1] < time[group.begin] - _SAME_TIME:
         return False
@@ -173,12 +171,12 @@ _WAIST, _TRUNK, _BALL, _TOES = (0.33, 0.55), (0.25, 0.60), (0.60, 0.80), 0.82
 
 @dataclass(frozen=True, eq=False)
 class PlatformWalk:
-    """One pass over a platform: its footprints, in the order in which they begin.
+    """One pass over a platform: footprints in the order they begin.
 
     Attributes:
-        load: Load of the platform's cells.
-        prints: The cells of each footprint.
-        centres: Centroid (m, 2) of each footprint in m, weighted by force.
+        load: Of the platform's cells.
+        prints: Cells of each.
+        centres: Force-weighted centroid (m, 2) of each in m.
     """
 
     load: PlatformLoad
@@ -187,9 +185,7 @@ class PlatformWalk:
 
 
 def passes_over(load: PlatformLoad, prints: Sequence[PrintCells]) -> list[PlatformWalk]:
-    """Returns the passes over a platform, each ended by a time without load, by the load of its cells and its prints in
-    order.
-    """
+    """Returns platform passes, separated by times without load, by cell load and prints in order."""
     passes: list[list[PrintCells]] = []
     for cells in prints:
         if passes and load.time[cells.begin] - max(load.time[p.end - 1] for p in passes[-1]) < _PAUSE:
@@ -200,9 +196,7 @@ def passes_over(load: PlatformLoad, prints: Sequence[PrintCells]) -> list[Platfo
 
 
 def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float64]:
-    """Returns the direction (2,) of a walk, from its first to its last footprints or along the platform; notes get
-    assumptions.
-    """
+    """Returns walk direction (2,), from first to last footprints or along the platform; notes get assumptions."""
     centres = walk.centres
     if len(centres) >= 3 and np.hypot(*(centres[-1] - centres[0])) > _TRAVEL:
         half = len(centres) // 2
@@ -224,14 +218,13 @@ def direction_of_walk(walk: PlatformWalk, notes: list[str]) -> NDArray[np.float6
 def sides_of_walk(
     walk: PlatformWalk, forward: NDArray[np.float64], stated: Side | None, notes: list[str]
 ) -> list[Side]:
-    """Returns the foot of each footprint of a walk: of several, the left ones lie to the left of the line of walking.
+    """Returns the foot of each footprint of a walk: left ones lie left of the walking line.
 
     Args:
-        walk: A pass.
-        forward: Direction (2,) of walking.
-        stated: The foot that the file names; used where the footprints lie in one line. Else arch and hallux show the
-            side.
-        notes: List to which assumptions are added.
+        walk: Pass.
+        forward: Walking direction (2,).
+        stated: Foot that the file names; used if footprints lie in one line. Else arch and hallux show it.
+        notes: Assumptions are added.
     """
     count = len(walk.prints)
     offset = walk.centres @ np.array([-forward[1], forward[0]])
@@ -254,7 +247,7 @@ def _centroid(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
 
 
 def _path(load: PlatformLoad, cells: PrintCells) -> NDArray[np.float64]:
-    """Displacement (2,) of the centre of pressure in a contact."""
+    """Displacement (2,) of the CoP in a contact."""
     part = load.force[cells.begin : cells.end][:, cells.cells]
     total = part.sum(axis=1)
     part, total = part[total > 0.02 * total.max()], total[total > 0.02 * total.max()]
@@ -268,14 +261,14 @@ def _longer_side(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _line_of_walking(along: NDArray[np.float64], offset: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The line between the feet: straight, halfway between the outermost footprints on either side of its slope."""
+    """Straight line between the feet, halfway between the outermost footprints beside its slope."""
     slope = np.polyfit(along, offset, 1)[0] if len(along) >= 4 and np.ptp(along) > 1.0 else 0.0
     level = offset - slope * along
     return np.asarray(slope * along + 0.5 * (level.min() + level.max()))
 
 
 def _side_by_shape(load: PlatformLoad, cells: PrintCells, forward: NDArray[np.float64]) -> Side:
-    """The side of a single footprint: as a left foot its arch is open to the right and its hallux lies there."""
+    """Side of a single footprint: a left foot's arch and hallux lie to the right."""
     highest = load.force[cells.begin : cells.end].max(axis=0)
     chosen = np.zeros(len(load.layout), dtype=bool)
     chosen[cells.cells] = highest[cells.cells] > 0.0
@@ -294,7 +287,7 @@ def _mean_where(chosen: NDArray[np.bool_], values: NDArray[np.float64], weights:
 
 
 def _hallux_offset(print_: Footprint, trunk: float) -> float:
-    """Distance of the toes' load to the medial side of the ball (else the trunk), as a share of the length."""
+    """Toes' load medial of the ball (else trunk), as share of length."""
     u, v = print_.centres.T / print_.length
     front, ball = u > _TOES, (u > _BALL[0]) & (u < _BALL[1])
     if not front.any():

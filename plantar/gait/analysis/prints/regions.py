@@ -1,7 +1,7 @@
-"""Regions of the foot, found from the footprint.
+"""Regions of the foot, from the footprint.
 
-The toes begin at a gap, or a valley of pressure, in front of the metatarsal heads. The print without toes is cut into
-thirds of its length, the forefoot into thirds of its width; the hallux is the medial part of the toes.
+Toes begin at a gap, or pressure valley, in front of the metatarsal heads. The toeless print is cut into length thirds,
+its forefoot into width thirds; the hallux is the medial part of the toes.
 """
 
 from __future__ import annotations
@@ -36,10 +36,10 @@ _TOES_OF_SOLE = 0.82  # Share of an insole's length at which its toe region begi
 
 
 def with_toe_line(print_: Footprint) -> Footprint:
-    """The footprint with its toe line, where one is found.
+    """Footprint with its toe line, if found.
 
-    In each strip along the foot the valley beyond the highest pressure between 45 and 80 % of the length counts if it
-    is less than 60 % of what follows. Strips without one use their neighbours' line.
+    In each strip along the foot the valley beyond the highest pressure between 45 and 80 % of the length counts if
+    below 60 % of what follows. Strips without one use their neighbours' line.
     """
     extent = np.ptp(print_.rings[:, :, 0], axis=1)
     pitch = float(np.median(extent)) if len(extent) else 0.0
@@ -54,7 +54,7 @@ def with_toe_line(print_: Footprint) -> Footprint:
 
 
 def _valleys(print_: Footprint, pitch: float) -> list[tuple[float, float]]:
-    """v of the middle of each strip that has a valley, and u of that valley."""
+    """v of the middle of each strip with a valley, and the valley's u."""
     v = print_.centres[:, 1]
     found: list[tuple[float, float]] = []
     for a, b in pairwise(np.linspace(float(v.min()) - 1e-9, float(v.max()) + 1e-9, _STRIPS + 1)):
@@ -68,7 +68,7 @@ def _valleys(print_: Footprint, pitch: float) -> list[tuple[float, float]]:
 def _profile(
     print_: Footprint, strip: NDArray[np.bool_], pitch: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Largest pressure of the cells over each place along a strip; 0 in gaps."""
+    """Largest cell pressure at each place along a strip; 0 in gaps."""
     places = np.arange(0.40 * print_.length, print_.length, 0.5 * max(pitch, print_.length / 200.0))
     rings, pressure = print_.rings[strip], print_.pressure[strip]
     first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)
@@ -77,7 +77,7 @@ def _profile(
 
 
 def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float | None:
-    """u of the valley between forefoot and toes in one strip; the middle of the first part of a wide one."""
+    """u of a strip's valley between forefoot and toes; middle of the first part of a wide one."""
     places, height = _profile(print_, strip, pitch)
     fore = (places >= 0.45 * print_.length) & (places <= 0.80 * print_.length)
     if not fore.any() or height[fore].max() <= 0.0:
@@ -96,22 +96,22 @@ def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float 
 
 
 def _is_valley(height: NDArray[np.float64], at: int, peak: int, beyond: float) -> bool:
-    """Whether a place is low enough next to the forefoot's peak and what follows, which carries like toes."""
+    """Whether a place is low next to the forefoot's peak and what follows like toes."""
     top = float(height[peak])
     return bool(beyond >= _TOE_PEAK * top and height[at] <= _DEPTH * min(float(beyond), top))
 
 
 def _whole_gap(print_: Footprint, pitch: float) -> bool:
-    """Whether a gap separates the toes over the whole width."""
+    """Whether a gap separates the toes over the full width."""
     places, height = _profile(print_, np.ones(len(print_.areas), dtype=bool), pitch)
     front = height[places > 0.6 * print_.length]
     return bool(len(front) and (front[: -1 if len(front) > 1 else None] == 0.0).any())
 
 
 def regions_of(print_: Footprint, of_sole: float | None = None) -> NDArray[np.int64]:
-    """Returns the index (n,) into `REGIONS` of each cell of a footprint `print_`, with its toe line where it has one.
+    """Returns index (n,) into `REGIONS` of each cell of footprint `print_`, with its toe line if any.
 
-    Without one, toes begin at 82 % of the length in m `of_sole` from the print's origin; None for no toes.
+    Else toes begin at 82 % of the length in m `of_sole` from the origin; None for no toes.
     """
     u, v = print_.centres.T
     toe = print_.is_toe

@@ -1,1 +1,1 @@
-"""One step: its events, and what it measures."""
+"""One step: events and measures."""

@@ -1,7 +1,7 @@
-"""Readings of sensors in swing: offsets of a foot, and cells that a crease or a shoe keeps loaded.
+"""Readings in swing: offsets of a foot, and cells that a crease or shoe keeps loaded.
 
-In a walk the force returns to the same flat level, for about half a second, again and again; in standing it wanders
-about its mean. Only levels found in a walk are taken off, and they are reported.
+In a walk the force keeps returning to a flat level for about half a second; in standing it wanders. Only levels found
+in a walk are removed, and reported.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ _FRAMES = 4000  # Frames in swing from which a cell's reading is averaged: enoug
 
 @dataclass(frozen=True, eq=False)
 class RestingLevel:
-    """A foot's force in swing.
+    """Foot's force in swing.
 
     Attributes:
-        level: Its level (n,) in each frame, in the force's unit.
-        swing: Frames (n,) in which the foot is at that level for longer than `MINIMUM_SWING`.
-        span: Range of the force above the level.
-        each: The single swings, where the level is followed from one to the next; else None.
+        level: Level (n,) in each frame, in the force's unit.
+        swing: Frames (n,) at that level for longer than `MINIMUM_SWING`.
+        span: Force range above the level.
+        each: Single swings, where the level follows them; else None.
     """
 
     level: NDArray[np.float64]
@@ -61,10 +61,10 @@ class RestingLevel:
 
 
 def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
-    """Returns the level of a walking foot's force in swing, of each swing where it changes; None as in standing.
+    """Returns level of a walking foot's force in swing, of each swing where it changes; None as in standing.
 
     Args:
-        force: Vertical force (n,), NaN where it was not measured.
+        force: Vertical force (n,), NaN if unmeasured.
         rate: Frames a second.
 
     Example:
@@ -83,7 +83,7 @@ def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | Non
 
 
 def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
-    """The level of stretches of ten strides or five."""
+    """Level of stretches of ten or five strides."""
     n = len(force)
     tried = []
     for window in _WINDOWS:
@@ -106,7 +106,7 @@ def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None
 
 
 def _level(force: NDArray[np.float64], rate: float) -> tuple[float, float, NDArray[np.bool_]] | None:
-    """Level in swing, range above it and frames (n,) in swing of one stretch; None where it is no walk."""
+    """Level in swing, range above it and frames (n,) in swing of one stretch; None without a walk."""
     measured = np.isfinite(force)
     if measured.sum() < 20:
         return None
@@ -135,7 +135,7 @@ def _level(force: NDArray[np.float64], rate: float) -> tuple[float, float, NDArr
 
 
 def _steps_show(course: NDArray[np.float64], near: NDArray[np.bool_], low: float, span: float, rate: float) -> bool:
-    """Whether contacts between flat stretches are steps: a foot lands and lifts at once, weight is shifted slowly."""
+    """Whether contacts between flat stretches are steps: landing and lifting at once, unlike slow weight shifts."""
     flanks = []
     for a, b in true_runs(~near):
         part = course[a:b] - low
@@ -147,9 +147,7 @@ def _steps_show(course: NDArray[np.float64], near: NDArray[np.bool_], low: float
 
 
 def without_baselines(recording: PressureRecording) -> PressureRecording:
-    """The recording without offsets of its feet and readings of creases and stuck cells in swing, each with a
-    warning.
-    """
+    """Recording without offsets of feet and swing readings of creases and stuck cells, each with a warning."""
     if recording.kind == "platform":
         return recording
     feet, notes = dict(recording.feet), list(recording.warnings)
@@ -195,7 +193,7 @@ def _cells(ids: Sequence[int]) -> str:
 
 
 def _frames(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Frames of a mask, of very many some in a row at 40 places: they lie together in a file."""
+    """Frames of a mask, of very many runs at 40 places: they lie together in a file."""
     index = np.flatnonzero(mask)
     if len(index) <= _FRAMES:
         return index
@@ -203,7 +201,7 @@ def _frames(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
 
 
 def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Mean reading (k,) of each cell in some frames; 0 of one that measured none."""
+    """Mean reading (k,) of each cell in some frames; 0 if none measured."""
     part = foot.force[frames]
     let_go(foot.force)
     known = np.isfinite(part)
@@ -211,7 +209,7 @@ def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.floa
 
 
 def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
-    """The foot without the readings of each cell in swing, which follow a level that drifts."""
+    """Foot without swing readings of each cell, which follow a drifting level."""
     total = None if foot.total is None else foot.total - rest.level
     if foot.force.shape[1] == 0:
         return replace(foot, total=total)
@@ -226,7 +224,7 @@ def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
 
 
 def _between(index: NDArray[np.int64], at: NDArray[np.float64], table: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rows (n, k) of a table at some places, on straight lines between them and level beyond them."""
+    """Rows (n, k) of a table at some places, linear between them and level beyond."""
     if len(at) == 1:
         return table
     after = np.clip(np.searchsorted(at, index), 1, len(at) - 1)
@@ -235,7 +233,7 @@ def _between(index: NDArray[np.int64], at: NDArray[np.float64], table: NDArray[n
 
 
 def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
-    """Places (frames) at which cells have a baseline of their own, and the stretch of frames of each."""
+    """Places (frames) where cells have their own baseline, and each one's stretch of frames."""
     if rest.each is not None:
         return rest.each.places.tolist(), [(int(a), int(b)) for a, b in rest.each.spans]
     n = len(rest.level)
@@ -247,13 +245,13 @@ def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
 
 
 def _per_stretch(rest: RestingLevel) -> int:
-    """Frames of a stretch with several swings: a tenth of all, 20 at the most."""
+    """Frames of a stretch with several swings: a tenth of all, 20 at most."""
     begins = np.flatnonzero(np.diff(rest.swing.astype(np.int8)) == 1)
     return len(rest.swing) // min(20, max(1, len(begins) // 5))
 
 
 def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
-    """Cells (k,) that read in swing more than a share of their load, and more than their threshold."""
+    """Cells (k,) that read in swing more than a share of their load and their threshold."""
     if foot.force.shape[1] == 0:
         return np.zeros(0, dtype=np.int64)
     air = _in_swing(foot, _frames(rest.swing))

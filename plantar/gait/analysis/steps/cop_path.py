@@ -1,4 +1,4 @@
-"""The path of the centre of pressure under a foot."""
+"""Path of the CoP under a foot."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ CHORD = 0.05
 
 
 def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
-    """Returns the weighted running mean (n, 2) of points over a centred window, which shrinks at ends and gaps.
+    """Returns weighted running mean (n, 2) of points over a centred window, shrinking at ends and gaps.
 
     Args:
-        points: Positions (n, 2); NaN where there is none, which stays.
-        weight: Weights (n,), above 0 where there is a position.
-        frames: Width of the window.
+        points: Positions (n, 2); NaN for none, which stays.
+        weight: (n,), above 0 where there is a position.
+        frames: Window width.
     """
     known = np.isfinite(points[:, 0])
     n = len(known)
@@ -42,11 +42,11 @@ def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], fram
 
 
 def cop_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:
-    """Returns length, range and speed of a path by key; empty for fewer than two positions.
+    """Returns length, range and speed of a path by key; empty below two positions.
 
     Args:
         time: Times (m,) in s.
-        points: Positions (m, 2), forward and to the left in m, NaN where there is none.
+        points: Positions (m, 2), forward and left in m, NaN for none.
 
     Example:
         >>> t = np.linspace(0.0, 0.5, 51)
@@ -72,11 +72,10 @@ def cop_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict
 
 
 def chords(time: NDArray[np.float64], points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Returns lengths (k,) and times (k,) in s of straight pieces of a path of up to 50 ms: between frames, noise adds
-    length.
+    """Returns lengths (k,) and times (k,) in s of straight path pieces up to 50 ms: between frames, noise adds length.
 
     Args:
-        time: Times (m,) in s, 2 or more.
+        time: (m,) in s, 2 or more.
         points: Positions (m, 2).
     """
     every = max(1, round(CHORD * (len(time) - 1) / float(time[-1] - time[0])))
@@ -86,14 +85,14 @@ def chords(time: NDArray[np.float64], points: NDArray[np.float64]) -> tuple[NDAr
 
 
 def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
-    """Returns the centre of pressure excursion index (Song et al. 1996) in percent; NaN short of the front third.
+    """Returns CoP excursion index (Song et al. 1996) in percent; NaN short of the front third.
 
-    It is the path's distance, to the lateral side, from the line between its ends at the front third of the foot, over
-    the footprint's width there.
+    Lateral distance of the path from the line between its ends at the foot's front third, over the footprint's width
+    there.
 
     Args:
-        print_: The footprint.
-        points: Positions (m, 2) in the frame that the print was made from, NaN where there is none.
+        print_: Footprint.
+        points: Positions (m, 2) in the print's source frame, NaN for none.
     """
     path = print_.in_foot(points[np.isfinite(points[:, 0])])
     at = 2.0 / 3.0 * print_.length
@@ -109,14 +108,14 @@ def excursion_index(print_: Footprint, points: NDArray[np.float64]) -> float:
 
 
 def margin_to_outline(layout: SoleLayout, points: NDArray[np.float64]) -> float:
-    """Returns the smallest signed distance in m of points (m, 2) to a sole layout's convex outline, positive inside."""
+    """Returns smallest signed distance in m of points (m, 2) to a sole layout's convex outline, inside positive."""
     normal, offset = _edges(layout)
     return float((points @ normal.T - offset).min())
 
 
 @lru_cache(maxsize=8)
 def _edges(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Inward normals (k, 2) and offsets (k,) of the edges of a sole's convex outline."""
+    """Inward normals (k, 2) and offsets (k,) of a sole's convex outline."""
     hull = convex_hull(layout.outline)
     edge = np.roll(hull, -1, axis=0) - hull
     normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(edge[:, 0], edge[:, 1])[:, None]

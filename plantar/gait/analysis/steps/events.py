@@ -1,8 +1,8 @@
-"""Gait events: heel strikes and toe offs of a foot, from its vertical force.
+"""Gait events: heel strikes and toe offs from a foot's vertical force.
 
-Force is measured against its own range, from its level in swing to its robust peak; `EVENT_LEVELS` are shares of it,
-raised by noise. An event is where the force crosses its level, or midway in a jump of half of the range; the toe off
-from an insole is where the fall of push-off, continued straight, ends.
+Force is measured from its swing level to its robust peak; `EVENT_LEVELS` are shares of that range, raised by noise. An
+event is where force crosses its level, or midway in a jump of half the range; an insole's toe off is where the
+straightened fall of push-off ends.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ __all__ = [
 
 @dataclass(frozen=True)
 class EventLevels:
-    """Shares of the force range at which events lie.
+    """Force range shares at which events lie.
 
     Attributes:
-        strike: Rising crossing of a heel strike, below which a foot is off the ground.
-        contact: Share that a contact has to reach.
-        lift: Last falling crossing, the earliest toe off.
-        clear: Falling crossing of the latest toe off; None where it is at `lift`.
+        strike: Rising crossing of a heel strike; below it the foot is off the ground.
+        contact: Share a contact must reach.
+        lift: Last falling crossing, earliest toe off.
+        clear: Falling crossing of the latest toe off; None if at `lift`.
     """
 
     strike: float
@@ -85,16 +85,16 @@ _FEWEST_STEPS = 20  # Steps between swing samples from which their noise is judg
 
 @dataclass(frozen=True)
 class Levels:
-    """Force levels of one foot in N.
+    """One foot's force levels in N.
 
     Attributes:
-        rest: Load in swing.
+        rest: Swing load.
         peak: Robust peak.
-        release: Level of the heel strike, below which a foot is off the ground.
-        contact: Level that a contact has to reach.
-        lift: Level of the earliest toe off.
-        noise: Standard deviation of the force in swing.
-        clear: Level of the latest toe off, where push-off is continued to `rest`; None where the toe off is at `lift`.
+        release: Heel strike level, below which the foot is off the ground.
+        contact: Level a contact must reach.
+        lift: Earliest toe off.
+        noise: Standard deviation in swing.
+        clear: Latest toe off, where push-off is continued to `rest`; None if at `lift`.
     """
 
     rest: float
@@ -108,14 +108,14 @@ class Levels:
 
 @dataclass(frozen=True)
 class Contact:
-    """One contact of a foot; its times are None where the recording, or a gap in it, cuts it.
+    """One contact of a foot; times are None where the recording or a gap cuts it.
 
     Attributes:
-        heel_strike: Time in s at which it began.
-        toe_off: Time in s at which it ended.
-        begin: First frame in contact.
-        end: Frame after the last one in contact.
-        standing: Whether it is too long for a step.
+        heel_strike: Begin in s.
+        toe_off: End in s.
+        begin: First frame.
+        end: Frame after the last.
+        standing: Whether too long for a step.
     """
 
     heel_strike: float | None
@@ -126,15 +126,14 @@ class Contact:
 
     @property
     def complete(self) -> bool:
-        """Whether it is a step whose ends were both recorded."""
+        """Whether it is a step with both ends recorded."""
         return self.heel_strike is not None and self.toe_off is not None and not self.standing
 
 
 def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool = True) -> Levels | None:
-    """Returns the levels of one foot's vertical force (n,) in N, NaN where not measured; None where it is never above
-    its noise.
+    """Returns levels of a foot's vertical force (n,) in N, NaN if unmeasured; None where never above its noise.
 
-    The noise and the load in swing depend on the kind of sensor; a foot that is not lifted has no swing.
+    Noise and swing load depend on the kind of sensor; a foot not lifted has no swing.
     """
     measured = force[np.isfinite(force)]
     if len(measured) < 3:
@@ -160,7 +159,7 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool 
 
 
 def smoothed(force: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Median of five frames of a force (n,): a single damaged frame is not a peak."""
+    """Median of five frames of force (n,): single damaged frames are no peaks."""
     padded = np.pad(force, 2, mode="edge")
     a, b, c, d, e = (padded[k : len(force) + k] for k in range(5))
     low, high = np.minimum(a, b), np.maximum(a, b)
@@ -170,7 +169,7 @@ def smoothed(force: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _peak_above_noise(measured: NDArray[np.float64], smooth: NDArray[np.float64]) -> float | None:
-    """Robust peak in N of a force and its smoothed course; None where it is no more than noise."""
+    """Robust peak in N of a force and its smoothed course; None if just noise."""
     top = float(smooth.max())
     if not top > 0.0:
         return None
@@ -181,7 +180,7 @@ def _peak_above_noise(measured: NDArray[np.float64], smooth: NDArray[np.float64]
 
 
 def _peak_of_contacts(smooth: NDArray[np.float64], floor: float) -> float:
-    """Median of the contacts' peaks in N, independent of standing before a walk."""
+    """Median contact peak in N, independent of standing before a walk."""
     least = _LIGHT * float(np.median(smooth[smooth >= floor]))  # chatter about the floor is no contact
     loads = [smooth[a:b] for a, b in true_runs(smooth >= floor)]
     return float(np.median([np.percentile(load, 90.0) for load in loads if load.max() >= least]))
@@ -190,7 +189,7 @@ def _peak_of_contacts(smooth: NDArray[np.float64], floor: float) -> float:
 def _rest_and_noise(
     force: NDArray[np.float64], smooth: NDArray[np.float64], peak: float, contact: float, kind: Kind
 ) -> tuple[float, float]:
-    """Load of a foot in swing, and its standard deviation, in N."""
+    """Swing load of a foot and its standard deviation, in N."""
     rest = float(np.percentile(smooth, 5.0))
     if rest > 0.3 * peak or kind == "platform":  # never off the ground, or nothing rests on it when it is
         rest = 0.0
@@ -211,13 +210,13 @@ def find_contacts(
     levels: Levels | None = None,
     minimum_stance: float = MINIMUM_STANCE,
 ) -> list[Contact]:
-    """Returns the contacts of one foot, in order.
+    """Returns one foot's contacts in order.
 
     Args:
-        time: Times (n,) in s, increasing.
-        force: Vertical force (n,) in N; NaN where it was not measured. Gaps of up to 0.1 s are interpolated; a longer
-            one cuts its contact, as the ends of the recording do.
-        levels: Levels to use; those of `force_levels` where None.
+        time: (n,) in s, increasing.
+        force: Vertical (n,) in N; NaN if unmeasured. Gaps up to 0.1 s are interpolated; longer ones cut a contact, as
+            do the recording's ends.
+        levels: Those of `force_levels` where None.
         minimum_stance: Shortest contact in s.
 
     Example:
@@ -240,11 +239,11 @@ def find_contacts(
 
 
 def measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """Returns first and end frames of spans without a gap longer than `LONGEST_BRIDGE`, in force or time.
+    """Returns first and end frames of spans without gaps over `LONGEST_BRIDGE`, in force or time.
 
     Args:
-        time: Times (n,) in s, increasing.
-        force: Vertical force (n,) in N; NaN where it was not measured.
+        time: (n,) in s, increasing.
+        force: Vertical (n,) in N; NaN if unmeasured.
 
     Example:
         >>> measured_spans(np.arange(6) * 0.1, np.array([1.0, 2.0, np.nan, np.nan, np.nan, 0.0]))
@@ -266,7 +265,7 @@ def _contacts_of_span(
     offset: int,
     minimum_stance: float,
 ) -> list[Contact]:
-    """Contacts in frames without a long gap; `offset` is the number of the first one."""
+    """Contacts in frames without a long gap; `offset` is the first one's number."""
     found = [
         _contact(time, force, levels, span, offset)
         for span in _merged(time, force, levels, true_runs(force >= levels.release))
@@ -280,7 +279,7 @@ def _merged(
     levels: Levels,
     spans: list[tuple[int, int]],
 ) -> list[tuple[int, int]]:
-    """The spans that reach the contact level, as one where the foot is not off the ground between them."""
+    """Spans reaching the contact level, merged where the foot stays on the ground between."""
     reaching = [k for k, (a, b) in enumerate(spans) if force[a:b].max() >= levels.contact]
     merged: list[tuple[int, int]] = []
     for i, k in enumerate(reaching):
@@ -296,7 +295,7 @@ def _merged(
 def _contact(
     time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, span: tuple[int, int], offset: int
 ) -> Contact:
-    """The contact of a span, with the times of its events where the recording does not cut them."""
+    """Contact of a span, with event times where not cut."""
     begin, end = span
     jump = 0.5 * (levels.peak - levels.rest)
     strike = _crossing(time, force, begin, levels.release, jump) if begin > 0 else None
@@ -340,7 +339,7 @@ def _begin_of_rise(
 def _end_of_push_off(
     time: NDArray[np.float64], force: NDArray[np.float64], span: tuple[int, int], levels: Levels, lift: float
 ) -> float:
-    """End of push-off, continued straight: after `lift`, and not after the force is clear of the foot."""
+    """End of push-off, continued straight: after `lift`, not after the force is clear."""
     begin, end = span
     assert levels.clear is not None
     after = force[end : int(np.searchsorted(time, time[end] + _BESIDE)) + 1]
@@ -381,20 +380,20 @@ def _longest_gap(
 def _crossing(
     time: NDArray[np.float64], force: NDArray[np.float64], frame: int, level: float, jump: float = np.inf
 ) -> float:
-    """Time at which the force crosses the level between a frame and the one before it: midway where it jumps."""
+    """Time the force crosses the level between a frame and the last: midway in jumps."""
     f0, f1 = force[frame - 1], force[frame]
     share = 0.5 if f0 == f1 or abs(f1 - f0) > jump else float(np.clip((level - f0) / (f1 - f0), 0.0, 1.0))
     return float(time[frame - 1] + share * (time[frame] - time[frame - 1]))
 
 
 def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contact: Contact) -> int:
-    """Returns the number of landings in a contact that an offset joins; 0 where it is short.
+    """Returns number of landings that an offset joins in a contact; 0 if short.
 
     Args:
-        force: Vertical force (n,) of the foot in N.
+        force: Vertical (n,) in N.
         rate: Frames a second.
-        levels: The foot's levels.
-        contact: One of its contacts.
+        levels: Foot's levels.
+        contact: One of the foot's.
 
     Example:
         >>> time = np.arange(0.0, 10.0, 0.01)

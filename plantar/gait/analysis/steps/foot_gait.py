@@ -1,4 +1,4 @@
-"""Analysis of one foot: its events, its steps and their measures."""
+"""Analysis of one foot: events, steps and measures."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ __all__ = ["FootGait", "Step"]
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """One complete contact of one foot.
+    """Complete contact of one foot.
 
     Attributes:
         side: "left" or "right".
-        number: 1 for the first complete contact of its foot.
-        heel_strike_s: Time of heel strike.
-        toe_off_s: Time of toe off.
-        contact: The contact.
-        measures: Known measures by their key in `plantar.gait.analysis.measures.MEASURES`.
-        regions: Measures of each region of the foot.
-        footprint: The footprint of lengths, arch index and regions.
+        number: 1 for its foot's first complete contact.
+        heel_strike_s: In s.
+        toe_off_s: In s.
+        contact: Contact.
+        measures: Known ones by key in `plantar.gait.analysis.measures.MEASURES`.
+        regions: Measures of each foot region.
+        footprint: Of lengths, arch index and regions.
         region: Index (k,) into `REGIONS` of each cell, -1 for none.
-        used: Whether it is in the means.
+        used: Whether in the means.
         unused: Why not, or empty.
-        odd: Why it is odd, or empty.
+        odd: Why odd, or empty.
         activity: "walking", "running", "hopping" or empty.
     """
 
@@ -57,20 +57,20 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class FootGait:
-    """One foot's recording with its events and steps; what needs geometry is None without it.
+    """One foot's recording with events and steps; None for what needs missing geometry.
 
     Attributes:
-        foot: The measurements.
-        levels: Force levels of its events, None where the foot carries no load.
-        contacts: All contacts, also those cut by the recording.
-        steps: The complete ones, measured.
-        cop: Centre of pressure (n, 2) of each frame in the sole frame in m, averaged over 50 ms; NaN without load.
-        cell_threshold: Force in N (k,) above which a cell counts as loaded.
-        picture: Maximum pressure picture (k,) in Pa: mean over the steps, of a platform the largest.
-        footprint: Footprint of that picture in an insole or sole.
-        region: Index (k,) into `REGIONS` of each cell of the picture, -1 for none.
-        sole: The whole insole or sole as a footprint.
-        warnings: Warnings about the foot.
+        foot: Measurements.
+        levels: Force levels of events, None without load.
+        contacts: All, also those cut by the recording.
+        steps: Complete, measured.
+        cop: CoP (n, 2) of each frame, sole frame in m, averaged over 50 ms; NaN without load.
+        cell_threshold: Cells count as loaded above this force (k,) in N.
+        picture: Maximum pressure picture (k,) in Pa: mean over steps, of platforms the largest.
+        footprint: Of that picture in an insole or sole.
+        region: Index (k,) into `REGIONS` of each picture cell, -1 for none.
+        sole: Whole insole or sole as footprint.
+        warnings: About the foot.
     """
 
     foot: FootRecording
@@ -87,22 +87,22 @@ class FootGait:
 
     @property
     def heel_strikes(self) -> list[float]:
-        """Times in s of all recorded heel strikes."""
+        """Times in s of recorded heel strikes."""
         return [c.heel_strike for c in self.contacts if c.heel_strike is not None]
 
     @property
     def toe_offs(self) -> list[float]:
-        """Times in s of all recorded toe offs."""
+        """Times in s of recorded toe offs."""
         return [c.toe_off for c in self.contacts if c.toe_off is not None]
 
     @cached_property
     def used(self) -> tuple[Step, ...]:
-        """The steps that are in the means."""
+        """Steps in the means."""
         return tuple(step for step in self.steps if step.used)
 
     @cached_property
     def columns(self) -> Mapping[str, NDArray[np.float64]]:
-        """Each measure over the used steps, NaN where a step has none of it."""
+        """Each measure over the used steps, NaN where missing."""
         keys = dict.fromkeys(key for step in self.used for key in step.measures)
         used = [step.measures for step in self.used]
         return {key: np.array([measures.get(key, np.nan) for measures in used]) for key in keys}

@@ -1,4 +1,4 @@
-"""Missing values of cells: short gaps are filled, and what is missing is reported."""
+"""Missing cell values: short gaps are filled, missing values reported."""
 
 from __future__ import annotations
 
@@ -19,10 +19,9 @@ _REPORTED = 0.01  # Share of missing values of the cells that measure from which
 
 
 def without_gaps(recording: PressureRecording) -> PressureRecording:
-    """The recording with short gaps of each cell filled on straight lines in time, and warnings of cells that miss
-    values.
+    """Recording with short gaps of each cell filled linearly in time, and warnings of missing values.
 
-    `metadata["missing_percent"]` holds the missing share of each foot's values.
+    `metadata["missing_percent"]` holds each foot's missing share.
     """
     feet, notes, shares = dict(recording.feet), list(recording.warnings), {}
     most = int(LONGEST_GAP * recording.rate_hz)
@@ -62,11 +61,11 @@ def _filled_table(foot: FootRecording, most: int) -> NDArray[np.float64]:
 
 
 def filled(force: NDArray[np.float64], most: int) -> NDArray[np.float64]:
-    """Returns forces (n, k) with short gaps of each cell filled on straight lines between their ends.
+    """Returns forces (n, k) with short gaps of each cell filled linearly between their ends.
 
     Args:
-        force: Forces (n, k), NaN where not measured.
-        most: Frames of the longest gap that is filled; gaps at the beginning or the end have one end and stay.
+        force: (n, k), NaN if unmeasured.
+        most: Longest filled gap in frames; gaps at the recording's ends stay.
 
     Example:
         >>> filled(np.array([[1.0], [np.nan], [3.0], [np.nan], [np.nan], [6.0], [np.nan]]), 1).ravel().tolist()

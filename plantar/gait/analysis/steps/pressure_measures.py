@@ -1,4 +1,4 @@
-"""Pressure of one contact: peaks, pressure-time integrals in both definitions, areas, regions, and a robot's wrench."""
+"""Pressure of contacts: peaks, integrals, areas, regions, and a robot's wrench."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _MOST_FRAMES = 200  # Frames of a contact in which support polygons are looked a
 
 
 def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[str, float]]:
-    """Returns the measures of each contact of a load by key; areas only with a layout."""
+    """Returns measures of each contact of a load by key; areas need a layout."""
     assert load.pressure is not None
     highest = load.pressure.max(axis=1)
     out = {
@@ -50,13 +50,13 @@ def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> list[dict[st
 def region_measures(
     load: StepLoad, region: NDArray[np.int64], names: Sequence[str], durations: Sequence[float]
 ) -> list[dict[str, dict[str, float]]]:
-    """Returns the `REGION_MEASURES` of each region with cells, in each contact.
+    """Returns `REGION_MEASURES` of regions with cells in each contact.
 
     Args:
-        load: The contacts, with pressures.
+        load: With pressures.
         region: Index (k,) into `names` of each cell, -1 for none.
-        names: Names of the regions.
-        durations: Contact times (c,) of the whole foot in s.
+        names: Of the regions.
+        durations: Whole foot's contact times (c,) in s.
     """
     assert load.pressure is not None
     order = np.argsort(region, kind="stable")
@@ -91,9 +91,9 @@ def region_measures(
 
 
 def robot_measures(load: StepLoad, layout: SoleLayout) -> dict[str, float]:
-    """Returns largest wrench components about the sole frame's origin, and margins of the CoP to the support polygon.
+    """Returns largest wrench components about the sole origin, and CoP margins to the support polygon.
 
-    Both are of the loaded cells of a robot's layout in a contact's load, frame by frame.
+    Of the loaded cells of a robot's layout in a contact's load, frame by frame.
     """
     wrench = np.abs(load.force @ layout.wrench_map.T)
     fx, fy, _, tx, ty, tz = wrench.max(axis=0)

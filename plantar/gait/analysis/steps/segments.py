@@ -1,4 +1,4 @@
-"""Parts of a recording with one activity: walking, running, hopping, standing between walks."""
+"""Parts of a recording with one activity."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ _PAUSE = 3.0  # Usual strides without a step that part two segments
 
 @dataclass(frozen=True)
 class Segment:
-    """Steps in a row of one activity.
+    """Consecutive steps of one activity.
 
     Attributes:
         activity: "walking", "running", "hopping" or "standing".
         begin: First heel strike in s.
         end: Last toe off in s.
-        steps: Numbers of its steps of each foot.
+        steps: Numbers of each foot's steps.
     """
 
     activity: str
@@ -53,7 +53,7 @@ class Segment:
 
 
 def without_standing(contacts: Sequence[Contact]) -> list[Contact]:
-    """Contacts, with those marked as standing that are too long for a step among those around them."""
+    """Contacts, with those too long for a step among their neighbours marked as standing."""
     known = [i for i, c in enumerate(contacts) if c.complete]
     lasts = {i: cast(float, contacts[i].toe_off) - cast(float, contacts[i].heel_strike) for i in known}
     out = list(contacts)
@@ -65,7 +65,7 @@ def without_standing(contacts: Sequence[Contact]) -> list[Contact]:
 
 
 def with_activities(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
-    """The feet with the activity of each step: "walking", "running", "hopping", or empty where it is not known."""
+    """Feet with each step's activity: "walking", "running", "hopping", or empty if unknown."""
     hops = _both_at_once(feet)
     rows = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
     raw = ["hopping" if hops else _activity(step) for step in rows]
@@ -115,7 +115,7 @@ def _most(names: Sequence[str]) -> str:
 
 
 def segments_of(feet: Mapping[Side, FootGait]) -> tuple[Segment, ...]:
-    """Segments of feet with activities, in the order of time; standing where a foot stays on the ground too long."""
+    """Segments of feet with activities in time order; standing where a foot stays on the ground too long."""
     rows = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
     strides = [v for s in rows if np.isfinite(v := s["stride_time_s"])]
     pause = _PAUSE * float(np.median(strides)) if strides else np.inf

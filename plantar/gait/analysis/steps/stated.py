@@ -1,4 +1,4 @@
-"""Events that a file states: contacts made of them, and their differences from those found in the force."""
+"""Events that a file states: their contacts, and differences from own events."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _SAME = 0.25  # Longest time in s between a stated event and a found one that ar
 
 
 def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Contact]:
-    """Returns contacts of stated events, each from a heel strike to the toe off before the next one; incomplete at the
+    """Returns contacts of stated events, from each heel strike to the last toe off before the next; incomplete at the
     ends.
 
     Args:
-        time: Times (n,) of the frames in s.
-        events: The events.
+        time: Frame times (n,) in s.
+        events: Events.
     """
     strikes, lifts = events.heel_strikes, events.toe_offs
     ends = np.append(strikes[1:], np.inf)[: len(strikes)]
@@ -45,9 +45,9 @@ def stated_contacts(time: NDArray[np.float64], events: StatedEvents) -> list[Con
 
 
 def stated_beside_own(events: StatedEvents | None, gait: FootGait) -> dict[str, Any] | None:
-    """Returns the stated events of a foot and the times of those in its gait less the stated ones; None without events.
+    """Returns a foot's stated events and the times of those in its gait less the stated ones; None without events.
 
-    Differences are None where no event was found within 0.25 s.
+    Differences are None without an event within 0.25 s.
     """
     if events is None:
         return None
@@ -62,7 +62,7 @@ def stated_beside_own(events: StatedEvents | None, gait: FootGait) -> dict[str, 
 
 
 def _difference(at: float, own: NDArray[np.float64]) -> float | None:
-    """Time in s from a stated event to the nearest found one; None where that is another one."""
+    """Time in s from a stated event to the nearest found one; None where another's."""
     if len(own) == 0:
         return None
     nearest = float(own[np.argmin(np.abs(own - at))]) - at

@@ -1,4 +1,4 @@
-"""Which steps are in the means: those of steady walking; and which of them are odd, which is reported."""
+"""Which steps are in the means, and which are odd."""
 
 from __future__ import annotations
 
@@ -32,11 +32,10 @@ _WORDS = {
 def with_used_steps(
     gait: FootGait, options: AnalysisOptions, kind: str, raw: bool = False, activity: str = ""
 ) -> FootGait:
-    """Returns a foot's gait with each step marked as used or not and why, and as odd, with warnings.
+    """Returns foot's gait with steps marked as used or why not, and as odd, with warnings.
 
-    Odd steps at either end of a walk start and stop it, and are left out unless the options name steps; others stay.
-    Only insoles and robots, by kind, have steps that start a walk; raw forces are counts; activity limits the used
-    steps.
+    Odd steps that start or end a walk are left out unless the options name steps. Only insoles and robots, by kind,
+    have starting steps; raw forces are counts; activity limits the used steps.
     """
     others = [step for step in gait.steps if activity and step.activity not in ("", activity)]
     steps = [step for step in gait.steps if step not in others]
@@ -86,7 +85,7 @@ def _of_other(step: Step) -> Step:
 
 
 def in_one_window(feet: Mapping[Side, FootGait]) -> dict[Side, FootGait]:
-    """The feet without used steps more than a stride outside the other foot's, so that both cover the same time."""
+    """Feet without used steps over a stride outside the other foot's: both cover the same time."""
     used = {side: gait.used for side, gait in feet.items()}
     if len(feet) < 2 or not all(used.values()):
         return dict(feet)
@@ -134,7 +133,7 @@ def _odd(steps: Sequence[Step], raw: bool) -> list[str]:
 
 
 def _ends(odd: Sequence[str]) -> NDArray[np.bool_]:
-    """The odd steps at either end; none where they are more than half of all."""
+    """Odd steps at either end; none if over half of all."""
     bad = np.array([bool(text) for text in odd])
     ends = np.logical_and.accumulate(bad) | np.logical_and.accumulate(bad[::-1])[::-1]
     return ends if ends.sum() <= 0.5 * len(ends) else np.zeros(len(ends), dtype=bool)

@@ -1,4 +1,4 @@
-"""The footprint of a step's lengths, arch index and regions: the foot's own, on a platform the step's."""
+"""Footprint of a step: the foot's own, on a platform the step's."""
 
 from __future__ import annotations
 
@@ -21,9 +21,7 @@ __all__ = ["footprint_of_step", "print_of_contact", "with_picture"]
 
 
 def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> FootGait:
-    """Returns a foot's gait in a recording with its maximum pressure picture by its loads, its footprint and
-    regions.
-    """
+    """Returns foot's gait in a recording with maximum pressure picture by its loads, footprint and regions."""
     layout = gait.foot.layout
     if layout is None:
         return gait
@@ -44,7 +42,7 @@ def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads)
 
 
 def _highest_of_steps(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> NDArray[np.float64]:
-    """Largest force (k,) of each cell in N: the mean over the complete steps, of a platform the largest of all."""
+    """Largest force (k,) of each cell in N: mean over complete steps, of a platform the largest."""
     highest = loads.highest([c for c in gait.contacts if c.complete])
     highest = highest if len(highest) else gait.foot.measured.max(axis=0, initial=0.0)[None]
     return np.asarray(np.max(highest, axis=0) if recording.kind == "platform" else np.mean(highest, axis=0))
@@ -53,7 +51,7 @@ def _highest_of_steps(recording: PressureRecording, gait: FootGait, loads: StepL
 def _with_regions(
     print_: Footprint, loaded: NDArray[np.bool_], of_sole: float | None = None
 ) -> tuple[Footprint, NDArray[np.int64]]:
-    """A footprint with its toe line, and the region of each cell (k,), -1 for those that are not loaded."""
+    """Footprint with its toe line, and region (k,) of each cell, -1 if not loaded."""
     print_ = with_toe_line(print_)
     region = np.full(len(loaded), -1)
     region[loaded] = regions_of(print_, of_sole)
@@ -67,9 +65,9 @@ def footprint_of_step(
     contact: Contact,
     prints: Sequence[PlatformPrint],
 ) -> tuple[Footprint | None, NDArray[np.int64] | None]:
-    """Returns footprint and region (k,) of each cell (-1 for none) of the step of a contact; None without geometry.
+    """Returns footprint and region (k,) of each cell (-1 for none) of a contact's step; None without geometry.
 
-    They are of a foot's gait in a recording, on a platform of the step's own loads and prints.
+    Of a foot's gait in a recording, on platforms of the step's own loads and prints.
     """
     layout = gait.foot.layout
     if recording.kind != "platform" or layout is None:
@@ -84,6 +82,6 @@ def footprint_of_step(
 
 
 def print_of_contact(contact: Contact, side: Side, prints: Sequence[PlatformPrint]) -> PlatformPrint | None:
-    """Returns the footprint of a platform's prints that shares most frames with a contact of a side's foot, or None."""
+    """Returns platform footprint of prints that shares most frames with a side's contact, or None."""
     own = [p for p in prints if p.side == side and p.begin < contact.end and p.end > contact.begin]
     return max(own, key=lambda p: min(p.end, contact.end) - max(p.begin, contact.begin), default=None)

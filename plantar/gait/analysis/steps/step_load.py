@@ -1,4 +1,4 @@
-"""Load of the cells in contacts, and the force above which a cell counts as loaded."""
+"""Load of cells in contacts, and thresholds of loaded cells."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ NOISE_FRAMES = 5000  # Frames of swing from which a cell's noise is judged: enou
 
 @dataclass(frozen=True, eq=False)
 class StepLoad:
-    """Load of the k cells in one contact, or in several, one after the other.
+    """Load of k cells in one contact, or in several in sequence.
 
     Attributes:
         time: Times (m,) in s.
         force: Force (m, k) in N.
-        pressure: Pressure (m, k) in Pa, counts of a raw recording; None where no areas are known.
-        loaded: Which cells (m, k) count as loaded.
+        pressure: (m, k) in Pa, counts of raw recordings; None without areas.
+        loaded: Which cells (m, k) are.
         areas: Areas (k,) in m^2; None without geometry.
         starts: First frame (c,) of each contact.
     """
@@ -46,7 +46,7 @@ class StepLoad:
 
     @cached_property
     def weights(self) -> NDArray[np.float64]:
-        """Seconds (m,) that each frame counts for in an integral over its contact, by trapezoids."""
+        """Seconds (m,) each frame counts for in a contact's integral, by trapezoids."""
         step = np.diff(self.time, append=0.0)
         step[np.append(self.starts[1:], len(self.time)) - 1] = 0.0
         return np.asarray(0.5 * (step + np.append(0.0, step[:-1])))
@@ -62,10 +62,10 @@ class StepLoad:
 
 
 class StepLoads:
-    """Cuts contacts out of a foot's recording: forces of all cells, gaps interpolated.
+    """Cuts contacts out of a foot's recording: cell forces, gaps interpolated.
 
     Args:
-        threshold: Force (k,) in N above which a cell counts as loaded.
+        threshold: Cells count as loaded above this force (k,) in N.
     """
 
     def __init__(self, recording: PressureRecording, foot: FootRecording, threshold: NDArray[np.float64]) -> None:
@@ -73,7 +73,7 @@ class StepLoads:
         self._read = 0
 
     def of(self, *contacts: Contact) -> StepLoad:
-        """Forces and pressures of some contacts, one after the other."""
+        """Forces and pressures of contacts in sequence."""
         for contact in contacts:
             self._count(contact)
         parts = [self._part(c) for c in contacts]
@@ -92,7 +92,7 @@ class StepLoads:
         return force
 
     def blocks(self, contacts: Sequence[Contact]) -> Iterator[list[Contact]]:
-        """Contacts in groups that take little memory together."""
+        """Contacts in groups small enough for memory."""
         most = max(1, _BLOCK // max(1, self.foot.force.shape[1]))
         group: list[Contact] = []
         frames = 0
@@ -106,7 +106,7 @@ class StepLoads:
             yield group
 
     def highest(self, contacts: Sequence[Contact]) -> NDArray[np.float64]:
-        """Largest force (c, k) of each cell in each contact; 0 of a cell that measured nothing."""
+        """Largest force (c, k) of each cell in each contact; 0 if unmeasured."""
         out = [np.zeros((0, self.foot.force.shape[1]))]
         for group in self.blocks(contacts):
             for contact in group:
@@ -124,7 +124,7 @@ class StepLoads:
 
 
 def _filled(time: NDArray[np.float64], force: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Forces with the missing values of each cell interpolated in time; 0 for cells that measured nothing."""
+    """Forces with each cell's missing values interpolated in time; 0 for unmeasured cells."""
     out = force.copy()
     for cell in np.flatnonzero(np.isnan(force).any(axis=0)):
         known = np.isfinite(force[:, cell])
@@ -135,11 +135,10 @@ def _filled(time: NDArray[np.float64], force: NDArray[np.float64]) -> NDArray[np
 def cell_threshold(
     recording: PressureRecording, foot: FootRecording, contacts: Sequence[Contact]
 ) -> NDArray[np.float64]:
-    """Returns the force (k,) in N above which each cell of a foot counts as loaded, by its layout and 3 SD of its
-    noise.
+    """Returns force (k,) in N above which a foot's cells count as loaded, by layout and 3 SD of noise.
 
-    The noise is that between the contacts of the recording; a cell that reads something in most frames of swing, such
-    as one that a shoe presses on, counts above that reading.
+    Noise is that between the recording's contacts; a cell that reads in most swing frames, as under a shoe's pressure,
+    counts above that reading.
     """
     n, k = foot.force.shape
     base = 1e-3 if foot.layout is None else 0.0 if recording.raw else foot.layout.force_threshold

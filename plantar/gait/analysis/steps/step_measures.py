@@ -1,4 +1,4 @@
-"""Measures of one step without the steps around it: force curve, pressure, path of the CoP, wrench, footprint."""
+"""Measures of one step alone: force curve, pressure, CoP, wrench, footprint."""
 
 from __future__ import annotations
 
@@ -27,15 +27,14 @@ def step_measures(
     pressures: Mapping[str, float],
     load: StepLoad | None = None,
 ) -> dict[str, float]:
-    """Returns the known measures by key of one step that do not need other steps.
+    """Returns one step's known measures by key that need no other steps.
 
     Args:
-        recording: The recording.
-        gait: One foot of it.
-        contact: The step, complete.
-        print_: The footprint of lengths and regions; None without geometry.
-        pressures: Measures of its pressures.
-        load: Load of a robot's cells in the step.
+        gait: Foot of `recording`.
+        contact: Complete step.
+        print_: Of lengths and regions; None without geometry.
+        pressures: Pressure measures.
+        load: Of a robot's cells in the step.
     """
     foot, span = gait.foot, slice(contact.begin, contact.end)
     force, time = foot.vertical_force[span], recording.time[span]
@@ -63,7 +62,7 @@ def _cop_measures(
     cop: NDArray[np.float64],
     print_: Footprint | None,
 ) -> dict[str, float]:
-    """Measures of the CoP (m, 2) of one step: its path, and its margins to the edges."""
+    """CoP (m, 2) measures of one step: path, and margins to the edges."""
     kind, layout = recording.kind, gait.foot.layout
     # On a platform the foot's own axis is forward, in a sole the sole's.
     out = cop_measures(time, print_.in_foot(cop) if print_ is not None and kind == "platform" else cop)
@@ -78,7 +77,7 @@ def _cop_measures(
 
 
 def _wrench_measures(recording: PressureRecording, wrench: NDArray[np.float64]) -> dict[str, float]:
-    """Largest magnitudes of a wrench (m, 6); of a force plate, whose origin is not the sole's, without tx and ty."""
+    """Largest magnitudes of a wrench (m, 6); of a force plate, whose origin is elsewhere, without tx and ty."""
     wrench = wrench[np.isfinite(wrench).all(axis=1)]
     if not len(wrench):
         return {}
@@ -109,15 +108,15 @@ _UNKNOWN = dict.fromkeys(
 def force_measures(
     time: NDArray[np.float64], force: NDArray[np.float64], strike: float, lift: float
 ) -> dict[str, float]:
-    """Returns the measures of the force curve of one contact by key; NaN for peaks and valley without two peaks.
+    """Returns force curve measures of one contact by key; NaN for peaks and valley without two peaks.
 
-    The impulse runs from strike to lift; the pieces before the first and after the last frame count as triangles.
+    The impulse runs from strike to lift; pieces beyond the end frames count as triangles.
 
     Args:
-        time: Times (m,) in s of the measured frames in contact, 2 or more.
-        force: Vertical force (m,) in N.
-        strike: Time of the heel strike in s.
-        lift: Time of the toe off in s.
+        time: Measured frames' times (m,) in contact in s, 2 or more.
+        force: Vertical (m,) in N.
+        strike: Heel strike in s.
+        lift: Toe off in s.
 
     Example:
         >>> t = np.linspace(0.0, 1.0, 201)
@@ -154,7 +153,7 @@ def force_measures(
 
 
 def _first_hump(force: NDArray[np.float64], least: float) -> int:
-    """Index of the first hump of at least `least` from which a force falls by a share."""
+    """Index of the first hump of at least `least` from which force falls by a share."""
     width = max(1, 2 * (len(force) // 60) + 1)  # 3 % of the stance: noise makes no hump
     half = width // 2
     padded = np.concatenate([np.full(half, force[0]), force, np.full(half, force[-1])])
@@ -174,7 +173,7 @@ def _first_hump(force: NDArray[np.float64], least: float) -> int:
 
 
 def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> dict[str, float]:
-    """Loading rates up to the first peak: mean slope between 20 and 80 % of the rise's time, and the largest one."""
+    """Loading rates to the first peak: mean slope between 20 and 80 % of the rise's time, and largest."""
     if len(time) < 3 or time[-1] <= strike:
         return {}
     begin, end = strike + 0.2 * (time[-1] - strike), strike + 0.8 * (time[-1] - strike)
@@ -186,9 +185,7 @@ def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: floa
 
 
 def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> float:
-    """Returns the largest vertical force (n,) in N within 50 ms of a heel strike in s, at time (n,) in s; NaN if
-    unknown.
-    """
+    """Returns largest vertical force (n,) in N within 50 ms of a heel strike in s, at time (n,) in s; NaN if unknown."""
     end = strike + IMPACT_WINDOW
     after = int(np.searchsorted(time, end, side="right"))
     window = force[np.searchsorted(time, strike) : after]

@@ -1,4 +1,4 @@
-"""Times of a foot's steps: strides, stance, swing, and the time on both feet."""
+"""Times of steps: strides, stance, swing, double support."""
 
 from __future__ import annotations
 
@@ -21,31 +21,28 @@ _LONGEST_FLIGHT = 0.6
 
 
 def stride_times(contacts: Sequence[Contact]) -> list[float]:
-    """Stride time in s of each complete one of a foot's contacts; NaN where the next heel strike is not the next
-    step's.
+    """Stride time in s of each complete contact; NaN where the next heel strike is not the next step's.
 
-    Strides lead from one complete contact to another, as a cut contact may be standing; without any, to cut ones.
+    Strides join complete contacts, as a cut one may be standing; without any, cut ones.
     """
     raw, limit = _raw_strides(contacts), longest_stride(contacts)
     return [s if s <= limit else np.nan for s in raw]
 
 
 def longest_stride(contacts: Sequence[Contact]) -> float:
-    """Time in s above which a stride between contacts holds a pause or a missing step; inf of fewer than three
-    strides.
-    """
+    """Time in s above which a stride holds a pause or missing step; inf below three strides."""
     known = [s for s in _raw_strides(contacts) if np.isfinite(s)]
     return PAUSE * float(np.median(known)) if len(known) >= 3 else np.inf
 
 
 def _raw_strides(contacts: Sequence[Contact]) -> list[float]:
-    """Time in s from each complete contact to the next, pauses included."""
+    """Time in s between complete contacts, pauses included."""
     raw = _strides(contacts, whole=True)
     return raw if np.isfinite(raw).any() else _strides(contacts, whole=False)
 
 
 def _strides(contacts: Sequence[Contact], whole: bool) -> list[float]:
-    """Time in s from the strike of each complete contact to the next contact's; NaN without, or where that is cut."""
+    """Time in s from each complete contact's strike to the next contact's; NaN without, or if cut."""
     out: list[float] = []
     for contact, after in zip_longest(contacts, contacts[1:]):
         if not contact.complete:
@@ -60,15 +57,14 @@ def _strides(contacts: Sequence[Contact], whole: bool) -> list[float]:
 def time_measures(
     contact: Contact, previous: Contact | None, stride: float, longest: float, others: OtherFoot | None
 ) -> dict[str, float]:
-    """Returns the measures of time of one complete contact; NaN for those of both feet where the other was not
-    measured.
+    """Returns time measures of one complete contact; NaN for those of both feet if the other is unmeasured.
 
     Args:
-        contact: The contact.
-        previous: The contact of the same foot before it.
-        stride: Its stride time in s, or NaN.
-        longest: Time in s between strikes that holds a pause (`longest_stride`).
-        others: The contacts of the other foot, None where it was not recorded.
+        contact: Complete one.
+        previous: Same foot's contact before it.
+        stride: Stride time in s, or NaN.
+        longest: Strike interval in s that holds a pause (`longest_stride`).
+        others: Other foot's contacts, None if not recorded.
     """
     strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
     duration = lift - strike
@@ -94,12 +90,11 @@ def time_measures(
 
 
 class OtherFoot:
-    """The contacts of the other foot, as sorted arrays.
+    """Other foot's contacts, as sorted arrays.
 
     Args:
-        recording: The recording.
-        side: The other foot.
-        contacts: Its contacts, in order.
+        side: Other foot.
+        contacts: In order.
     """
 
     def __init__(self, recording: PressureRecording, side: Side, contacts: Sequence[Contact]) -> None:
@@ -112,16 +107,16 @@ class OtherFoot:
         self._begin, self._end = np.array(begin), np.array(end)
 
     def was_measured(self, begin: float, end: float) -> bool:
-        """Returns whether the foot was measured from begin to end, in s, without a gap too long to bridge."""
+        """Returns whether the foot was measured from begin to end in s, without long gaps."""
         return any(first <= begin and end <= last for first, last in self._measured)
 
     def strikes_between(self, begin: float, end: float) -> NDArray[np.float64]:
-        """Returns the heel strikes (k,) in s after begin and before end, in s."""
+        """Returns heel strikes (k,) in s between begin and end, in s."""
         first, last = np.searchsorted(self.strikes, begin, "right"), np.searchsorted(self.strikes, end, "left")
         return self.strikes[first:last]
 
     def flight(self, lift: float) -> float:
-        """Time in s from `lift` in s to the other foot's heel strike, 0 where it is on the ground; NaN if unknown."""
+        """Time in s from `lift` in s to the other foot's heel strike, 0 on the ground; NaN if unknown."""
         if ((self._begin <= lift) & (self._end > lift)).any():
             return 0.0
         after = self.strikes[self.strikes > lift]
@@ -129,9 +124,7 @@ class OtherFoot:
         return float(after[0]) - lift if follows else float("nan")
 
     def overlap(self, strike: float, lift: float) -> float:
-        """Returns the time in s of a contact from strike to lift in s with the other foot on the ground; NaN if not
-        measured.
-        """
+        """Returns time in s with the other foot on the ground from strike to lift in s; NaN if unmeasured."""
         if not self.was_measured(strike, lift):
             return float("nan")
         first, last = np.searchsorted(self._end, strike, "right"), np.searchsorted(self._begin, lift, "left")

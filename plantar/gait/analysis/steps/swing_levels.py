@@ -1,7 +1,7 @@
-"""The level of each single swing of a walk, for sensors whose offset changes from stride to stride.
+"""Level of each swing, for sensors with offsets that change each stride.
 
 A morphological opening (Serra 1982, Image Analysis and Mathematical Morphology, ch. 2) removes contacts and follows the
-level under them; runs of frames at that level between quick flanks are swings.
+level under them; runs of frames at it between quick flanks are swings.
 """
 
 from __future__ import annotations
@@ -45,14 +45,14 @@ _OUTLIER = 0.25
 
 @dataclass(frozen=True, eq=False)
 class SwingLevels:
-    """The swings of a foot, and the level of its force, in the force's unit.
+    """Swings of a foot and its force level, in the force's unit.
 
     Attributes:
-        places: Frames (m,) at which the level is known, in order.
-        spans: First frame, and the frame after the last one, in swing around each place (m, 2).
-        level: Level (n,) under the contacts, on straight lines between these places.
+        places: Frames (m,) with known level, in order.
+        spans: First frame and frame after the last in swing around each place (m, 2).
+        level: Level (n,) under contacts, linear between places.
         swing: Frames (n,) in swing.
-        span: Range of the force above the level.
+        span: Force range above the level.
     """
 
     places: NDArray[np.float64]
@@ -63,10 +63,10 @@ class SwingLevels:
 
 
 def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
-    """Returns the level of each swing of a walking foot; None for fewer than three swings between contacts.
+    """Returns level of each swing of a walking foot; None below three swings between contacts.
 
     Args:
-        force: Vertical force (n,), NaN where not measured.
+        force: Vertical (n,), NaN if unmeasured.
         rate: Frames a second.
 
     Example:
@@ -106,7 +106,7 @@ def _middle(values: NDArray[np.float64]) -> float:
 
 
 def _measured(found: Sequence[tuple[int, int]], force: NDArray[np.float64], rate: float) -> list[tuple[int, int]]:
-    """The measured parts of swings: elsewhere the course is interpolated, and no swing."""
+    """Measured parts of swings; interpolated parts are no swing."""
     out = []
     for a, b in found:
         known = a + np.flatnonzero(np.isfinite(force[a:b]))
@@ -118,7 +118,7 @@ def _measured(found: Sequence[tuple[int, int]], force: NDArray[np.float64], rate
 def _known_places(
     force: NDArray[np.float64], course: NDArray[np.float64], found: Sequence[tuple[int, int]], span: float
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Places (m,) and spans (m, 2) of the swings: the middles of their halves, and both sides of where offsets jump."""
+    """Places (m,) and spans (m, 2) of swings: middles of their halves, and both sides of offset jumps."""
     rows: list[tuple[float, int, int]] = []
     for a, b in found:
         if rows:
@@ -142,7 +142,7 @@ def _known_places(
 
 
 def _jump(force: NDArray[np.float64], change: float) -> int | None:
-    """The frame after which a force jumps by about `change` from one frame to the next; None where it does not."""
+    """Frame after which force jumps by about `change` in one frame, or None."""
     if len(force) < 6 or not np.isfinite(force).all():
         return None
     steps = np.diff(force)
@@ -153,14 +153,14 @@ def _jump(force: NDArray[np.float64], change: float) -> int | None:
 
 
 def _opened(course: NDArray[np.float64], longest: float, rate: float) -> NDArray[np.float64]:
-    """The level under contacts of up to `longest` s."""
+    """Level under contacts of up to `longest` s."""
     width = max(3, round(longest * rate))
     eroded = _least(np.pad(course, width, mode="edge"), width)
     return -_least(-eroded, width)[1 : len(course) + 1]
 
 
 def _least(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
-    """Least value (n - width + 1,) of each run of `width` values, in a time independent of the width."""
+    """Least value (n - width + 1,) of each run of `width` values, in time independent of width."""
     count = len(values)
     rows = -(-count // width)
     blocks = np.pad(values, (0, rows * width - count), constant_values=np.inf).reshape(rows, width)
@@ -170,7 +170,7 @@ def _least(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
 
 
 def _usual_range(course: NDArray[np.float64], rate: float) -> float:
-    """Median range of the force in stretches of some strides."""
+    """Median force range in stretches of some strides."""
     rows = min(max(1, round(_STRETCH * rate)), len(course))
     parts = course[: len(course) // rows * rows].reshape(-1, rows)
     low, high = np.percentile(parts, (3.0, 92.0), axis=1)
@@ -178,7 +178,7 @@ def _usual_range(course: NDArray[np.float64], rate: float) -> float:
 
 
 def _range(under: NDArray[np.float64]) -> float:
-    """Range of the force of a walk above its level: 90th percentile of what is in contact."""
+    """Walk's force range above its level: 90th percentile in contact."""
     top = float(np.percentile(under, 98.0))
     return float(np.percentile(under[under >= 0.2 * top], 90.0)) if top > 0.0 else 0.0
 
@@ -186,7 +186,7 @@ def _range(under: NDArray[np.float64]) -> float:
 def _swings(
     under: NDArray[np.float64], course: NDArray[np.float64], span: float, rate: float
 ) -> tuple[list[tuple[int, int]], float]:
-    """Frames of each swing without its ends, and their share of the gaps between contacts; none where it is no walk."""
+    """Frames of each swing without its ends, and their share of contact gaps; none without a walk."""
     n, near = len(under), under <= _NEAR * span
     if (~near & (under <= _ABOVE * span)).sum() > _SPARSE * near.sum():
         return [], 0.0
@@ -216,7 +216,7 @@ def _swings(
 
 
 def _level_at_end(course: NDArray[np.float64], a: int, b: int, span: float, least: int) -> tuple[int, int]:
-    """Frames a to b of a swing, at an end of the recording only as far as they are level next to the contact."""
+    """Swing frames a to b, at an end of the recording only those level next to the contact."""
     if a > 0 and b < len(course):
         return a, b
     beside = _middle(course[b - least : b] if a == 0 else course[a : a + least])
@@ -227,7 +227,7 @@ def _level_at_end(course: NDArray[np.float64], a: int, b: int, span: float, leas
 
 
 def _stand_out(levels: NDArray[np.float64], least: float) -> NDArray[np.bool_]:
-    """Which levels (m,) lie far above both of their neighbours (at an end: above the only one)."""
+    """Levels (m,) far above both neighbours (at an end: above the only one)."""
     before = np.concatenate([[np.inf], levels[:-1]])
     after = np.concatenate([levels[1:], [np.inf]])
     beside = np.where(np.isinf(before), after, np.where(np.isinf(after), before, np.maximum(before, after)))
@@ -235,7 +235,7 @@ def _stand_out(levels: NDArray[np.float64], least: float) -> NDArray[np.bool_]:
 
 
 def _quick_ends(contact: NDArray[np.float64], span: float, rate: float) -> tuple[bool, bool]:
-    """Whether a foot that carries half of the range lands, and lifts, at once."""
+    """Whether a foot carrying half the range lands and lifts at once."""
     half = np.flatnonzero(contact > 0.5 * span)
     if not len(half):
         return False, False

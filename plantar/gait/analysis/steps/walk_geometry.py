@@ -1,4 +1,4 @@
-"""Places of steps: their length and width, the stride, and the angle of the foot to the line of walking."""
+"""Places of steps: lengths, widths, strides, and foot angles to the walking line."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class Place:
     """Place of one step.
 
     Attributes:
-        time: Time of its heel strike in s.
-        heel: Position (2,) of the back of the heel on the ground in m.
-        axis: Direction (2,) of the foot, from heel to toes.
-        forward: Direction (2,) of walking, where it is known apart from the steps.
+        time: Heel strike in s.
+        heel: Back of the heel (2,) on the ground in m.
+        axis: Foot direction (2,), heel to toes.
+        forward: Walking direction (2,), if known apart from the steps.
     """
 
     time: float
@@ -34,11 +34,11 @@ class Place:
 
 
 def step_geometry(places: Mapping[Side, Sequence[Place]]) -> dict[Side, list[dict[str, float]]]:
-    """Lengths and angles of each step from the places of each foot's steps, in order, as far as they are known.
+    """Lengths and angles of each step from each foot's places in order, if known.
 
-    The line of walking joins the heels of this foot's footprint before and of this one, else it is the place's
-    direction. Step length is along it from the other foot's last heel, step width that heel's distance from it (Huxham
-    et al. 2006). A stride begins with its step; foot progression is outward positive.
+    The walking line joins the heels of this foot's last footprint and this one, else it is the place's direction. Step
+    length is along it from the other foot's last heel, step width that heel's distance from it (Huxham et al. 2006). A
+    stride begins with its step; foot progression is outward positive.
 
     Example:
         >>> x = np.array([1.0, 0.0])
@@ -76,7 +76,7 @@ def _step(side: Side, place: Place, before: Place | None, others: Sequence[Place
 
 
 def _stride(place: Place, after: Place) -> tuple[dict[str, float], NDArray[np.float64] | None]:
-    """Measures of the stride that begins at a place, and the direction (2,) of walking in it."""
+    """Measures of the stride from a place, and its walking direction (2,)."""
     if after.time - place.time > _LONGEST_STRIDE:
         return {}, after.forward
     stride = after.heel - place.heel

@@ -1,1 +1,1 @@
-"""A study: a folder of recordings, the table of its participants, and differences between conditions."""
+"""Study: a folder of recordings, its participants, and condition differences."""

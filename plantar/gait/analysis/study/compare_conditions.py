@@ -1,4 +1,4 @@
-"""Conditions of a study compared: each participant counts once a condition, as pairs where possible."""
+"""Conditions of a study compared: participants count once a condition, paired if possible."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _FAR = 3.5
 
 
 class Outlier(NamedTuple):
-    """A participant's mean that is far from those of the same condition."""
+    """Participant's mean far from those of the same condition."""
 
     participant: str
     condition: str
@@ -55,19 +55,19 @@ class Outlier(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Conditions A and B of a study; curves, maps and their tests are None where too few participants have them.
+    """Conditions A and B of a study; curves, maps and tests are None with too few participants.
 
     Attributes:
         a: Name of A.
         b: Name of B.
-        paired: Whether the same participants were measured in both.
-        effects: Difference B - A of each measure.
+        paired: Whether the same participants are in both.
+        effects: Difference B - A by measure.
         curve_unit: "N", "counts" or "% of body weight".
-        curves: Mean curves (participants, 101) of vertical force of A and of B.
+        curves: Mean vertical force curves (participants, 101) of A and B.
         curve_test: Where they differ.
-        maps: Mean maps (participants, 36, 14) in Pa of A and of B.
+        maps: Mean maps (participants, 36, 14) in Pa of A and B.
         map_test: Where they differ, among `places`.
-        places: Which places (36, 14) of the map every participant has.
+        places: Map places (36, 14) that every participant has.
         note: Why nothing was compared, or empty.
     """
 
@@ -85,7 +85,7 @@ class Comparison:
 
 
 def compare_conditions(results: Sequence[RecordingResult]) -> list[Comparison]:
-    """Comparisons of every two conditions, in the order in which they first appear; six pairs at the most."""
+    """Comparisons of every two conditions in order of appearance; six pairs at most."""
     names = list(dict.fromkeys(r.who.condition for r in results if r.who.condition and not r.error))
     pairs = list(combinations(names, 2))[:MOST_PAIRS]
     return [_compared(results, a, b) for a, b in pairs]
@@ -121,7 +121,7 @@ def _by_participant(results: Sequence[RecordingResult], condition: str) -> dict[
 
 
 def mean_of(recordings: Sequence[RecordingResult], key: str) -> float:
-    """Returns a participant's mean of a measure's key over recordings and feet; NaN where none has it."""
+    """Returns participant's mean of a measure's key over recordings and feet; NaN without any."""
     values = [foot[key] for r in recordings for foot in r.feet.values() if key in foot]
     return float(np.mean(values)) if values else float("nan")
 
@@ -145,7 +145,7 @@ def _effects(
 def _curves(
     a: Sequence[Sequence[RecordingResult]], b: Sequence[Sequence[RecordingResult]]
 ) -> tuple[str, tuple[NDArray[np.float64], NDArray[np.float64]] | None]:
-    """Mean curves of the participants, in body weights where all are known; raw counts and newtons are not mixed."""
+    """Participants' mean curves, in body weights if all known; raw counts and newtons are not mixed."""
     everyone = [r for own in (*a, *b) for r in own]
     if not all(any(r.curves for r in own) for own in (*a, *b)) or len({r.raw for r in everyone}) > 1:
         return "N", None
@@ -180,7 +180,7 @@ def _chain(n: int) -> list[list[int]]:
 
 
 def grid_neighbours(places: NDArray[np.bool_]) -> list[list[int]]:
-    """Numbers of the neighbours by side of each kept place of a grid, numbered row by row.
+    """Side neighbours' numbers of each kept grid place, numbered row by row.
 
     Example:
         >>> grid_neighbours(np.array([[True, True], [False, True]]))
@@ -195,7 +195,7 @@ def grid_neighbours(places: NDArray[np.bool_]) -> list[list[int]]:
 
 
 def outliers(results: Sequence[RecordingResult]) -> list[Outlier]:
-    """Participants whose mean of a measure is far from that of their condition, farthest first; of five or more."""
+    """Participants with a mean far from their condition's, farthest first; of five or more."""
     found: list[tuple[float, Outlier]] = []
     for condition in dict.fromkeys(r.who.condition for r in results):
         people = _by_participant(results, condition)

@@ -1,4 +1,4 @@
-"""One recording of a study: rows of its steps and feet, mean curves over the stance, and maps of the sole."""
+"""One recording of a study: steps, feet, mean curves and sole maps."""
 
 from __future__ import annotations
 
@@ -59,19 +59,18 @@ class RecordingResult:
     """Result of one recording in a study.
 
     Attributes:
-        who: Its participant.
-        digest: SHA-256 of the file.
+        who: Participant.
+        digest: File's SHA-256.
         key: Digest of file, options and version (`key_of`).
-        format: Name of its format; empty where it could not be read.
-        error: Why it could not be measured, or empty.
-        raw: Whether its values are counts.
-        rows: One row a step: side, step, used, note, heel_strike_s, toe_off_s and every measure; None if unknown.
-        feet: Of each foot the mean of each measure over the used steps, and "steps" of them.
-        curves: Mean vertical force (101,) in N of each foot over the stance.
-        maps: Mean maximum pressure picture `GRID` in Pa of each foot, heel to toes and lateral to medial, NaN off the
-            sole.
+        format: Format's name; empty if unreadable.
+        error: Why not measured, or empty.
+        raw: Whether values are counts.
+        rows: A row a step: side, step, used, note, heel_strike_s, toe_off_s and every measure; None if unknown.
+        feet: Each foot's mean of each measure over the used steps, and "steps" of them.
+        curves: Each foot's mean vertical force (101,) in N over the stance.
+        maps: Each foot's mean maximum pressure `GRID` in Pa, heel to toes and lateral to medial, NaN off the sole.
         warnings: What was assumed.
-        walk: Measures of the walk as a whole.
+        walk: Measures of the whole walk.
     """
 
     who: Participation
@@ -89,7 +88,7 @@ class RecordingResult:
 
 
 def digest_of(path: Path) -> str:
-    """SHA-256 of a file in hexadecimal digits; empty where it cannot be read."""
+    """SHA-256 of a file in hexadecimal; empty if unreadable."""
     found = hashlib.sha256()
     try:
         with open_input(path, FormatError) as stream:
@@ -103,10 +102,9 @@ def digest_of(path: Path) -> str:
 def key_of(
     folder: Path, who: Participation, digest: str, choices: AnalysisOptions, options: ReadOptions | None = None
 ) -> str:
-    """Returns a digest of all that decides a result of a participation who: file digest, choices, options, layouts,
-    version.
+    """Returns digest of what decides a result of participation who: file digest, choices, options, layouts, version.
 
-    Layout files in the study's folder count by their content.
+    Layout files in the study's folder count by content.
     """
     given = options or ReadOptions()
     known = (given.unit, given.rate_hz, given.side, given.insole_size)
@@ -121,14 +119,14 @@ def key_of(
 def measure_recording(
     folder: Path, who: Participation, choices: AnalysisOptions, digest: str, options: ReadOptions | None = None
 ) -> RecordingResult:
-    """Returns the result of one recording in the folder of a study.
+    """Returns result of one recording in a study's folder.
 
     Args:
-        folder: The study's folder.
-        who: The recording and its participant.
-        choices: Which steps are in the means, and which events.
+        folder: Study's folder.
+        who: Recording and participant.
+        choices: Steps in the means, and events.
         digest: SHA-256 of the file.
-        options: What is known of all files; the table overrides it. PlantarError if the recording cannot be read.
+        options: Known of all files; the table overrides. PlantarError if unreadable.
     """
     given = options or ReadOptions()
     known = ReadOptions(
@@ -234,12 +232,12 @@ def _map(analysis: Analysis, gait: FootGait) -> NDArray[np.float64] | None:
 def sampled(
     points: NDArray[np.float64], values: NDArray[np.float64], corners: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Returns a map of cells' values at the places of `GRID`, the nearest cell's or NaN where that is far.
+    """Returns map of cell values at the places of `GRID`: nearest cell's, or NaN if far.
 
     Args:
-        points: Centres (k, 2) of the cells, forward and to the medial side.
+        points: Cell centres (k, 2), forward and medial.
         values: Their values (k,).
-        corners: Points (m, 2) whose extent is the sole's.
+        corners: Points (m, 2) spanning the sole.
     """
     low, extent = corners.min(axis=0), np.ptp(corners, axis=0)
     along = low[0] + (np.arange(GRID[0]) + 0.5) / GRID[0] * extent[0]
@@ -255,7 +253,7 @@ def sampled(
 
 
 def write_result(result: RecordingResult, path: Path) -> None:
-    """Store a result at a path (.npz), so that a stopped study can continue."""
+    """Store a result at a path (.npz) so that a stopped study can continue."""
     plain = {
         **{
             key: getattr(result, key) for key in ("digest", "key", "format", "error", "raw", "rows", "feet", "warnings")
@@ -271,7 +269,7 @@ def write_result(result: RecordingResult, path: Path) -> None:
 
 
 def read_result(path: Path, key: str) -> RecordingResult | None:
-    """Returns the stored result at a path; None where there is none, it is damaged, or of another key."""
+    """Returns stored result at a path; None if missing, damaged, or of another key."""
     try:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as held:
             plain = json.loads(str(held["text"]))

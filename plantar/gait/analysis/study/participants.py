@@ -1,4 +1,4 @@
-"""The table of a study: participant and condition of each file, and their properties."""
+"""Table of a study: each file's participant, condition and properties."""
 
 from __future__ import annotations
 
@@ -33,17 +33,17 @@ _NAMES = {
 
 @dataclass(frozen=True)
 class Participation:
-    """One recording of a study; optional values are None where no table states them.
+    """One recording of a study; None where no table states a value.
 
     Attributes:
-        file: Path of the recording relative to the study's folder.
-        participant: Name; the file's name without suffix where no table states it.
+        file: Path relative to the study's folder.
+        participant: Name; the file's stem where no table states it.
         condition: Name of the condition, or empty.
-        mass_kg: Mass of the body in kg.
-        foot_length_m: Length of the foot in m.
-        side: "left" or "right" for a file of one foot that does not name it.
-        insole_size: Size of a pedar insole.
-        unit: Unit of the values.
+        mass_kg: Body mass in kg.
+        foot_length_m: In m.
+        side: "left" or "right" for a one-foot file that does not name it.
+        insole_size: Of a pedar insole.
+        unit: Of the values.
         rate_hz: Frames a second.
         layout: Layout file relative to the study's folder.
         more: Other columns.
@@ -65,17 +65,17 @@ class Participation:
 
 
 def read_participants(path: str | os.PathLike[str]) -> list[Participation]:
-    """Read the table of a study: a CSV or TSV file with a row of names and a row a recording.
+    """Read a study's table: CSV or TSV, a row of names and a row a recording.
 
-    Columns are file, participant and condition, and optionally mass_kg, foot_length_m (or _mm, _cm), side, insole_size,
-    unit, rate_hz and layout; others are carried through.
+    Columns file, participant and condition; optionally mass_kg, foot_length_m (or _mm, _cm), side, insole_size, unit,
+    rate_hz and layout; others are carried through.
 
     Args:
-        path: The table.
+        path: Table.
 
     Raises:
-        FormatError: If it has no rows, lacks a column, or names a file twice.
-        InputError: If a value is not possible.
+        FormatError: Without rows, columns, unique files.
+        InputError: If a value is impossible.
     """
     table = read_text_table(path, FormatError)
     names = table.names

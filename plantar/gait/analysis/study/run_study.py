@@ -1,4 +1,4 @@
-"""A study from a folder of recordings to its tables and its page."""
+"""Study from a folder of recordings to tables and page."""
 
 from __future__ import annotations
 
@@ -43,13 +43,13 @@ _SKIPPED_FORMATS = ("image",)
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """A measured study.
+    """Measured study.
 
     Attributes:
-        results: One a recording; `error` has the reason of those that could not be measured.
+        results: One a recording; `error` has the reason of unmeasured ones.
         comparisons: Every two conditions.
-        choices: Which steps are in the means, and which events.
-        files: The files that were written.
+        choices: Steps in the means, and events.
+        files: Written files.
     """
 
     results: Sequence[RecordingResult]
@@ -59,15 +59,15 @@ class Study:
 
     @cached_property
     def steps(self) -> dict[str, NDArray[Any]]:
-        """The steps of all recordings as columns; NaN for what is not known."""
+        """Steps of all recordings as columns; NaN if unknown."""
         return _columns(_step_rows(self))
 
     def to_pandas(self) -> Any:
-        """The steps as a `pandas.DataFrame`; InputError if pandas is not installed."""
+        """Steps as `pandas.DataFrame`; InputError without pandas."""
         return as_data_frame(self.steps)
 
     def report(self, path: str | os.PathLike[str] | None = None) -> str:
-        """The study's page as one HTML text, also written to a file at `path` if given."""
+        """Study's page as one HTML text, also written to `path` if given."""
         with tempfile.TemporaryDirectory() as folder:
             figures = write_figures(study_figures(self.comparisons), Path(folder))
             page = study_page(self.summary(), self.results, self.comparisons, figures, "study")
@@ -76,15 +76,15 @@ class Study:
         return page
 
     def recordings(self) -> dict[str, NDArray[Any]]:
-        """The feet of every recording as columns; a recording that could not be measured is one row with its error."""
+        """Every recording's feet as columns; an unmeasured recording is one row with its error."""
         return _columns(_recording_rows(self))
 
     def effects(self) -> dict[str, NDArray[Any]]:
-        """The compared measures as columns: conditions, difference, effect size, their intervals and probabilities."""
+        """Compared measures as columns: conditions, difference, effect size, intervals and probabilities."""
         return _columns(_effect_rows(self))
 
     def summary(self) -> dict[str, Any]:
-        """The study as the plain values of study.json."""
+        """Study as plain values of study.json."""
         return {
             "recordings": len(self.results),
             "measured": sum(not r.error for r in self.results),
@@ -108,24 +108,24 @@ def run_study(
     choices: AnalysisOptions | None = None,
     options: ReadOptions | None = None,
 ) -> Study:
-    """Measure every recording of a folder; write steps.csv, recordings.csv, comparison.csv, study.json and study.html.
+    """Measure a folder's recordings; write steps.csv, recordings.csv, comparison.csv, study.json and study.html.
 
-    Results of the same options and version are reused. A recording that cannot be read is a row with the reason.
+    Results of equal options and version are reused. Unreadable recordings are rows with the reason.
 
     Args:
-        folder: The folder of recordings, with its subfolders.
+        folder: With its subfolders.
         out: Output folder, made if needed.
-        participants: Table of participants and conditions, see `read_participants`; nothing is compared without it.
-        progress: Called with a fraction 0..1 and what is being done.
-        choices: Which steps are in the means, and which events.
-        options: What is known of all files; the table overrides it.
+        participants: Table of `read_participants`; nothing is compared without it.
+        progress: Called with a fraction 0..1 and the current work.
+        choices: Steps in the means, and events.
+        options: Known of all files; the table overrides.
 
     Returns:
         The study.
 
     Raises:
-        InputError: If the folder holds no recording, a value in the table is not possible, or the events are a file's.
-        FormatError: If the table cannot be read.
+        InputError: For no recordings, impossible values.
+        FormatError: If the table is unreadable.
     """
     report = progress or (lambda fraction, text: None)
     root, target, chosen = Path(folder), Path(out), choices or AnalysisOptions()
@@ -150,14 +150,14 @@ def run_study(
 
 
 def _as_named(root: Path, who: Participation) -> Participation:
-    """A participation whose file's name has the blanks around it that the file has, and no others."""
+    """Participation whose file name has exactly the file's surrounding blanks."""
     return who if (root / who.file).is_file() else replace(who, file=who.file.strip())
 
 
 def _others(
     root: Path, target: Path, participants: str | os.PathLike[str] | None, listed: set[str]
 ) -> list[Participation]:
-    """Files that the table does not name and whose names end as recordings' do."""
+    """Files missing in the table with recordings' suffixes."""
     endings = tuple(s for f in formats().values() if f.name not in _SKIPPED_FORMATS for s in f.suffixes)
     apart = {target.resolve()} if target.exists() else set()
     table = Path(participants).resolve() if participants is not None else None
@@ -236,7 +236,7 @@ def _effect_rows(study: Study) -> list[dict[str, Any]]:
 
 
 def _names(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Columns of all rows in order, those of the provenance last."""
+    """Columns of all rows in order, provenance last."""
     names: dict[str, None] = {}
     for row in rows:
         if not names.keys() >= row.keys():

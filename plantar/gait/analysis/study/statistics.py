@@ -1,8 +1,7 @@
-"""Two conditions compared: effect sizes with confidence intervals, and permutation tests corrected for multiple values.
+"""Two conditions compared: effect sizes and permutation tests corrected for multiple values.
 
-The largest |t|, and the largest cluster of neighbouring values beyond a threshold, are compared with those of permuted
-labels, of pairs with permuted signs (Nichols & Holmes 2002, Hum. Brain Mapp. 15:1; Maris & Oostenveld 2007, J.
-Neurosci. Methods 164:177).
+The largest |t|, and largest cluster beyond a threshold, are compared with those of permuted labels, of pairs with
+permuted signs (Nichols & Holmes 2002, Hum. Brain Mapp. 15:1; Maris & Oostenveld 2007, J. Neurosci. Methods 164:177).
 """
 
 from __future__ import annotations
@@ -30,19 +29,19 @@ class Effect:
     """Difference of a measure between conditions A and B.
 
     Attributes:
-        paired: Whether the same participants were measured in both.
-        n_a: Participants in A; of pairs the number of pairs.
+        paired: Whether the same participants are in both.
+        n_a: Participants in A; or pairs.
         n_b: Participants in B.
         mean_a: Mean in A.
         mean_b: Mean in B.
         difference: B less A.
-        low: Lower end of the difference's 95 % confidence interval.
-        high: Its upper end.
+        low: Lower end of its 95 % confidence interval.
+        high: Upper end.
         effect_size: Hedges' g; NaN without spread.
         effect_low: Lower end of its 95 % confidence interval.
-        effect_high: Its upper end.
-        p: Probability of such a |t| by chance, by permutation.
-        p_all: The same of the largest |t| of all measures.
+        effect_high: Upper end.
+        p: Probability of such |t| by chance, by permutation.
+        p_all: Same of the largest |t| of all.
     """
 
     paired: bool
@@ -65,13 +64,13 @@ class PermutationTest:
     """Where (samples, values) of two conditions differ.
 
     Attributes:
-        t: t statistic (k,) of each value, B less A; 0 where nothing varies.
-        p: Probability (k,) of each |t| by chance, looked at alone.
-        p_all: The same (k,) of the largest |t| of all values.
-        threshold: |t| that the largest of all exceeds in 5 % of the permutations.
-        clusters: Number (k,) of the cluster of each value, from 1 on; 0 for none.
-        cluster_p: Probability of each cluster's mass by chance of the largest one.
-        permutations: Their number, the observed labels among them.
+        t: t statistic (k,), B less A; 0 where nothing varies.
+        p: Probability (k,) of each |t| by chance, alone.
+        p_all: Same (k,) of the largest |t| of all.
+        threshold: |t| that the largest exceeds in 5 % of permutations.
+        clusters: Cluster number (k,) of each value, from 1; 0 for none.
+        cluster_p: Probability of each mass by chance of the largest.
+        permutations: Number, observed labels included.
     """
 
     t: NDArray[np.float64]
@@ -84,21 +83,18 @@ class PermutationTest:
 
     @property
     def significant(self) -> NDArray[np.bool_]:
-        """Which values (k,) are in a cluster with p at most 0.05."""
+        """Values (k,) in a cluster with p at most 0.05."""
         kept = [number for number, p in enumerate(self.cluster_p, 1) if p <= 0.05]
         return np.isin(self.clusters, kept)
 
 
 @lru_cache(maxsize=256)
 def student_quantile(probability: float, freedom: float) -> float:
-    """Quantile of Student's t above the median, to about 1e-6 of it, from its incomplete integral.
+    """Returns Student's t quantile above the median, to about 1e-6 of it, from its incomplete integral.
 
     Args:
         probability: 0.5 or more, below 1.
         freedom: Degrees of freedom, 1 or more.
-
-    Returns:
-        The quantile.
 
     Example:
         >>> round(student_quantile(0.975, 9.0), 4), round(student_quantile(0.975, 1e6), 3)
@@ -128,18 +124,18 @@ def student_quantile(probability: float, freedom: float) -> float:
 
 
 def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: float, p_all: float) -> Effect:
-    """Returns the effect of one measure.
+    """Returns effect of one measure.
 
-    The interval of the difference is Student's (Welch's of independent samples), that of the effect size normal with
-    the variance of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5; of pairs with that of their
-    changes next to the pooled one.
+    The difference's interval is Student's (Welch's of independent samples), the effect size's normal with the variance
+    of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5; of pairs with that of their changes next to
+    the pooled one.
 
     Args:
         a: Values (n,) in A, two or more.
         b: Values (m,) in B; of pairs in the same order.
         paired: Whether they are pairs.
-        p: Its probability in a permutation test of it alone.
-        p_all: That among all measures.
+        p: In a permutation test alone.
+        p_all: Among all measures.
 
     Example:
         >>> effect = effect_of(np.array([1.0, 2.0, 3.0]), np.array([2.0, 3.0, 4.0]), False, 0.4, 0.4)
@@ -199,8 +195,8 @@ def permutation_test(
         a: Samples (n, k) of A, two or more.
         b: Samples (m, k) of B; of pairs in the same order.
         paired: Whether they are pairs.
-        neighbours: Neighbours of each value, which clusters are made of; each value is one by itself where None.
-        permutations: Permutations that are drawn where there are more.
+        neighbours: Of each value, for clusters; each value is one by itself where None.
+        permutations: Number drawn where there are more.
 
     Example:
         >>> random = np.random.default_rng(0)
@@ -238,7 +234,7 @@ def _first(n: int, total: int) -> NDArray[np.float64]:
 
 
 def _permuted(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, most: int) -> Iterator[NDArray[np.float64]]:
-    """t statistics (k,) of every permutation, or of the observed labels and of some that are drawn."""
+    """t statistics (k,) of every permutation, or of the observed labels and drawn ones."""
     random = np.random.default_rng(_SEED)
     if paired:
         change = b - a
@@ -264,14 +260,14 @@ def _permuted(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, most
 
 
 def _paired_t(change: NDArray[np.float64]) -> NDArray[np.float64]:
-    """t (k,) of differences (n, k); 0 where they do not vary about 0."""
+    """t (k,) of differences (n, k); 0 where they do not vary."""
     n = len(change)
     mean, sd = change.mean(axis=0), change.std(axis=0, ddof=1)
     return _ratio(mean, sd / math.sqrt(n))
 
 
 def _independent_t(both: NDArray[np.float64], first: NDArray[np.float64]) -> NDArray[np.float64]:
-    """t (k,) with pooled variance of the samples (n + m, k) that are not first less those that are."""
+    """Pooled-variance t (k,) of samples (n + m, k), not first less first."""
     n, m = first.sum(), len(first) - first.sum()
     mean_a, mean_b = first @ both / n, (1.0 - first) @ both / m
     rest = ((both - np.where(first[:, None] > 0.5, mean_a, mean_b)) ** 2).sum(axis=0)
@@ -279,7 +275,7 @@ def _independent_t(both: NDArray[np.float64], first: NDArray[np.float64]) -> NDA
 
 
 def _ratio(mean: NDArray[np.float64], error: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A mean over its error; without error, 0 for no difference and a very large t for one."""
+    """Mean over its error; without error, 0 or very large t."""
     least = 1e-12 * np.maximum(np.abs(mean), 1e-300)
     return np.asarray(np.where(mean == 0.0, 0.0, mean / np.maximum(error, least)))
 
@@ -287,7 +283,7 @@ def _ratio(mean: NDArray[np.float64], error: NDArray[np.float64]) -> NDArray[np.
 def _clusters(
     t: NDArray[np.float64], beyond: float, neighbours: Sequence[Sequence[int]] | None
 ) -> tuple[NDArray[np.int64], list[float]]:
-    """Cluster (k,) of each value beyond a threshold, of one sign, and the mass of each: the sum of its |t|."""
+    """Cluster (k,) of each value beyond a threshold, of one sign, and each cluster's sum of |t|."""
     label = np.zeros(len(t), dtype=np.int64)
     masses: list[float] = []
     if neighbours is None:

@@ -1,4 +1,4 @@
-"""The page of a study and its figures: recordings, differences between conditions, and outliers."""
+"""Page of a study and its figures."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ def study_page(
     figures: Sequence[tuple[Path, str]],
     name: str,
 ) -> str:
-    """The page as text.
+    """Page as text.
 
     Args:
-        summary: Result of `Study.summary`.
-        results: The recordings.
+        summary: Of `Study.summary`.
+        results: Recordings.
         comparisons: Every two conditions.
         figures: PNG files to embed, with captions.
-        name: Name of the study.
+        name: Of the study.
 
     Returns:
-        HTML that refers to no other file and no network.
+        HTML without other files or network.
     """
     sections = [Section("summary", "Summary", _summary(summary, comparisons))]
     for i, one in enumerate(comparisons, 1):
@@ -198,7 +198,7 @@ _A, _B, _FOUND = COLOURS["left"], COLOURS["right"], "#f2c14e"
 
 
 def study_figures(comparisons: Sequence[Comparison]) -> list[tuple[str, Any, str]]:
-    """Name, figure (None for nothing to draw) and caption of each figure of the comparisons."""
+    """Name, figure (None if empty) and caption of the comparisons' figures."""
     out: list[tuple[str, Any, str]] = []
     for count, one in enumerate(comparisons, 1):
         end = "" if len(comparisons) == 1 else f"-{count}"
